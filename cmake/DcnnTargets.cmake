@@ -1,0 +1,26 @@
+# How every target of this project is compiled.
+function(dcnn_compile_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow)
+  if(DCNN_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  target_precompile_headers(${target} PRIVATE
+    <Eigen/Dense> <nlohmann/json.hpp> <algorithm> <functional> <memory> <string> <vector>)
+endfunction()
+
+# The library, in float (dcnn) or double (dcnn_double, for gradient tests).
+function(dcnn_add_library target)
+  add_library(${target} STATIC ${ARGN})
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(${target} PUBLIC Eigen3::Eigen nlohmann_json::nlohmann_json
+    PRIVATE OpenMP::OpenMP_CXX hwy::hwy Sodium::sodium)
+  # Fixed alignment: a consumer compiled with -march=native must agree with us about Eigen's memory.
+  # Threads are ours alone, in fixed pieces: Eigen's own would make results depend on their number.
+  target_compile_definitions(${target} PUBLIC EIGEN_MAX_ALIGN_BYTES=16 EIGEN_DONT_PARALLELIZE
+    PRIVATE DCNN_VERSION="${PROJECT_VERSION}"
+            "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3_DL)")
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  dcnn_compile_options(${target})
+endfunction()

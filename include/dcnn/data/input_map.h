@@ -1,0 +1,44 @@
+// Eq. 7: every feature x becomes one row [x, x - mean, (x - mean)/sd, |x|, x^2].
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "dcnn/core/json.h"
+#include "dcnn/core/options.h"
+#include "dcnn/core/parallel.h"
+
+namespace dcnn {
+
+class InputMap {
+ public:
+  static constexpr Index kColumns = 5;
+  struct Spec {
+    bool variance = false;    ///< divide by the variance, as the paper says, not the standard deviation
+    bool zerocenter = true;   ///< subtract the per-cell mean over the training part
+  };
+
+  InputMap() = default;
+  /// Statistics of the training features (T, F), N - 1 in the denominator; sd below 1e-12 counts as 1.
+  InputMap(const Eigen::MatrixXd& training, Spec spec);
+
+  Index features() const { return mean_.size(); }
+  const Eigen::VectorXd& mean() const { return mean_; }
+  const Eigen::VectorXd& deviation() const { return deviation_; }  ///< standard deviation
+  /// Mean square of each training feature (noise.power meansquare).
+  const Eigen::VectorXd& mean_square() const { return mean_square_; }
+
+  /// Writes the (F, 5) map of one feature vector, row-major, zero-centred where asked for.
+  /// `Out` is float or double.
+  template <class Out>
+  void write(const double* x, Out* map) const;
+
+  Json to_json() const;
+  static InputMap parse(const Json& json, const std::string& where, Exit exit);
+
+ private:
+  Eigen::VectorXd mean_, deviation_, mean_square_, inverse_scale_;
+  Eigen::VectorXd centre_;  // (F·5), zeros without zerocenter
+  Spec spec_;
+};
+
+}  // namespace dcnn

@@ -1,0 +1,67 @@
+// A recording: named columns on one clock. A simulated and a measured one are the same type.
+#pragma once
+
+#include <Eigen/Dense>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dcnn/core/parallel.h"
+#include "dcnn/data/csv.h"
+#include "dcnn/data/system.h"
+
+namespace dcnn {
+
+/// Rows [begin, end) without a gap in time: no derivative, window or noise crosses its ends.
+struct Segment {
+  Index begin = 0, end = 0;
+  Index size() const { return end - begin; }
+};
+
+/// How a file is turned into SI units on a regular clock (contract.md section 2).
+struct ReadOptions {
+  double position_unit = 1.0;  ///< metres per unit in the file (0.001: millimetres)
+  double angle_unit = 1.0;     ///< radians per unit in the file (pi/180: degrees)
+  double force_sign = 1.0;     ///< -1 where the log holds the reaction
+  bool resample = false;       ///< put an irregular clock on a regular one
+  double resample_hz = 0.0;    ///< 0: the recording's own median rate
+  bool static_list = false;    ///< accept a list of poses without time
+};
+
+struct Recording {
+  std::string name;  ///< the file's name without its folder
+  Table table;       ///< SI units; column t starts at the file's own clock minus clock_origin
+  double dt = 0.0;   ///< s, median step; 0 for a static list
+  double clock_origin = 0.0;       ///< s, subtracted from t where the smallest t exceeds 1e6 s
+  std::vector<Segment> segments;   ///< in order, covering every row
+  std::vector<std::string> notes;  ///< conversions, resampling, gaps: for every report
+
+  Index samples() const { return table.values.rows(); }
+  bool has(const std::string& column) const;
+  /// All of the named columns are there.
+  bool has_all(const std::vector<std::string>& columns) const;
+  /// (T); an Error(kData) that names the file where the column is missing.
+  Eigen::VectorXd column(const std::string& name) const;
+  /// (T, columns.size()).
+  Eigen::MatrixXd block(const std::vector<std::string>& columns) const;
+  /// Adds a column or replaces it.
+  void set(const std::string& name, const Eigen::VectorXd& values);
+};
+
+/// Reads, checks and converts one recording. `system` names the columns that must be there: for `wrist`
+/// time, an orientation and a force; for `axes` those of the description. All faults are Error(kData).
+Recording read_recording(const std::filesystem::path& path, const ReadOptions& options,
+                         const System& system);
+
+/// The measured quantities to predict: for `wrist` fx,fy,fz and tx,ty,tz where present.
+struct Targets {
+  std::vector<std::string> names, units;
+};
+Targets find_targets(const Recording& recording, const System& system);
+
+/// (T, targets): measured values times the axis' scale, zero-phase low-passed where the system says so
+/// (`filtered` false leaves that out).
+Eigen::MatrixXd measured(const Recording& recording, const Targets& targets, const System& system,
+                         bool filtered = true);
+
+}  // namespace dcnn

@@ -1,0 +1,40 @@
+// A network is a list of layers, so it is data.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dcnn/nn/layer.h"
+
+namespace dcnn {
+
+/// Layers in sequence, built from JSON: [{"kind": "conv2d", "filters": 8, "window": [2, 2]}, …].
+/// Every layer learns its input shape by passing one zero sample through those before it.
+class Network {
+ public:
+  /// `input` is the shape of one sample (H, W, C). Unknown kinds and keys are Error(kUsage).
+  Network(const Json& layers, const Shape& input, Rng& rng);
+
+  /// x is (N, input…); the result (N, outputs).
+  Tensor forward(const Tensor& x, Pass& pass) const;
+
+  /// Everything a model file holds, named "<index>.<kind>.<tensor>", in layer order.
+  const std::vector<NamedTensor>& state() const { return state_; }
+  /// Number of learnable parameters (statistics do not count).
+  Index parameter_count() const;
+
+  const Json& layers() const { return layers_; }
+  const Shape& input() const { return input_; }
+
+  /// The same function at inference with every batch norm folded into the convolution or the fully
+  /// connected layer before it (y = (Wx + b - mean)·gamma/sqrt(var + eps) + beta).
+  Network folded() const;
+
+ private:
+  Json layers_;
+  Shape input_;
+  std::vector<LayerPtr> stack_;
+  std::vector<NamedTensor> state_;
+};
+
+}  // namespace dcnn
