@@ -1,0 +1,71 @@
+// RMSE of trained identifiers over levels of input noise (spec 5.1).
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dcnn/core/json.h"
+#include "dcnn/experiment/metrics.h"
+#include "dcnn/models/identifier.h"
+
+namespace dcnn {
+
+struct EvaluationRequest {
+  std::vector<std::filesystem::path> models, data;
+  std::vector<SnrLevel> levels{std::nullopt, 40.0, 30.0, 20.0, 10.0};
+  int runs = 20;                ///< noise draws per level; a clean level has one
+  std::uint64_t seed = 1;
+  bool matlab_noise = false;    ///< awgn(X, snr, 'measured'): one power over the whole matrix, with its mean
+  ReadOptions read;
+};
+
+/// One model scored once.
+struct EvaluationRow {
+  std::string model, file;
+  SnrLevel snr_db;
+  int run = 0;
+  Score score;
+};
+
+/// All runs of one model at one level.
+struct EvaluationSummary {
+  std::string model, file;
+  SnrLevel snr_db;
+  int runs = 0;
+  std::vector<Spread> rmse;
+  std::optional<Spread> overall, overall_torque;
+  Score first;  ///< of run 0: largest error, R^2
+};
+
+/// What a model said on the first recording without noise: for figures.
+struct Trace {
+  std::string model;
+  Eigen::VectorXd t;
+  Eigen::MatrixXd measured, predicted;
+};
+
+struct Evaluation {
+  std::vector<std::string> data, notes;
+  Index samples = 0, singular_samples = 0;  ///< rows scored, and those of them near the Euler singularity
+  Targets targets;
+  std::vector<EvaluationRow> rows;
+  std::vector<EvaluationSummary> summary;
+  Score unidentified;                       ///< of the prediction zero (NS)
+  std::vector<EvaluationRow> unfiltered;    ///< against the raw targets where the system low-passes them
+  std::vector<Trace> traces;
+};
+
+/// The noise of (level, run) is the same for all models with the same features.
+Evaluation evaluate(const EvaluationRequest& request,
+                    const std::function<void(int done, int total)>& progress);
+
+/// The document of contract.md section 5, and the same as a table for people.
+Json to_json(const Evaluation& evaluation);
+std::string to_text(const Evaluation& evaluation);
+
+/// Figures and tables as one HTML page; `settings` lists everything the numbers depend on.
+std::string to_html(const Evaluation& evaluation, const EvaluationRequest& request);
+
+}  // namespace dcnn

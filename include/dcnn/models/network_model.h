@@ -1,0 +1,60 @@
+// A convolutional or dense network on the map of Eq. 7, trained with Adam.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "dcnn/models/model.h"
+#include "dcnn/nn/network.h"
+
+namespace dcnn {
+
+/// Targets as the network sees them: (y - mean)/deviation, or raw (0 and 1).
+struct TargetScale {
+  Eigen::VectorXd mean, deviation;
+};
+
+/// How a network is trained (contract.md section 4, `training`).
+struct TrainingSpec {
+  Index epochs = 30, batch = 50;
+  double l2 = 1e-4;
+  bool standardise_targets = true;
+  bool shuffle_every_epoch = true;
+  bool full_statistics = true;  ///< batch norm: pass over the training set, else running averages
+  double ema = 0.0;             ///< decay of the weight average, 0 for none
+  bool keep_best = true;        ///< the epoch with the least validation RMSE, else the last one
+  Json rate;                    ///< lr, schedule, drop_factor, drop_period
+
+  static TrainingSpec parse(Options options);
+};
+
+class NetworkModel : public Model {
+ public:
+  /// `layers` as in Network; the input is the (features, 5, 1) map.
+  NetworkModel(std::string kind, const Json& layers, const Problem& problem);
+  NetworkModel(const Container& file, const std::string& where);
+  ~NetworkModel() override;
+
+  bool fit(const Samples& training, const Samples& validation, FitSession& session) override;
+  Eigen::MatrixXd predict(const Eigen::MatrixXd& x) const override;
+  Index parameter_count() const override;
+  const InputMap& map() const override { return map_; }
+  void save(Container& file) const override;
+
+ private:
+  friend class Trainer;
+  /// Rebuilds the network that predicts, after the weights changed.
+  void refold();
+
+  std::string kind_;
+  std::unique_ptr<Network> network_, folded_;
+  InputMap::Spec map_spec_;
+  InputMap map_;
+  TargetScale scale_;
+  Eigen::VectorXd spread_;  // of each training target
+  TrainingSpec training_;
+  NoiseSpec noise_;
+  std::uint64_t seed_ = 0;
+};
+
+}  // namespace dcnn

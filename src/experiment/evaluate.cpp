@@ -1,0 +1,150 @@
+#include "dcnn/experiment/evaluate.h"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <utility>
+
+namespace dcnn {
+namespace {
+
+/// Rows of all recordings under one another, as one model sees them.
+struct TestSet {
+  Eigen::MatrixXd x, wanted, unfiltered, base;  // base: the part a simulator predicts
+  Index singular = 0, first_rows = 0;           // first_rows: those of the first recording
+  Eigen::VectorXd first_t;
+};
+
+void stack(Eigen::MatrixXd& under, const Eigen::MatrixXd& more) {
+  const auto old = under.rows();
+  under.conservativeResize(old + more.rows(), more.cols());
+  under.bottomRows(more.rows()) = more;
+}
+
+TestSet make_test_set(const Identifier& identifier, const std::vector<Recording>& recordings) {
+  TestSet set;
+  for (const Recording& recording : recordings) {
+    const Features features = make_features(recording, identifier.layout);
+    set.singular += features.invalid_count();
+    stack(set.x, features.x);
+    const System& system = identifier.layout.system;
+    stack(set.wanted, measured(recording, identifier.targets, system));
+    stack(set.unfiltered, measured(recording, identifier.targets, system, false));
+    stack(set.base, identifier.base_prediction(recording));
+  }
+  set.first_rows = recordings.front().samples();
+  set.first_t = recordings.front().has("t")
+                    ? recordings.front().column("t")
+                    : Eigen::VectorXd::LinSpaced(set.first_rows, 0, double(set.first_rows - 1));
+  return set;
+}
+
+/// Reads each file once per system description.
+class RecordingCache {
+ public:
+  RecordingCache(const EvaluationRequest& request, Evaluation& evaluation)
+      : request_(request), evaluation_(evaluation) {}
+
+  const std::vector<Recording>& get(const System& system) {
+    auto [entry, is_new] = cache_.try_emplace(system.json.dump());
+    if (is_new) {
+      for (const auto& path : request_.data) {
+        entry->second.push_back(read_recording(path, request_.read, system));
+        for (const auto& note : entry->second.back().notes) {
+          evaluation_.notes.push_back(entry->second.back().name + ": " + note);
+        }
+      }
+    }
+    return entry->second;
+  }
+
+ private:
+  const EvaluationRequest& request_;
+  Evaluation& evaluation_;
+  std::map<std::string, std::vector<Recording>> cache_;
+};
+
+std::uint64_t noise_key(std::uint64_t seed, double level, int run) {
+  return Rng({seed, std::bit_cast<std::uint64_t>(level), static_cast<std::uint64_t>(run)}).bits();
+}
+
+NoiseSpec test_noise(const EvaluationRequest& request) {
+  NoiseSpec spec;
+  if (request.matlab_noise) {
+    spec.scope = NoiseSpec::Scope::kMatrix;
+    spec.power = NoiseSpec::Power::kMeanSquare;
+  }
+  return spec;
+}
+
+EvaluationSummary summarise(const std::vector<EvaluationRow>& rows) {
+  EvaluationSummary s{rows[0].model, rows[0].file, rows[0].snr_db, static_cast<int>(rows.size()),
+                      {},            {},           {},             rows[0].score};
+  const auto over = [&](auto value) {
+    std::vector<double> values;
+    for (const auto& row : rows) values.push_back(value(row.score));
+    return spread(values);
+  };
+  for (std::size_t j = 0; j < rows[0].score.rmse.size(); ++j) {
+    s.rmse.push_back(over([j](const Score& score) { return score.rmse[j]; }));
+  }
+  if (s.first.overall) s.overall = over([](const Score& score) { return *score.overall; });
+  if (s.first.overall_torque) {
+    s.overall_torque = over([](const Score& score) { return *score.overall_torque; });
+  }
+  return s;
+}
+
+void check_targets(const Evaluation& evaluation, const Identifier& identifier, const std::string& file) {
+  require(evaluation.targets.names.empty() || evaluation.targets.names == identifier.targets.names,
+          Exit::kUsage, file, ": predicts other targets than the first model; evaluate them apart");
+}
+
+}  // namespace
+
+Evaluation evaluate(const EvaluationRequest& request,
+                    const std::function<void(int, int)>& progress) {
+  Evaluation evaluation;
+  RecordingCache recordings(request, evaluation);
+  const NoiseSpec noise = test_noise(request);
+  int per_model = 0, done = 0;
+  for (const auto& level : request.levels) per_model += level ? request.runs : 1;
+
+  for (const auto& path : request.models) {
+    const Identifier identifier = read_identifier(path);
+    check_targets(evaluation, identifier, path.string());
+    const TestSet set = make_test_set(identifier, recordings.get(identifier.layout.system));
+    evaluation.targets = identifier.targets;
+    evaluation.samples = set.x.rows();
+    evaluation.singular_samples = std::max(evaluation.singular_samples, set.singular);
+    evaluation.unidentified = score(Eigen::MatrixXd::Zero(set.wanted.rows(), set.wanted.cols()),
+                                    set.wanted, identifier.targets);
+    const std::string file = path.filename().string();
+    for (const auto& level : request.levels) {
+      const auto deviation = noise_deviation(noise, identifier.model->map(), set.x, level);
+      std::vector<EvaluationRow> rows;
+      for (int run = 0; run < (level ? request.runs : 1); ++run) {
+        const auto key = level ? noise_key(request.seed, *level, run) : 0;
+        const Eigen::MatrixXd predicted =
+            identifier.model->predict(with_noise(set.x, deviation, key)) + set.base;
+        rows.push_back({identifier.name, file, level, run,
+                        score(predicted, set.wanted, identifier.targets)});
+        if (!level && identifier.layout.system.lowpass_hz > 0.0) {
+          evaluation.unfiltered.push_back({identifier.name, file, level, run,
+                                           score(predicted, set.unfiltered, identifier.targets)});
+        }
+        if (!level) {
+          evaluation.traces.push_back({identifier.name, set.first_t, set.wanted.topRows(set.first_rows),
+                                       predicted.topRows(set.first_rows)});
+        }
+        if (progress) progress(++done, per_model * static_cast<int>(request.models.size()));
+      }
+      evaluation.summary.push_back(summarise(rows));
+      std::move(rows.begin(), rows.end(), std::back_inserter(evaluation.rows));
+    }
+  }
+  for (const auto& path : request.data) evaluation.data.push_back(path.filename().string());
+  return evaluation;
+}
+
+}  // namespace dcnn

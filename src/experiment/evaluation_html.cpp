@@ -1,0 +1,196 @@
+// An evaluation as a page people look at.
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "dcnn/core/file.h"
+#include "dcnn/experiment/evaluate.h"
+#include "dcnn/experiment/report.h"
+#include "dcnn/experiment/train.h"
+
+namespace dcnn {
+namespace {
+
+std::string level_name(const SnrLevel& level) {
+  char text[32];
+  if (!level) return "clean";
+  std::snprintf(text, sizeof text, "%g dB", *level);
+  return text;
+}
+
+std::string with_spread(const Spread& s) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.4f ± %.4f", s.mean, s.deviation);
+  return text;
+}
+
+std::vector<std::string> level_names(const Evaluation& evaluation) {
+  std::vector<std::string> names;
+  for (const auto& s : evaluation.summary) {
+    const auto name = level_name(s.snr_db);
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+/// RMSE over the levels: one group of bars a level, one bar a model; `pick` chooses the axis.
+template <class Pick>
+Chart level_chart(const Evaluation& evaluation, const std::string& title, const std::string& unit,
+                  Pick pick) {
+  Chart chart;
+  chart.title = title;
+  chart.x_label = "signal-to-noise ratio of the input";
+  chart.y_label = "RMSE [" + unit + "]";
+  chart.categories = level_names(evaluation);
+  for (const auto& s : evaluation.summary) {
+    if (chart.series.empty() || chart.series.back().label != s.file) {
+      chart.series.push_back({s.file, {}, {}, {}, Series::Style::kBars});
+    }
+    const Spread value = pick(s);
+    const auto at = std::find(chart.categories.begin(), chart.categories.end(), level_name(s.snr_db));
+    chart.series.back().x.push_back(static_cast<double>(at - chart.categories.begin()));
+    chart.series.back().y.push_back(value.mean);
+    chart.series.back().error.push_back(value.deviation);
+  }
+  return chart;
+}
+
+void add_table(HtmlReport& page, const Evaluation& evaluation) {
+  std::vector<std::string> header{"model", "SNR", "runs"};
+  for (std::size_t j = 0; j < evaluation.targets.names.size(); ++j) {
+    header.push_back(evaluation.targets.names[j] + " [" + evaluation.targets.units[j] + "]");
+  }
+  header.insert(header.end(), {"overall", "largest error", "R²"});
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& s : evaluation.summary) {
+    std::vector<std::string> row{s.file, level_name(s.snr_db), std::to_string(s.runs)};
+    for (const Spread& axis : s.rmse) row.push_back(with_spread(axis));
+    row.push_back(s.overall ? with_spread(*s.overall) : "–");
+    char text[64];
+    std::snprintf(text, sizeof text, "%.3f", *std::max_element(s.first.max_abs.begin(), s.first.max_abs.end()));
+    row.emplace_back(text);
+    std::snprintf(text, sizeof text, "%.4f", *std::min_element(s.first.r2.begin(), s.first.r2.end()));
+    row.emplace_back(text);
+    rows.push_back(row);
+  }
+  page.table(header, rows);
+  page.paragraph("RMSE as mean ± standard deviation over noise draws; the largest error over all targets "
+                 "and the least R² of them are those of the first draw. Without identification the overall "
+                 "RMSE is " + std::to_string(evaluation.unidentified.overall.value_or(0.0)) + ".");
+}
+
+std::vector<double> values(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
+
+void add_traces(HtmlReport& page, const Evaluation& evaluation) {
+  if (evaluation.traces.empty()) return;
+  page.heading("Prediction over time");
+  for (std::size_t j = 0; j < evaluation.targets.names.size(); ++j) {
+    const auto column = static_cast<Eigen::Index>(j);
+    const Trace& first = evaluation.traces.front();
+    Chart chart;
+    chart.title = evaluation.targets.names[j];
+    chart.x_label = "t [s]";
+    chart.y_label = evaluation.targets.names[j] + " [" + evaluation.targets.units[j] + "]";
+    chart.series.push_back({"measured", values(first.t), values(first.measured.col(column)), {}});
+    for (const Trace& trace : evaluation.traces) {
+      chart.series.push_back({trace.model, values(trace.t), values(trace.predicted.col(column)), {}});
+    }
+    page.chart(chart, evaluation.data.front() + ", input without added noise");
+  }
+  page.heading("Residuals");
+  for (std::size_t j = 0; j < evaluation.targets.names.size(); ++j) {
+    std::vector<std::vector<double>> residuals;
+    std::vector<std::string> labels;
+    for (const Trace& trace : evaluation.traces) {
+      const auto column = static_cast<Eigen::Index>(j);
+      residuals.push_back(values(trace.measured.col(column) - trace.predicted.col(column)));
+      labels.push_back(trace.model);
+    }
+    page.chart(histogram(evaluation.targets.names[j],
+                         "measured - predicted [" + evaluation.targets.units[j] + "]", residuals, labels, 60),
+               "how the residual is spread, input without added noise");
+  }
+}
+
+/// Training loss and validation RMSE by epoch, where the model's run directory is still beside it.
+void add_training_curve(HtmlReport& page, const std::filesystem::path& model) {
+  const auto path = run_directory(model) / "metrics.jsonl";
+  if (!std::filesystem::exists(path)) return;
+  Series loss{"training loss", {}, {}, {}, Series::Style::kLineAndMarkers};
+  Series validation{"validation RMSE (mean over targets)", {}, {}, {}, Series::Style::kLineAndMarkers};
+  std::istringstream lines(read_file(path, std::size_t{64} << 20, Exit::kData));
+  for (std::string line; std::getline(lines, line);) {
+    const Json record = parse_json(line, path.string(), Exit::kData);
+    loss.x.push_back(record.value("epoch", 0.0));
+    loss.y.push_back(record.value("loss", 0.0));
+    const auto rmse = record.value("validation_rmse", std::vector<double>{});
+    if (rmse.empty()) continue;
+    validation.x.push_back(loss.x.back());
+    validation.y.push_back(spread(rmse).mean);
+  }
+  Chart chart;
+  chart.title = "training of " + model.filename().string();
+  chart.x_label = "epoch";
+  chart.y_label = "loss, RMSE";
+  chart.log_y = true;
+  chart.series = {loss, validation};
+  page.chart(chart, "from " + path.filename().string() +
+                        "; the loss is of the targets as the network sees them, with noise and dropout");
+}
+
+void add_settings(HtmlReport& page, const Evaluation& evaluation, const EvaluationRequest& request) {
+  page.heading("What these numbers depend on");
+  std::string data;
+  for (const auto& name : evaluation.data) data += (data.empty() ? "" : ", ") + name;
+  std::vector<std::vector<std::string>> rows{
+      {"test recordings", data},
+      {"samples", std::to_string(evaluation.samples)},
+      {"of them near the Euler singularity", std::to_string(evaluation.singular_samples)},
+      {"noise seed", std::to_string(request.seed)},
+      {"noise draws per level", std::to_string(request.runs)},
+      {"noise power", request.matlab_noise ? "mean square over the whole matrix (awgn 'measured')"
+                                           : "variance of each feature over the training rows"}};
+  for (const auto& path : request.models) {
+    const Identifier identifier = read_identifier(path);
+    rows.push_back({path.filename().string(),
+                    identifier.configuration.value("preset", "") + " preset, seed " +
+                        std::to_string(identifier.seed) + ", " +
+                        std::to_string(identifier.model->parameter_count()) + " parameters"});
+  }
+  page.table({"setting", "value"}, rows);
+  for (const auto& note : evaluation.notes) page.paragraph(note);
+  for (const auto& path : request.models) {
+    page.paragraph("Configuration of " + path.filename().string() + ":");
+    page.preformatted(read_identifier(path).configuration.dump(2));
+  }
+}
+
+}  // namespace
+
+std::string to_html(const Evaluation& evaluation, const EvaluationRequest& request) {
+  HtmlReport page("Tool dynamics identification: evaluation");
+  page.heading("Error against input noise");
+  const auto& targets = evaluation.targets;
+  if (evaluation.summary.front().overall) {
+    page.chart(level_chart(evaluation, "overall", targets.units[0],
+                           [](const EvaluationSummary& s) { return *s.overall; }),
+               "mean of the RMSEs per axis (Eq. 6); bars: mean, whiskers: one standard deviation over draws");
+  }
+  for (std::size_t j = 0; j < targets.names.size(); ++j) {
+    page.chart(level_chart(evaluation, targets.names[j], targets.units[j],
+                           [j](const EvaluationSummary& s) { return s.rmse[j]; }),
+               "");
+  }
+  add_table(page, evaluation);
+  add_traces(page, evaluation);
+  if (std::any_of(request.models.begin(), request.models.end(), [](const auto& model) {
+        return std::filesystem::exists(run_directory(model) / "metrics.jsonl");
+      })) {
+    page.heading("Training");
+    for (const auto& model : request.models) add_training_curve(page, model);
+  }
+  add_settings(page, evaluation, request);
+  return page.html();
+}
+
+}  // namespace dcnn

@@ -1,0 +1,107 @@
+// An evaluation as JSON for machines and as a table for people.
+#include <cstdio>
+
+#include "dcnn/experiment/evaluate.h"
+
+namespace dcnn {
+namespace {
+
+Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+Json level_json(const SnrLevel& level) { return level ? Json(*level) : Json(); }
+
+Json row_json(const EvaluationRow& row) {
+  Json json = {{"model", row.model}, {"file", row.file}, {"snr_db", level_json(row.snr_db)},
+               {"run", row.run}, {"rmse", row.score.rmse}, {"rmse_overall", number(row.score.overall)}};
+  if (row.score.overall_torque) json["rmse_overall_torque"] = *row.score.overall_torque;
+  return json;
+}
+
+Json summary_json(const EvaluationSummary& s, const Score& unidentified) {
+  std::vector<double> mean, deviation;
+  for (const Spread& axis : s.rmse) {
+    mean.push_back(axis.mean);
+    deviation.push_back(axis.deviation);
+  }
+  Json json = {{"model", s.model}, {"file", s.file}, {"snr_db", level_json(s.snr_db)},
+               {"runs", s.runs}, {"rmse_mean", mean}, {"rmse_std", deviation},
+               {"rmse_overall_mean", s.overall ? Json(s.overall->mean) : Json()},
+               {"rmse_overall_std", s.overall ? Json(s.overall->deviation) : Json()}};
+  if (s.overall_torque) {
+    json["rmse_overall_torque_mean"] = s.overall_torque->mean;
+    json["rmse_overall_torque_std"] = s.overall_torque->deviation;
+  }
+  json["max_abs_error"] = s.first.max_abs;
+  json["r2"] = s.first.r2;
+  json["vector_rmse"] = number(s.first.vector_rmse);
+  json["ratio_to_unidentified"] =
+      s.overall && unidentified.overall && *unidentified.overall > 0.0
+          ? Json(s.overall->mean / *unidentified.overall)
+          : Json();
+  return json;
+}
+
+std::string cell(const char* format, double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string padded(std::string text, std::size_t width) {
+  text.resize(std::max(width, text.size()), ' ');
+  return text;
+}
+
+}  // namespace
+
+Json to_json(const Evaluation& evaluation) {
+  Json json = {{"data", evaluation.data}, {"samples", evaluation.samples},
+               {"targets", evaluation.targets.names}, {"units", evaluation.targets.units},
+               {"samples_near_singularity", evaluation.singular_samples},
+               {"notes", evaluation.notes}, {"rows", Json::array()}, {"summary", Json::array()}};
+  for (const auto& row : evaluation.rows) json["rows"].push_back(row_json(row));
+  for (const auto& s : evaluation.summary) {
+    json["summary"].push_back(summary_json(s, evaluation.unidentified));
+  }
+  json["unidentified"] = {{"rmse", evaluation.unidentified.rmse},
+                          {"rmse_overall", number(evaluation.unidentified.overall)}};
+  if (!evaluation.unfiltered.empty()) {
+    json["unfiltered"] = Json::array();
+    for (const auto& row : evaluation.unfiltered) json["unfiltered"].push_back(row_json(row));
+  }
+  return json;
+}
+
+std::string to_text(const Evaluation& evaluation) {
+  std::size_t width = 8;
+  for (const auto& s : evaluation.summary) width = std::max(width, s.file.size() + 2);
+  std::string text = padded("file", width) + padded("SNR [dB]", 10) + padded("runs", 6);
+  for (std::size_t j = 0; j < evaluation.targets.names.size(); ++j) {
+    text += padded(evaluation.targets.names[j] + " [" + evaluation.targets.units[j] + "]", 18);
+  }
+  text += "overall\n";
+  const auto line = [&](const std::string& name, const std::string& level, int runs,
+                        const std::vector<Spread>& rmse, const std::optional<Spread>& overall) {
+    text += padded(name, width) + padded(level, 10) + padded(std::to_string(runs), 6);
+    for (const Spread& axis : rmse) {
+      text += padded(cell("%.5f", axis.mean) + " +- " + cell("%.5f", axis.deviation), 18) + " ";
+    }
+    text += overall ? cell("%.5f", overall->mean) + " +- " + cell("%.5f", overall->deviation) : "-";
+    text += "\n";
+  };
+  for (const auto& s : evaluation.summary) {
+    line(s.file, s.snr_db ? cell("%g", *s.snr_db) : "clean", s.runs, s.rmse, s.overall);
+  }
+  std::vector<Spread> zero;
+  for (const double value : evaluation.unidentified.rmse) zero.push_back({value, 0.0});
+  std::optional<Spread> overall;
+  if (evaluation.unidentified.overall) overall = Spread{*evaluation.unidentified.overall, 0.0};
+  line("(no identification)", "-", 1, zero, overall);
+  for (const auto& row : evaluation.unfiltered) {
+    text += row.file + ": against the unfiltered targets, clean:";
+    for (const double value : row.score.rmse) text += " " + cell("%.5f", value);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace dcnn

@@ -1,0 +1,153 @@
+#include "dcnn/models/network_model.h"
+
+#include <cmath>
+#include <utility>
+
+#include "dcnn/nn/optimizer.h"
+#include "models/tensor_io.h"
+#include "models/trainer.h"
+
+namespace dcnn {
+namespace {
+
+enum Stream : std::uint64_t { kInitialWeights = 100 };
+
+InputMap::Spec parse_map(Options options) {
+  InputMap::Spec spec;
+  spec.variance = options.choice("sigma", "std", {"std", "variance"}) == "variance";
+  spec.zerocenter = options.get("zerocenter", true);
+  options.finish();
+  return spec;
+}
+
+TargetScale make_scale(const Eigen::MatrixXd& y, const Eigen::VectorXd& spread, bool standardise) {
+  if (standardise) return {y.colwise().mean(), spread};
+  return {Eigen::VectorXd::Zero(y.cols()), Eigen::VectorXd::Ones(y.cols())};
+}
+
+/// Standard deviation of each target; 1 for one that does not vary.
+Eigen::VectorXd target_spread(const Eigen::MatrixXd& y) {
+  const Eigen::RowVectorXd mean = y.colwise().mean();
+  const double n = static_cast<double>(std::max<Index>(1, y.rows() - 1));
+  Eigen::VectorXd spread =
+      ((y.rowwise() - mean).array().square().colwise().sum() / n).sqrt().transpose();
+  return (spread.array() < 1e-12).select(1.0, spread);
+}
+
+Json to_json(const Eigen::VectorXd& v) { return std::vector<double>(v.data(), v.data() + v.size()); }
+
+Eigen::VectorXd parse_vector(const Json& json, const std::string& where) {
+  try {
+    const auto v = json.get<std::vector<double>>();
+    return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Index>(v.size()));
+  } catch (const Json::exception&) {
+    fail(Exit::kModel, where, ": a list of numbers is malformed in its metadata");
+  }
+}
+
+}  // namespace
+
+TrainingSpec TrainingSpec::parse(Options options) {
+  TrainingSpec spec;
+  spec.epochs = static_cast<Index>(options.number("epochs", 30, 1, 1e6));
+  spec.batch = static_cast<Index>(options.number("batch", 50, 1, 1e6));
+  spec.l2 = options.number("l2", 1e-4, 0.0, 1e6);
+  spec.standardise_targets = options.get("standardise_targets", true);
+  spec.shuffle_every_epoch = options.choice("shuffle", "every-epoch", {"every-epoch", "once"}) != "once";
+  spec.full_statistics = options.choice("statistics", "full", {"full", "running"}) == "full";
+  spec.ema = options.number("ema", 0.0, 0.0, 0.999999);
+  spec.keep_best = options.choice("keep", "best", {"best", "last"}) == "best";
+  for (const char* key : {"lr", "schedule", "drop_factor", "drop_period"}) {
+    if (const Json value = options.raw(key); !value.is_null()) spec.rate[key] = value;
+  }
+  options.raw("validation");  // the share of rows kept for validation: read by the experiment
+  Options rate(spec.rate, "training", Exit::kUsage);
+  LearningRate check(rate, spec.epochs, 1);
+  rate.finish();
+  options.finish();
+  return spec;
+}
+
+NetworkModel::NetworkModel(std::string kind, const Json& layers, const Problem& problem)
+    : kind_(std::move(kind)), seed_(problem.seed) {
+  Options options(problem.configuration, problem.where, Exit::kUsage);
+  map_spec_ = parse_map(options.child("map"));
+  training_ = TrainingSpec::parse(options.child("training"));
+  noise_ = parse_noise(options.child("noise"));
+  Rng rng({seed_, kInitialWeights});
+  network_ = std::make_unique<Network>(layers, Shape{problem.features, InputMap::kColumns, 1}, rng);
+}
+
+NetworkModel::NetworkModel(const Container& file, const std::string& where)
+    : kind_(stored_text(file, "model", where)) {
+  const Json architecture =
+      parse_json(stored_text(file, "architecture", where), where, Exit::kModel);
+  map_ = InputMap::parse(parse_json(stored_text(file, "map", where), where, Exit::kModel), where,
+                         Exit::kModel);
+  const Json scale = parse_json(stored_text(file, "target_scale", where), where, Exit::kModel);
+  scale_.mean = parse_vector(scale.value("mean", Json()), where);
+  scale_.deviation = parse_vector(scale.value("deviation", Json()), where);
+  try {
+    Rng rng(0);
+    network_ = std::make_unique<Network>(architecture, Shape{map_.features(), InputMap::kColumns, 1}, rng);
+  } catch (const Error& error) {
+    fail(Exit::kModel, where, ": its architecture cannot be rebuilt: ", error.what());
+  }
+  load_tensors(file, "network.", network_->state(), where);
+  refold();
+  const Eigen::MatrixXd probe = predict(map_.mean().transpose());
+  require(scale_.mean.size() == probe.cols() && scale_.deviation.size() == probe.cols() &&
+              (scale_.deviation.array() > 0.0).all() && probe.allFinite(),
+          Exit::kModel, where, ": its output does not fit its targets");
+}
+
+NetworkModel::~NetworkModel() = default;
+
+bool NetworkModel::fit(const Samples& training, const Samples& validation, FitSession& session) {
+  map_ = InputMap(training.x, map_spec_);
+  spread_ = target_spread(training.y);
+  scale_ = make_scale(training.y, spread_, training_.standardise_targets);
+  Trainer trainer(*this, training, validation, session);
+  return trainer.run();
+}
+
+void NetworkModel::refold() { folded_ = std::make_unique<Network>(network_->folded()); }
+
+Eigen::MatrixXd NetworkModel::predict(const Eigen::MatrixXd& x) const {
+  constexpr Index kBlock = 520;  // 40 pieces of 13: activations stay in the cache
+  NoGradient guard;
+  const Index cells = map_.features() * InputMap::kColumns;
+  Eigen::MatrixXd result(x.rows(), scale_.mean.size());
+  for (Index first = 0; first < x.rows(); first += kBlock) {
+    const Index n = std::min(kBlock, x.rows() - first);
+    Tensor maps({n, map_.features(), InputMap::kColumns, 1});
+    Eigen::VectorXd row(map_.features());
+    for (Index i = 0; i < n; ++i) {
+      row = x.row(first + i);
+      map_.write(row.data(), maps.data() + i * cells);
+    }
+    Pass pass;
+    const Tensor y = folded_->forward(maps, pass);
+    const Index targets = result.cols();
+    for (Index i = 0; i < n; ++i) {
+      for (Index j = 0; j < targets; ++j) {
+        result(first + i, j) =
+            scale_.mean[j] + scale_.deviation[j] * static_cast<double>(y.data()[i * targets + j]);
+      }
+    }
+  }
+  return result;
+}
+
+Index NetworkModel::parameter_count() const { return network_->parameter_count(); }
+
+void NetworkModel::save(Container& file) const {
+  file.metadata["model"] = kind_;
+  file.metadata["architecture"] = network_->layers().dump();
+  file.metadata["map"] = map_.to_json().dump();
+  file.metadata["target_scale"] =
+      Json{{"mean", to_json(scale_.mean)}, {"deviation", to_json(scale_.deviation)}}.dump();
+  store_tensors(network_->state(), "network.", file);
+}
+
+}  // namespace dcnn

@@ -1,0 +1,232 @@
+#include "models/trainer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dcnn/nn/loss.h"
+#include "models/tensor_io.h"
+
+namespace dcnn {
+namespace {
+
+// Streams of random numbers that one seed feeds.
+enum Stream : std::uint64_t { kShuffle = 1, kLevel, kNoise, kDropout, kCollectOrder };
+
+std::vector<NamedTensor> copies(const std::vector<NamedTensor>& tensors) {
+  std::vector<NamedTensor> result;
+  for (const NamedTensor& t : tensors) {
+    result.push_back({"best." + t.name, Tensor::from(t.tensor.shape(), t.tensor.values()), t.role});
+  }
+  return result;
+}
+
+void assign(const std::vector<NamedTensor>& to, const std::vector<NamedTensor>& from) {
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    const auto values = from[i].tensor.values();
+    std::copy(values.begin(), values.end(), to[i].tensor.data());
+  }
+}
+
+}  // namespace
+
+Trainer::Trainer(NetworkModel& model, const Samples& training, const Samples& validation,
+                 FitSession& session)
+    : model_(model), validation_(validation), session_(session), spec_(model.training_) {
+  const Index rows = training.x.rows();
+  require(rows >= spec_.batch, Exit::kData, "only ", rows, " training rows for batches of ",
+          spec_.batch, "; give longer recordings or a smaller training.batch");
+  x_ = training.x;
+  y_ = (training.y.rowwise() - model.scale_.mean.transpose()).array().rowwise() /
+       model.scale_.deviation.transpose().array();
+  steps_per_epoch_ = rows / spec_.batch;  // an incomplete last batch is skipped (D37)
+
+  const auto& state = model.network_->state();
+  Adam::Settings adam;
+  adam.l2 = spec_.l2;
+  adam_ = std::make_unique<Adam>(state, adam);
+  if (spec_.ema > 0.0) average_ = std::make_unique<WeightAverage>(state, spec_.ema);
+  Options rate(spec_.rate, "training", Exit::kUsage);
+  rate_ = std::make_unique<LearningRate>(rate, spec_.epochs, steps_per_epoch_);
+  best_ = copies(state);
+  if (session.checkpoint) restore_checkpoint(*session.checkpoint);
+}
+
+bool Trainer::run() {
+  while (epoch_ < spec_.epochs) {
+    begin_epoch();
+    if (!run_steps()) {
+      save_checkpoint();
+      return false;
+    }
+    finish_epoch();
+  }
+  restore_best();
+  model_.refold();
+  return true;
+}
+
+/// Draws the epoch's order and noise level; the same after a resume in its middle.
+void Trainer::begin_epoch() {
+  const auto epoch = static_cast<std::uint64_t>(epoch_);
+  Rng shuffle({model_.seed_, kShuffle, spec_.shuffle_every_epoch ? epoch : 0});
+  order_ = permutation(x_.rows(), shuffle);
+  const auto& levels = model_.noise_.levels;
+  snr_ = levels[Rng({model_.seed_, kLevel, epoch}).below(levels.size())];
+  noise_ = noise_deviation(model_.noise_, model_.map_, x_, snr_);
+}
+
+bool Trainer::run_steps() {
+  while (step_ < steps_per_epoch_) {
+    if (session_.stop_wanted && session_.stop_wanted()) return false;
+    step();
+    ++step_;
+    if (session_.step_done) {
+      session_.step_done(epoch_ + 1, step_, steps_per_epoch_, loss_sum_ / static_cast<double>(step_));
+    }
+  }
+  return true;
+}
+
+void Trainer::step() {
+  const auto epoch = static_cast<std::uint64_t>(epoch_), number = static_cast<std::uint64_t>(step_);
+  const Index first = step_ * spec_.batch;
+  Pass pass{Pass::Mode::kTrain, Rng({model_.seed_, kDropout, epoch, number})};
+  const auto noise_key = Rng({model_.seed_, kNoise, epoch}).bits();
+  const Tensor maps = gather(order_, first, noise_key, noise_);
+  const Tensor loss =
+      half_mean_squared_error(model_.network_->forward(maps, pass), gather_targets(first));
+  const double value = loss.values()[0];
+  require(std::isfinite(value), Exit::kFailure, "training diverged in epoch ", epoch_ + 1,
+          ": the loss is not finite; lower training.lr");
+  loss.backward();
+  adam_->step(rate_->at(epoch_, step_));
+  if (average_) average_->update();
+  loss_sum_ += value;
+}
+
+/// Maps (Eq. 7) of the batch that starts at `first`, with noise on the features before the map.
+Tensor Trainer::gather(const std::vector<std::int64_t>& order, Index first,
+                       std::uint64_t noise_key, const Eigen::VectorXd& noise) const {
+  const Index features = x_.cols(), cells = features * InputMap::kColumns;
+  Tensor maps({spec_.batch, features, InputMap::kColumns, 1});
+  const bool noisy = !noise.isZero(0.0);
+  const Index pieces = piece_count(spec_.batch);
+  for_each_piece(pieces, [&](Index k) {
+    Eigen::VectorXd x(features);
+    for (Index i = piece_begin(spec_.batch, pieces, k); i < piece_begin(spec_.batch, pieces, k + 1);
+         ++i) {
+      const Index row = order[static_cast<std::size_t>(first + i)];
+      x = x_.row(row);
+      if (noisy) add_noise(x.data(), 1, noise, noise_key, row);
+      model_.map_.write(x.data(), maps.data() + i * cells);
+    }
+  });
+  return maps;
+}
+
+Tensor Trainer::gather_targets(Index first) const {
+  const Index targets = y_.cols();
+  Tensor wanted({spec_.batch, targets});
+  for (Index i = 0; i < spec_.batch; ++i) {
+    const Index row = order_[static_cast<std::size_t>(first + i)];
+    for (Index j = 0; j < targets; ++j) {
+      wanted.data()[i * targets + j] = static_cast<Real>(y_(row, j));
+    }
+  }
+  return wanted;
+}
+
+void Trainer::finish_epoch() {
+  EpochRecord record;
+  record.epoch = epoch_ + 1;
+  record.loss = loss_sum_ / static_cast<double>(steps_per_epoch_);
+  record.rate = rate_->at(epoch_, 0);
+  record.snr_db = snr_;
+  if (average_) average_->swap();
+  if (spec_.full_statistics) collect_statistics();
+  model_.refold();
+  record.validation_rmse = validation_rmse();
+  keep_if_best(record);
+  if (session_.epoch_done) session_.epoch_done(record);
+  if (average_) average_->swap();
+  ++epoch_;
+  step_ = 0;
+  loss_sum_ = 0.0;
+  save_checkpoint();
+}
+
+/// Batch norm's inference statistics: one pass over the whole clean training set (spec 2.4, D16), in
+/// shuffled batches as in training, since neighbouring rows resemble each other too much to make a batch.
+void Trainer::collect_statistics() {
+  NoGradient guard;
+  Rng rng({model_.seed_, kCollectOrder});
+  const auto order = permutation(x_.rows(), rng);
+  const Eigen::VectorXd clean = Eigen::VectorXd::Zero(x_.cols());
+  Pass pass{Pass::Mode::kCollect, Rng(0)};
+  for (Index k = 0; k < steps_per_epoch_; ++k) {
+    pass.batch_number = k;
+    model_.network_->forward(gather(order, k * spec_.batch, 0, clean), pass);
+  }
+}
+
+std::vector<double> Trainer::validation_rmse() const {
+  if (validation_.x.rows() == 0) return {};
+  const Eigen::MatrixXd error = model_.predict(validation_.x) - validation_.y;
+  const Eigen::VectorXd rmse = error.array().square().colwise().mean().sqrt().transpose();
+  return {rmse.data(), rmse.data() + rmse.size()};
+}
+
+/// The score is the mean of the RMSEs in units of each target's spread, so that newtons and
+/// newton-metres weigh alike.
+void Trainer::keep_if_best(EpochRecord& record) {
+  double score = -static_cast<double>(record.epoch);  // without validation the last epoch is kept
+  if (spec_.keep_best && !record.validation_rmse.empty()) {
+    score = 0.0;
+    for (std::size_t j = 0; j < record.validation_rmse.size(); ++j) {
+      score += record.validation_rmse[j] / model_.spread_[static_cast<Index>(j)];
+    }
+  }
+  record.best = score < best_score_;
+  if (!record.best) return;
+  best_score_ = score;
+  assign(best_, model_.network_->state());
+}
+
+void Trainer::restore_best() { assign(model_.network_->state(), best_); }
+
+std::vector<NamedTensor> Trainer::everything() const {
+  auto all = model_.network_->state();
+  for (const auto& part : {adam_->state(), average_ ? average_->state() : std::vector<NamedTensor>{},
+                           best_}) {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+void Trainer::save_checkpoint() const {
+  if (!session_.save_checkpoint) return;
+  Container file;
+  store_tensors(everything(), "", file);
+  file.tensors.push_back({"position", {3}, std::vector<std::int64_t>{epoch_, step_, adam_->steps()}});
+  // JSON cannot hold infinity, and a container refuses it too: no best epoch yet is an empty tensor.
+  std::vector<double> sums{loss_sum_};
+  if (std::isfinite(best_score_)) sums.push_back(best_score_);
+  file.tensors.push_back({"sums", {static_cast<Index>(sums.size())}, sums});
+  session_.save_checkpoint(file);
+}
+
+void Trainer::restore_checkpoint(const Container& file) {
+  load_tensors(file, "", everything(), "checkpoint");
+  const auto position = stored_values<std::int64_t>(file, "position", "checkpoint");
+  const auto sums = stored_values<double>(file, "sums", "checkpoint");
+  require(position.size() == 3 && !sums.empty() && position[0] >= 0 && position[1] >= 0, Exit::kModel,
+          "checkpoint: not one of this training; start without --resume");
+  epoch_ = position[0];
+  step_ = position[1];
+  adam_->set_steps(position[2]);
+  loss_sum_ = sums[0];
+  if (sums.size() > 1) best_score_ = sums[1];
+}
+
+}  // namespace dcnn

@@ -1,0 +1,59 @@
+// One training of a NetworkModel: epochs of Adam that can stop anywhere and go on to the same bytes.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "dcnn/models/network_model.h"
+#include "dcnn/nn/optimizer.h"
+
+namespace dcnn {
+
+/// Everything random comes from (seed, epoch, step), so the state is the numbers below and no more:
+/// weights, moments, averages, the best weights so far, and the position in the epoch.
+class Trainer {
+ public:
+  Trainer(NetworkModel& model, const Samples& training, const Samples& validation,
+          FitSession& session);
+
+  /// False when stopped before the last epoch; the checkpoint has then been saved.
+  bool run();
+
+ private:
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  void begin_epoch();
+  bool run_steps();
+  void step();
+  Tensor gather(const std::vector<std::int64_t>& order, Index first, std::uint64_t noise_key,
+                const Eigen::VectorXd& noise) const;
+  Tensor gather_targets(Index first) const;
+  void finish_epoch();
+  void collect_statistics();
+  std::vector<double> validation_rmse() const;
+  void keep_if_best(EpochRecord& record);
+  void restore_best();
+  std::vector<NamedTensor> everything() const;
+  void save_checkpoint() const;
+  void restore_checkpoint(const Container& file);
+
+  NetworkModel& model_;
+  const Samples& validation_;
+  FitSession& session_;
+  const TrainingSpec& spec_;
+  RowMajor x_, y_;       // training rows; targets scaled
+  Index steps_per_epoch_;
+  std::unique_ptr<Adam> adam_;
+  std::unique_ptr<WeightAverage> average_;
+  std::unique_ptr<LearningRate> rate_;
+  std::vector<NamedTensor> best_;  // copies of the network's state
+  double best_score_ = std::numeric_limits<double>::infinity();
+
+  Index epoch_ = 0, step_ = 0;  // the next one to do, from 0
+  double loss_sum_ = 0.0;
+  std::vector<std::int64_t> order_;  // of this epoch
+  SnrLevel snr_;
+  Eigen::VectorXd noise_;
+};
+
+}  // namespace dcnn

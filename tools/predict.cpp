@@ -1,0 +1,62 @@
+#include <iostream>
+
+#include "dcnn/models/identifier.h"
+#include "dcnn/physics/simulate.h"
+#include "support/tool.h"
+
+namespace {
+
+using namespace dcnn;
+
+constexpr const char* kExamples =
+    "  dcnn-predict model.dcnn --data log.csv --out predicted.csv\n"
+    "  dcnn-predict diagnosis/model.json --data log.csv --out predicted.csv   # a corrected simulator\n";
+
+Recording predict_with_model(const std::filesystem::path& model, const std::filesystem::path& data,
+                             const ReadOptions& read) {
+  const Identifier identifier = read_identifier(model);
+  Recording recording = read_recording(data, read, identifier.layout.system);
+  const Eigen::MatrixXd predicted = identifier.predict(recording);
+  for (std::size_t j = 0; j < identifier.targets.names.size(); ++j) {
+    recording.set(identifier.targets.names[j] + "_hat", predicted.col(static_cast<Eigen::Index>(j)));
+  }
+  return recording;
+}
+
+Recording predict_with_simulator(const std::filesystem::path& model, const std::filesystem::path& data,
+                                 const ReadOptions& read) {
+  const Simulator simulator = read_simulator(model);
+  Recording recording = read_recording(data, read, System());
+  const Recording predicted = predict_motion(simulator, recording, DerivativeSpec());
+  for (const char* target : {"fx", "fy", "fz", "tx", "ty", "tz"}) {
+    if (predicted.has(target)) recording.set(std::string(target) + "_hat", predicted.column(target));
+  }
+  return recording;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("dcnn-predict", "Predicts the tool's force for every row of a recording.", kExamples);
+  std::filesystem::path model, data, out;
+  auto& app = tool.app();
+  app.add_option("model", model, "model file (.dcnn), or a simulator (.json)")->required();
+  app.add_option("--data", data, "recording")->required();
+  app.add_option("--out", out, "CSV to write: the input columns and <target>_hat")->required();
+  const ReadFlags read(app);
+
+  return tool.run(argc, argv, [&] {
+    const bool simulator = model.extension() == ".json";
+    const Recording recording = simulator ? predict_with_simulator(model, data, read.options())
+                                          : predict_with_model(model, data, read.options());
+    for (const auto& note : recording.notes) tool.note(note);
+    write_csv(out, recording.table);
+    const Json summary = {{"rows", recording.samples()}, {"file", out.string()}};
+    if (tool.common().json) {
+      Tool::print(summary);
+    } else {
+      std::cout << out.string() << ": " << recording.samples() << " rows\n";
+    }
+    return Exit::kDone;
+  });
+}

@@ -1,0 +1,60 @@
+// What every dcnn-<verb> shares: common flags, one-line errors, exit codes (contract.md section 4).
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "dcnn/core/json.h"
+#include "dcnn/data/recording.h"
+
+namespace dcnn {
+
+/// Flags that every tool has.
+struct CommonFlags {
+  bool json = false, quiet = false;
+  int threads = 0;
+  std::optional<std::uint64_t> seed;
+};
+
+class Tool {
+ public:
+  /// `examples` ends the --help text: lines that can be pasted.
+  Tool(const std::string& name, const std::string& summary, const std::string& examples);
+
+  CLI::App& app() { return app_; }
+  const CommonFlags& common() const { return common_; }
+
+  /// Parses, then calls `body`. Returns the exit code; every failure has become one line on stderr.
+  int run(int argc, char** argv, const std::function<Exit()>& body);
+
+  /// A line on stderr, unless --quiet.
+  void note(const std::string& text) const;
+  /// One JSON document on stdout.
+  static void print(const Json& json);
+
+ private:
+  int parse(int argc, char** argv);
+  int fail_line(const std::string& message, Exit exit) const;
+
+  std::string name_;
+  CLI::App app_;
+  CommonFlags common_;
+};
+
+/// --position-unit, --angle-unit, --force-sign and --resample.
+class ReadFlags {
+ public:
+  explicit ReadFlags(CLI::App& app);
+  ReadOptions options() const;
+
+ private:
+  std::string position_unit_ = "m", angle_unit_ = "rad";
+  double force_sign_ = 1.0;
+  CLI::Option* resample_;
+  double resample_hz_ = 0.0;
+};
+
+}  // namespace dcnn

@@ -1,0 +1,123 @@
+#include "dcnn/experiment/train.h"
+
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <numeric>
+
+#include "support/interrupt.h"
+#include "support/progress.h"
+#include "support/tool.h"
+
+namespace {
+
+using namespace dcnn;
+
+constexpr const char* kExamples =
+    "  dcnn-train --train log.csv --preset quick --out model.dcnn\n"
+    "  dcnn-train --config configs/embedded.json --train a.csv b.csv --valid c.csv --out model.dcnn\n"
+    "  dcnn-train --system tool.json --train run1.csv run2.csv --out tool.dcnn\n"
+    "  dcnn-train ... --resume                     # after Ctrl-C or a crash: goes on, same bytes in the end\n";
+
+std::string epoch_text(const TrainingProgress& p) {
+  char text[96];
+  std::snprintf(text, sizeof text, "epoch %lld/%lld  loss %.5f", static_cast<long long>(p.epoch),
+                static_cast<long long>(p.epochs), p.loss);
+  return text;
+}
+
+std::string rmse_text(const EpochRecord& record) {
+  if (record.validation_rmse.empty()) return "";
+  std::string text = "  validation RMSE";
+  for (const double value : record.validation_rmse) {
+    char number[24];
+    std::snprintf(number, sizeof number, " %.4f", value);
+    text += number;
+  }
+  return text + (record.best ? "  *" : "");
+}
+
+class Observer {
+ public:
+  explicit Observer(const Tool& tool) : bar_(tool.common().quiet) {}
+
+  TrainingObserver callbacks() {
+    return {[] { return interrupted(); }, [this](const std::string& text) { bar_.line(text); },
+            [this](const TrainingProgress& p) { show(p); }};
+  }
+  void clear() { bar_.clear(); }
+
+ private:
+  void show(const TrainingProgress& p) {
+    if (p.finished) {
+      last_ = rmse_text(*p.finished);
+      bar_.line(epoch_text(p) + last_);
+      return;
+    }
+    const double within = static_cast<double>(p.step) / static_cast<double>(p.steps);
+    bar_.update((static_cast<double>(p.epoch - 1) + within) / static_cast<double>(p.epochs),
+                epoch_text(p) + last_);
+  }
+
+  Progress bar_;
+  std::string last_;
+};
+
+void print_summary(const Json& summary) {
+  std::cout << "model       " << summary["file"].get<std::string>() << " (" << summary["parameters"]
+            << " parameters)\n"
+            << "rows        " << summary["training_rows"] << " training, " << summary["validation_rows"]
+            << " validation\n";
+  const auto rmse = summary["validation_rmse"].get<std::vector<double>>();
+  for (std::size_t j = 0; j < rmse.size(); ++j) {
+    std::cout << (j == 0 ? "validation  " : "            ") << summary["targets"][j].get<std::string>()
+              << " RMSE " << rmse[j] << " " << summary["units"][j].get<std::string>() << "\n";
+  }
+  std::cout << "run         " << summary["run_directory"].get<std::string>() << "\n"
+            << "next        dcnn-eval " << summary["file"].get<std::string>() << " --data TEST.csv\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("dcnn-train", "Learns the force a tool puts on its sensor from recordings (CSV).", kExamples);
+  TrainingRequest request;
+  ConfigurationFlags& flags = request.configuration;
+  std::string list;
+  for (const ModelKind* kind : model_kinds()) list += std::string("\n  ") + kind->name + ": " + kind->summary;
+  auto& app = tool.app();
+  app.add_option("--train", request.training, "recordings to learn from")->required()->check(CLI::ExistingPath);
+  app.add_option("--valid", request.validation,
+                 "recordings for validation (default: the last 15 % of each training recording)");
+  app.add_option("--config", flags.file, "configuration (JSON)");
+  app.add_option("--preset", flags.preset, "fills what the configuration leaves out")
+      ->check(CLI::IsMember(kPresets));
+  app.add_option("--model", flags.model, "which identifier:" + list);
+  app.add_option("--system", flags.system, "description of another machine (JSON)");
+  app.add_option("--epochs", flags.epochs, "number of epochs")->check(CLI::PositiveNumber);
+  app.add_option("--base", request.base, "simulator (sim.json or model.json) whose remainder is learned");
+  app.add_flag("--online", flags.online, "causal derivatives: required by dcnn-run and dcnn-teleop");
+  app.add_option("--out", request.out, "model file to write; its run directory is beside it")->required();
+  app.add_flag("--resume", request.resume, "go on from the last checkpoint");
+  const ReadFlags read(app);
+
+  return tool.run(argc, argv, [&] {
+    request.read = read.options();
+    flags.seed = tool.common().seed;
+    catch_interrupts();
+    Observer observer(tool);
+    const TrainingOutcome outcome = train(request, observer.callbacks());
+    observer.clear();
+    if (!outcome.finished) {
+      tool.note("interrupted; the state is saved in " + outcome.summary["run_directory"].get<std::string>() +
+                ", go on with the same command and --resume");
+      return Exit::kInterrupted;
+    }
+    if (tool.common().json) {
+      Tool::print(outcome.summary);
+    } else {
+      print_summary(outcome.summary);
+    }
+    return Exit::kDone;
+  });
+}
