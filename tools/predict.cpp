@@ -1,7 +1,7 @@
 #include <iostream>
 
 #include "dcnn/models/identifier.h"
-#include "dcnn/physics/simulate.h"
+#include "dcnn/physics/simulator.h"
 #include "support/tool.h"
 
 namespace {

@@ -1,0 +1,70 @@
+#include <iostream>
+
+#include "dcnn/core/file.h"
+#include "dcnn/physics/scenario.h"
+#include "dcnn/physics/simulator.h"
+#include "support/tool.h"
+
+namespace {
+
+using namespace dcnn;
+
+constexpr const char* kExamples =
+    "  dcnn-sim --config configs/sim/embedded.json --out data      # recordings, sim.json, truth.json\n"
+    "  dcnn-sim --sim data/sim.json --motion log.csv --out b.csv   # what the simulator says to a motion\n";
+
+/// Recordings with ground truth from a configuration.
+Json simulate_folder(const std::filesystem::path& config, const std::filesystem::path& out,
+                     std::optional<std::uint64_t> seed) {
+  const Scenario scenario = simulate_config(read_json(config, Exit::kUsage), config.string(), seed);
+  Json files = Json::array();
+  for (const auto& recording : scenario.recordings) {
+    const auto path = out / (recording.name + ".csv");
+    write_csv(path, recording.noisy.table);
+    write_csv(out / (recording.name + "_clean.csv"), recording.clean.table);
+    files.push_back({{"file", path.string()}, {"samples", recording.noisy.samples()}});
+  }
+  write_file(out / "sim.json", scenario.simulator.dump(2) + "\n");
+  write_file(out / "truth.json", scenario.truth.dump(2) + "\n");
+  return {{"recordings", files}, {"simulator", (out / "sim.json").string()},
+          {"truth", (out / "truth.json").string()}};
+}
+
+/// The simulator's prediction for a logged motion.
+Json simulate_motion(const std::filesystem::path& sim, const std::filesystem::path& motion,
+                     const std::filesystem::path& out, const ReadOptions& read) {
+  const Recording recording = read_recording(motion, read, System());
+  const Recording predicted = predict_motion(read_simulator(sim), recording, DerivativeSpec());
+  write_csv(out, predicted.table);
+  return {{"recordings", {{{"file", out.string()}, {"samples", predicted.samples()}}}}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("dcnn-sim", "Simulates recordings of a tool on a wrist sensor, with effects hidden in them.",
+            kExamples);
+  std::filesystem::path config, sim, motion, out;
+  auto& app = tool.app();
+  auto* from_config = app.add_option("--config", config, "what to simulate (JSON)");
+  auto* from_sim = app.add_option("--sim", sim, "simulator: sim.json, or a corrected model.json");
+  auto* with_motion = app.add_option("--motion", motion, "recording whose motion is simulated");
+  from_sim->needs(with_motion)->excludes(from_config);
+  with_motion->needs(from_sim);
+  app.add_option("--out", out, "folder (with --config) or CSV file (with --motion) to write")->required();
+  const ReadFlags read(app);
+
+  return tool.run(argc, argv, [&] {
+    require(!config.empty() || !sim.empty(), Exit::kUsage, "give --config, or --sim with --motion");
+    const Json summary = sim.empty() ? simulate_folder(config, out, tool.common().seed)
+                                     : simulate_motion(sim, motion, out, read.options());
+    if (tool.common().json) {
+      Tool::print(summary);
+    } else {
+      for (const auto& entry : summary["recordings"]) {
+        std::cout << entry["file"].get<std::string>() << ": " << entry["samples"] << " samples\n";
+      }
+    }
+    return Exit::kDone;
+  });
+}
