@@ -1,0 +1,171 @@
+#include "dcnn/models/network_model.h"
+
+#include <gtest/gtest.h>
+
+#include "dcnn/core/random.h"
+
+namespace dcnn {
+namespace {
+
+Samples draw_samples(Index rows, std::uint64_t seed) {
+  Rng rng(seed);
+  Samples samples{Eigen::MatrixXd(rows, 15), Eigen::MatrixXd(rows, 3)};
+  for (Index i = 0; i < rows; ++i) {
+    for (Index j = 0; j < 15; ++j) samples.x(i, j) = rng.normal();
+    samples.y(i, 0) = 2.0 * samples.x(i, 0) + 5.0;
+    samples.y(i, 1) = samples.x(i, 3) * samples.x(i, 3);
+    samples.y(i, 2) = -samples.x(i, 7) + 0.5 * samples.x(i, 8);
+  }
+  return samples;
+}
+
+std::unique_ptr<Model> make(const Json& patch = Json::object(), std::uint64_t seed = 1) {
+  Json configuration = model_kind("dcnn", Exit::kUsage).preset("quick", false);
+  configuration["training"]["epochs"] = 6;
+  configuration["model"]["dropout"] = 0.1;
+  configuration["model"]["padding"] = "valid";
+  configuration["noise"] = {{"levels_db", {nullptr}}};
+  for (const auto& [section, keys] : patch.items()) configuration[section].update(keys);
+  return model_kind("dcnn", Exit::kUsage).make({15, 3, configuration, "test", seed});
+}
+
+Eigen::VectorXd rmse(const Model& model, const Samples& samples) {
+  return (model.predict(samples.x) - samples.y).array().square().colwise().mean().sqrt().transpose();
+}
+
+Container saved(const Model& model) {
+  Container file;
+  model.save(file);
+  return file;
+}
+
+TEST(NetworkModel, LearnsASmoothFunctionOfItsInputs) {
+  const Samples training = draw_samples(3000, 1), test = draw_samples(500, 2);
+  const auto model = make();
+  FitSession session;
+  ASSERT_TRUE(model->fit(training, {}, session));
+  const Eigen::VectorXd error = rmse(*model, test);
+  for (Index j = 0; j < 3; ++j) {
+    const double spread = std::sqrt((test.y.col(j).array() - test.y.col(j).mean()).square().mean());
+    EXPECT_LT(error[j], 0.5 * spread) << "target " << j;
+  }
+}
+
+TEST(NetworkModel, HasTheParameterCountsOfThePaper) {
+  EXPECT_EQ(make({{"model", {{"padding", "same"}}}})->parameter_count(), 14155);
+  EXPECT_EQ(make({{"model", {{"padding", "valid"}}}})->parameter_count(), 8011);
+}
+
+TEST(NetworkModel, LoadedModelPredictsTheSameBits) {
+  const Samples training = draw_samples(500, 1);
+  for (const char* statistics : {"full", "running"}) {
+    const auto model = make({{"training", {{"statistics", statistics}, {"ema", 0.9}}}});
+    FitSession session;
+    model->fit(training, {}, session);
+    const Container file = decode(encode(saved(*model)), "memory");
+    const auto loaded = model_kind("dcnn", Exit::kModel).load(file, "memory");
+    EXPECT_EQ(loaded->predict(training.x), model->predict(training.x));
+  }
+}
+
+TEST(NetworkModel, OneRowPredictsWhatItPredictsAmongOthers) {
+  const Samples training = draw_samples(700, 1);
+  const auto model = make();
+  FitSession session;
+  model->fit(training, {}, session);
+  const Eigen::MatrixXd all = model->predict(training.x);
+  for (const Index row : {0, 13, 519, 520, 699}) {
+    EXPECT_EQ(model->predict(training.x.row(row)), all.row(row)) << row;
+  }
+}
+
+/// Stops a training in the middle of an epoch and goes on in a new object from the checkpoint alone.
+TEST(NetworkModel, GoesOnFromAnyStepToTheSameWeights) {
+  const Samples training = draw_samples(600, 1), validation = draw_samples(200, 2);
+  const Json patch = {{"training", {{"ema", 0.99}}}, {"noise", {{"levels_db", {nullptr, 20.0}}}}};
+  const auto whole = make(patch);
+  FitSession session;
+  ASSERT_TRUE(whole->fit(training, validation, session));
+
+  for (const int stop_at : {0, 1, 12, 17, 30, 71}) {
+    Container checkpoint;
+    int steps = 0;
+    FitSession first;
+    first.stop_wanted = [&] { return steps == stop_at; };
+    first.step_done = [&](Index, Index, Index, double) { ++steps; };
+    first.save_checkpoint = [&](const Container& file) { checkpoint = file; };
+    ASSERT_FALSE(make(patch)->fit(training, validation, first));
+
+    const auto resumed = make(patch);
+    FitSession second;
+    second.checkpoint = decode(encode(checkpoint), "memory");
+    ASSERT_TRUE(resumed->fit(training, validation, second));
+    EXPECT_EQ(encode(saved(*resumed)), encode(saved(*whole))) << "stopped at step " << stop_at;
+  }
+}
+
+TEST(NetworkModel, KeepsTheEpochWithTheLeastValidationError) {
+  const Samples training = draw_samples(600, 1), validation = draw_samples(200, 2);
+  const auto model = make();
+  FitSession session;
+  double least = 1e9;
+  Eigen::VectorXd of_best;
+  session.epoch_done = [&](const EpochRecord& record) {
+    if (record.best) of_best = rmse(*model, validation);
+    double sum = 0.0;
+    for (const double value : record.validation_rmse) sum += value;
+    least = std::min(least, sum);
+  };
+  model->fit(training, validation, session);
+  EXPECT_EQ(rmse(*model, validation), of_best);
+}
+
+TEST(NetworkModel, StatisticsComeFromTheTrainingRowsAlone) {
+  const Samples training = draw_samples(600, 1);
+  Samples validation = draw_samples(200, 2);
+  const auto first = make(), second = make();
+  FitSession session;
+  first->fit(training, validation, session);
+  validation.x *= 3.0;
+  second->fit(training, validation, session);
+  EXPECT_EQ(saved(*first).metadata["map"], saved(*second).metadata["map"]);
+  EXPECT_EQ(saved(*first).metadata["target_scale"], saved(*second).metadata["target_scale"]);
+}
+
+TEST(NetworkModel, ValidPaddingNeedsRoomAndSaysSo) {
+  Json configuration = model_kind("dcnn", Exit::kUsage).preset("quick", false);
+  configuration["model"]["padding"] = "valid";
+  try {
+    model_kind("dcnn", Exit::kUsage).make({4, 1, configuration, "c.json", 1});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit(), Exit::kUsage);
+    EXPECT_NE(std::string(error.what()).find("'same'"), std::string::npos);
+  }
+}
+
+TEST(NetworkModel, DivergenceIsAnErrorNotANaN) {
+  Samples training = draw_samples(200, 1);
+  training.y *= 1e30;
+  const auto model = make({{"training", {{"lr", 1e6}, {"standardise_targets", false}}}});
+  FitSession session;
+  EXPECT_THROW(model->fit(training, {}, session), Error);
+}
+
+TEST(Presets, AreThoseOfTheSpecification) {
+  const ModelKind& kind = model_kind("dcnn", Exit::kUsage);
+  EXPECT_EQ(kind.preset("quick", false)["training"]["epochs"], 5);
+  EXPECT_EQ(kind.preset("standard", false)["training"]["epochs"], 30);
+  EXPECT_EQ(kind.preset("fair", false)["training"]["drop_period"], 40);
+  const Json paper = kind.preset("paper", true);
+  EXPECT_EQ(paper["training"]["epochs"], 500);
+  EXPECT_EQ(paper["training"]["drop_factor"], 0.001);
+  EXPECT_EQ(paper["training"]["standardise_targets"], false);
+  EXPECT_EQ(paper["model"]["init"], "narrow");
+  EXPECT_EQ(paper["model"]["dropout"], 0.5);
+  EXPECT_EQ(kind.preset("standard", true)["model"]["dropout"], 0.0);
+  EXPECT_EQ(kind.preset("standard", true)["training"]["batch"], 200);
+}
+
+}  // namespace
+}  // namespace dcnn
