@@ -1,0 +1,99 @@
+// The catalogue of what can be missing in, or wrong with, the model of a rigid tool.
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dcnn/core/json.h"
+#include "dcnn/core/options.h"
+#include "dcnn/physics/motion.h"
+#include "dcnn/physics/tool_model.h"
+
+namespace dcnn {
+
+/// Forces and torques read in S as they pass down the chain of effects.
+struct Wrench {
+  Eigen::MatrixXd force;   ///< (T,3) N
+  Eigen::MatrixXd torque;  ///< (T,3) N·m, or (0,3)
+};
+
+/// Where in the chain an effect acts (vocabulary.md): stages run in this order.
+enum class Stage {
+  kTool,   ///< changes the ToolModel (mass, com, gravity_tilt, inertial_terms)
+  kForce,  ///< force on the tool
+  kResonance,
+  kSensor,    ///< misalignment, gain, crosstalk
+  kDynamics,  ///< lowpass, delay
+  kOffset,    ///< drifts, bias, hum
+  kNoise,     ///< where the simulator adds sensor noise
+  kSaturation,
+  kQuantisation,
+};
+
+/// Which `axis` an effect takes.
+enum class AxisRule {
+  kNone,    ///< null
+  kLine,    ///< tool_z, base_x|y|z, w_sensor_x|y|z
+  kSensor,  ///< sensor_x|y|z
+  kAngle,   ///< <alpha|beta|gamma>:<sensor_x|y|z, tool_z or base_x|y|z>
+};
+
+/// What `interval_s` [a,b] means to an effect.
+enum class IntervalRule {
+  kNever,     ///< must be absent
+  kOptional,  ///< acts in a <= t <= b only; always where absent
+  kRequired,  ///< acts in a <= t <= b only
+  kOnset,     ///< acts from t >= a; b is where the last recording ends and changes nothing
+};
+
+/// One effect as it stands in `hidden` (contract.md section 4) or in a corrected model.json.
+struct EffectSpec {
+  std::string effect;
+  std::string axis;  ///< empty for none
+  std::optional<std::pair<double, double>> interval_s;
+  Json parameters;
+  std::string recording;  ///< acts in this file only; empty for all
+};
+
+/// One law of the catalogue (effects.def), applied in place by simulation and corrected model
+/// alike.
+struct EffectKind {
+  const char* name = nullptr;
+  Stage stage = Stage::kForce;
+  const char* kind = nullptr;      ///< parameter, structural, sensor or external
+  const char* meaning = nullptr;   ///< in words
+  const char* equation = nullptr;  ///< as in vocabulary.md
+  /// The parameter names with the values used by examples and tests, JSON.
+  const char* example = "{}";
+  AxisRule axis = AxisRule::kNone;
+  IntervalRule interval = IntervalRule::kOptional;
+  bool needs_time = false;  ///< leaves a static list as it is
+  /// Changes the model before anything is computed (Stage::kTool), else null.
+  void (*change)(ToolModel&, Options& parameters) = nullptr;
+  /// Changes the wrench (other stages), else null. Internal states start in equilibrium with the
+  /// first sample of the recording.
+  void (*apply)(Wrench&, const Motion&, const EffectSpec&, const ToolModel&,
+                Options& parameters) = nullptr;
+};
+
+/// The catalogue in the order of effects.def; effects of one stage act in this order.
+std::vector<const EffectKind*> effect_kinds();
+/// The kind of this name, or null.
+const EffectKind* find_effect(const std::string& name);
+/// The axes that a rule admits, empty for kNone.
+std::vector<std::string> admitted_axes(AxisRule rule);
+
+/// Keys of each entry: effect, axis, interval_s, recording, parameters. An unknown effect, a wrong
+/// axis or interval, and a missing, unknown or impossible parameter are Errors(exit).
+std::vector<EffectSpec> parse_effects(const Json& list, const std::string& where, Exit exit);
+Json to_json(const std::vector<EffectSpec>& effects);
+
+/// Applies one effect of Stage::kTool, or any other one to a wrench, respecting its interval.
+void change_model(const EffectSpec& effect, ToolModel& model);
+void apply_effect(const EffectSpec& effect, const Motion& motion, const ToolModel& model,
+                  Wrench& wrench);
+
+}  // namespace dcnn

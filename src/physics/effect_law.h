@@ -1,0 +1,60 @@
+// What the laws in effects/ share: their names, their parameters, and the axes they act along.
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "dcnn/physics/effect.h"
+
+namespace dcnn {
+
+#define EFFECT(id) extern const EffectKind id##_effect;
+#include "physics/effects.def"
+#undef EFFECT
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTiny = std::numeric_limits<double>::min();  ///< the least positive number
+
+/// A parameter that must be there: a finite number in [low, high].
+double parameter(Options& parameters, const std::string& key, double low = -kInfinity,
+                 double high = kInfinity);
+
+/// The three parameters <stem>_x<suffix>, _y, _z.
+Eigen::Vector3d parameters3(Options& parameters, const std::string& stem,
+                            const std::string& suffix);
+
+/// A constant force and torque: <stem>_x_n…, and on torques the optional <stem>_tx_nm…
+/// `per` follows the unit, as in rate_x_nps and rate_tx_nmps.
+struct Offset {
+  Eigen::Vector3d force, torque;
+};
+Offset read_offset(Options& parameters, const std::string& stem, const std::string& per = "");
+
+/// Adds factor_k·offset to each row k.
+void add(Wrench& wrench, const Offset& offset, const Eigen::VectorXd& factor);
+
+/// A unit axis n as seen in S at each sample, and what moves along or about it.
+struct Line {
+  Eigen::MatrixXd n_S;       ///< (T,3)
+  Eigen::VectorXd velocity;  ///< of the sensor's origin along n, m/s; about n for w_sensor_*, rad/s
+};
+/// For tool_z, base_* and w_sensor_*; Error(kData) where the motion lacks the velocity.
+Line line_of(const std::string& axis, const Motion& motion);
+
+/// For <angle>:<axis>: the angle (T) and the axis it pushes along (T,3).
+struct AngleLine {
+  Eigen::VectorXd angle;
+  Eigen::MatrixXd n_S;
+};
+AngleLine angle_line_of(const std::string& axis, const Motion& motion);
+
+/// 0, 1, 2 for an axis that ends in x, y, z.
+Index axis_index(const std::string& axis);
+
+/// Time from sample k - 1 to k, s.
+inline double step(const Motion& motion, Index k) { return motion.t(k) - motion.t(k - 1); }
+
+/// R^T (g - a_o), (T,3): the acceleration field that the tool feels, in S.
+Eigen::MatrixXd felt_acceleration(const ToolModel& model, const Motion& motion);
+
+}  // namespace dcnn

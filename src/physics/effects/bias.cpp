@@ -1,0 +1,23 @@
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolModel&,
+           Options& parameters) {
+  add(wrench, read_offset(parameters, "delta_bias"), Eigen::VectorXd::Ones(motion.samples()));
+}
+
+}  // namespace
+
+const EffectKind bias_effect{
+    .name = "bias",
+    .stage = Stage::kOffset,
+    .kind = "sensor",
+    .meaning = "constant offset",
+    .equation = "+ b",
+    .example = R"({"delta_bias_x_n": 0.3, "delta_bias_y_n": -0.2, "delta_bias_z_n": 0.1})",
+    .apply = apply,
+};
+
+}  // namespace dcnn

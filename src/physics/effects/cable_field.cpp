@@ -1,0 +1,31 @@
+#include <cmath>
+
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+/// The cable of the embedded data set (spec 1.6): smooth in the orientation, without memory.
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolModel&,
+           Options& parameters) {
+  const double amp = parameter(parameters, "amp_n");
+  for (Index k = 0; k < motion.samples(); ++k) {
+    const Eigen::RowVector3d q = motion.euler.row(k);
+    wrench.force.row(k) += amp * Eigen::RowVector3d(std::sin(q(0) + 0.4), std::cos(2.0 * q(1)),
+                                                    std::sin(q(2)) * std::cos(q(0)));
+  }
+}
+
+}  // namespace
+
+const EffectKind cable_field_effect{
+    .name = "cable_field",
+    .stage = Stage::kForce,
+    .kind = "structural",
+    .meaning = "cable that pulls differently in every orientation (demonstration data)",
+    .equation = "+ amp (sin(alpha+0.4), cos(2 beta), sin(gamma) cos(alpha))",
+    .example = R"({"amp_n": 0.2})",
+    .apply = apply,
+};
+
+}  // namespace dcnn

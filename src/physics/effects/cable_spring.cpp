@@ -1,0 +1,26 @@
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
+           Options& parameters) {
+  const double k = parameter(parameters, "k_nprad"), rest = parameter(parameters, "rest_rad");
+  const AngleLine line = angle_line_of(spec.axis, motion);
+  wrench.force -= (k * (line.angle.array() - rest)).matrix().asDiagonal() * line.n_S;
+}
+
+}  // namespace
+
+const EffectKind cable_spring_effect{
+    .name = "cable_spring",
+    .stage = Stage::kForce,
+    .kind = "structural",
+    .meaning = "cable or hose as a spring in an angle q",
+    .equation = "-k (q - rest) n",
+    .example = R"({"k_nprad": 0.5, "rest_rad": 0.1})",
+    .axis = AxisRule::kAngle,
+    .apply = apply,
+};
+
+}  // namespace dcnn

@@ -1,0 +1,23 @@
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+void change(ToolModel& model, Options& parameters) {
+  model.com += parameters3(parameters, "delta_com", "_m");
+}
+
+}  // namespace
+
+const EffectKind com_effect{
+    .name = "com",
+    .stage = Stage::kTool,
+    .kind = "parameter",
+    .meaning = "centre of mass elsewhere",
+    .equation = "c -> c + d",
+    .example = R"({"delta_com_x_m": 0.01, "delta_com_y_m": -0.005, "delta_com_z_m": 0.02})",
+    .interval = IntervalRule::kNever,
+    .change = change,
+};
+
+}  // namespace dcnn

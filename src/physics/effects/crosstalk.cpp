@@ -1,0 +1,30 @@
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+void apply(Wrench& wrench, const Motion&, const EffectSpec&, const ToolModel&,
+           Options& parameters) {
+  Eigen::Matrix3d C = Eigen::Matrix3d::Identity();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (i != j) C(i, j) = parameter(parameters, std::string("c_") + "xyz"[i] + "xyz"[j]);
+    }
+  }
+  wrench.force *= C.transpose();
+}
+
+}  // namespace
+
+const EffectKind crosstalk_effect{
+    .name = "crosstalk",
+    .stage = Stage::kSensor,
+    .kind = "sensor",
+    .meaning = "one axis leaks into another",
+    .equation = "F_i += c_ij F_j",
+    .example =
+        R"({"c_xy": 0.01, "c_xz": -0.005, "c_yx": -0.012, "c_yz": 0.007, "c_zx": 0.014, "c_zy": -0.009})",
+    .apply = apply,
+};
+
+}  // namespace dcnn

@@ -1,0 +1,42 @@
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "physics/effect_law.h"
+#include "physics/first_order.h"
+
+namespace dcnn {
+namespace {
+
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
+           Options& parameters) {
+  const double w0 = 2.0 * std::numbers::pi * parameter(parameters, "freq_hz", kTiny);
+  const double zeta = parameter(parameters, "zeta", 0.0, 0.999);
+  const double fraction = parameter(parameters, "fraction");
+  // H = w0^2/((s-p)(s-p*)): twice the real part of one complex first-order filter.
+  const std::complex<double> p(-zeta * w0, w0 * std::sqrt(1.0 - zeta * zeta));
+  FirstOrder<std::complex<double>> mode(p);
+  Eigen::VectorXd rigid = wrench.force.col(axis_index(spec.axis));
+  std::complex<double> x = motion.samples() > 0 ? -rigid(0) / p : 0.0;  // in equilibrium
+  for (Index k = 1; k < motion.samples(); ++k) {
+    x = mode.advance(x, rigid(k - 1), rigid(k), step(motion, k));
+    const double rung = w0 * w0 * x.imag() / p.imag();
+    wrench.force(k, axis_index(spec.axis)) += fraction * (rung - rigid(k));
+  }
+}
+
+}  // namespace
+
+const EffectKind flexible_resonance_effect{
+    .name = "flexible_resonance",
+    .stage = Stage::kResonance,
+    .kind = "structural",
+    .meaning = "tool rings along an axis",
+    .equation = "F_n -> F_n + fraction (H-1) F_n, H = w0^2/(s^2+2 zeta w0 s+w0^2)",
+    .example = R"({"freq_hz": 12.0, "zeta": 0.05, "fraction": 0.5})",
+    .axis = AxisRule::kSensor,
+    .needs_time = true,
+    .apply = apply,
+};
+
+}  // namespace dcnn

@@ -1,0 +1,24 @@
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+void apply(Wrench& wrench, const Motion&, const EffectSpec&, const ToolModel&,
+           Options& parameters) {
+  const Eigen::Vector3d k = parameters3(parameters, "gain", "");
+  wrench.force *= (1.0 + k.array()).matrix().asDiagonal();
+}
+
+}  // namespace
+
+const EffectKind gain_effect{
+    .name = "gain",
+    .stage = Stage::kSensor,
+    .kind = "sensor",
+    .meaning = "scale error per axis",
+    .equation = "F_i -> (1+k_i) F_i",
+    .example = R"({"gain_x": 0.02, "gain_y": -0.03, "gain_z": 0.01})",
+    .apply = apply,
+};
+
+}  // namespace dcnn

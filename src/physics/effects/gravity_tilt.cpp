@@ -1,0 +1,25 @@
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+void change(ToolModel& model, Options& parameters) {
+  const double tx = parameter(parameters, "tilt_x_rad"), ty = parameter(parameters, "tilt_y_rad");
+  model.gravity = Eigen::AngleAxisd(ty, Eigen::Vector3d::UnitY()) *
+                  (Eigen::AngleAxisd(tx, Eigen::Vector3d::UnitX()) * model.gravity);
+}
+
+}  // namespace
+
+const EffectKind gravity_tilt_effect{
+    .name = "gravity_tilt",
+    .stage = Stage::kTool,
+    .kind = "parameter",
+    .meaning = "robot base not level",
+    .equation = "g -> Ry(ty) Rx(tx) g",
+    .example = R"({"tilt_x_rad": 0.02, "tilt_y_rad": -0.03})",
+    .interval = IntervalRule::kNever,
+    .change = change,
+};
+
+}  // namespace dcnn

@@ -1,0 +1,30 @@
+#include <numbers>
+
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolModel&,
+           Options& parameters) {
+  const double hz = parameter(parameters, "freq_hz", 0.0);
+  const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * hz * motion.t.array();
+  add(wrench, read_offset(parameters, "sin"), angle.sin());
+  add(wrench, read_offset(parameters, "cos"), angle.cos());
+}
+
+}  // namespace
+
+const EffectKind hum_effect{
+    .name = "hum",
+    .stage = Stage::kOffset,
+    .kind = "sensor",
+    .meaning = "one fixed frequency in time, as it appears at the sample rate",
+    .equation = "s sin(2 pi f t) + c cos(2 pi f t)",
+    .example =
+        R"({"freq_hz": 50.0, "sin_x_n": 0.1, "sin_y_n": 0.0, "sin_z_n": -0.05, "cos_x_n": 0.02, "cos_y_n": 0.08, "cos_z_n": 0.0})",
+    .needs_time = true,
+    .apply = apply,
+};
+
+}  // namespace dcnn

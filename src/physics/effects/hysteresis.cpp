@@ -1,0 +1,59 @@
+#include <cmath>
+
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+/// Solves dy/du = 1 - rate·y exactly from y over u.
+double relax(double y, double u, double rate) {
+  if (std::abs(rate) < 1e-9) return y + u;
+  return y + (1.0 / rate - y) * -std::expm1(-rate * u);
+}
+
+/// The way u in which y < 0 comes to 0 under dy/du = 1 - rate·y.
+double way_to_zero(double y, double rate) {
+  return std::abs(rate) < 1e-9 ? -y : std::log1p(-rate * y) / rate;
+}
+
+/// Bouc-Wen (Wen 1976, n = 1) along a turn dq = sign·u·width. With y = sign·z the law is
+/// dy/du = 1 - (1-asym) y - asym abs(y): rate 1 above zero, 1 - 2 asym below; each part is exact.
+double turn(double z, double dq, double width, double asym) {
+  double y = std::copysign(1.0, dq) * z, u = std::abs(dq) / width;
+  if (y < 0.0) {
+    const double below = 1.0 - 2.0 * asym, crossing = way_to_zero(y, below);
+    if (u < crossing) return std::copysign(1.0, dq) * relax(y, u, below);
+    u -= crossing;
+    y = 0.0;
+  }
+  return std::copysign(1.0, dq) * relax(y, u, 1.0);
+}
+
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
+           Options& parameters) {
+  const double force = parameter(parameters, "force_n");
+  const double width = parameter(parameters, "width_rad", kTiny);
+  const double asym = parameter(parameters, "asym", 0.0, 1.0);
+  const AngleLine line = angle_line_of(spec.axis, motion);
+  double z = 0.0;
+  for (Index k = 1; k < motion.samples(); ++k) {
+    z = turn(z, line.angle(k) - line.angle(k - 1), width, asym);
+    wrench.force.row(k) -= force * z * line.n_S.row(k);
+  }
+}
+
+}  // namespace
+
+const EffectKind hysteresis_effect{
+    .name = "hysteresis",
+    .stage = Stage::kForce,
+    .kind = "structural",
+    .meaning = "cable with Bouc-Wen hysteresis in an angle q",
+    .equation = "dz = (dq/w)(1 - (1-asym) sign(dq) z - asym abs(z)); -force z n",
+    .example = R"({"force_n": 0.3, "width_rad": 0.2, "asym": 0.4})",
+    .axis = AxisRule::kAngle,
+    .needs_time = true,
+    .apply = apply,
+};
+
+}  // namespace dcnn

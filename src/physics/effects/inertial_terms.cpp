@@ -1,0 +1,20 @@
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+void change(ToolModel& model, Options&) { model.inertial = ToolModel::Inertial::kFull; }
+
+}  // namespace
+
+const EffectKind inertial_terms_effect{
+    .name = "inertial_terms",
+    .stage = Stage::kTool,
+    .kind = "structural",
+    .meaning = "simulation leaves inertial terms out",
+    .equation = "model.inertial -> full",
+    .interval = IntervalRule::kNever,
+    .change = change,
+};
+
+}  // namespace dcnn

@@ -1,0 +1,24 @@
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolModel&,
+           Options& parameters) {
+  add(wrench, read_offset(parameters, "rate", "ps"), motion.t);
+}
+
+}  // namespace
+
+const EffectKind linear_drift_effect{
+    .name = "linear_drift",
+    .stage = Stage::kOffset,
+    .kind = "sensor",
+    .meaning = "offset that grows steadily",
+    .equation = "rate t",
+    .example = R"({"rate_x_nps": 0.001, "rate_y_nps": -0.002, "rate_z_nps": 0.003})",
+    .needs_time = true,
+    .apply = apply,
+};
+
+}  // namespace dcnn

@@ -1,0 +1,40 @@
+#include "physics/effect_law.h"
+#include "physics/first_order.h"
+
+namespace dcnn {
+namespace {
+
+/// x' = (u - x)/tau of each column, from equilibrium, exact for an input linear between samples.
+void filter(Eigen::MatrixXd& signals, const Motion& motion, double tau) {
+  FirstOrder<double> lag(-1.0 / tau);
+  for (Index i = 0; i < signals.cols() && signals.rows() > 0; ++i) {
+    const Eigen::VectorXd u = signals.col(i) / tau;
+    double x = signals(0, i);
+    for (Index k = 1; k < signals.rows(); ++k) {
+      signals(k, i) = x = lag.advance(x, u(k - 1), u(k), step(motion, k));
+    }
+  }
+}
+
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolModel&,
+           Options& parameters) {
+  const double tau = parameter(parameters, "tau_s", 0.0);
+  if (tau == 0.0) return;
+  filter(wrench.force, motion, tau);
+  filter(wrench.torque, motion, tau);
+}
+
+}  // namespace
+
+const EffectKind lowpass_effect{
+    .name = "lowpass",
+    .stage = Stage::kDynamics,
+    .kind = "sensor",
+    .meaning = "first-order lag in the sensor",
+    .equation = "tau dF'/dt + F' = F",
+    .example = R"({"tau_s": 0.01})",
+    .needs_time = true,
+    .apply = apply,
+};
+
+}  // namespace dcnn

@@ -1,0 +1,57 @@
+#include <algorithm>
+#include <cmath>
+
+#include "physics/friction.h"
+
+namespace dcnn {
+namespace {
+
+/// Mean deflection z of the bristles (Canudas de Wit et al. 1995): dz/dt = v - abs(v) z/reach with
+/// reach = fc/sigma0. In the way s it is dz = (sign - z/reach) ds: exponential in s, whatever the
+/// speed.
+double deflect(double z, double v, double h, double reach) {
+  const double settled = std::copysign(reach, v);
+  return settled + (z - settled) * std::exp(-std::abs(v) * h / reach);
+}
+
+/// One step with the velocity running linearly from v0 to v1: exact but for the change of
+/// direction, which the sub-steps confine.
+double advance(double z, double v0, double v1, double h, double reach) {
+  const double way = std::max(std::abs(v0), std::abs(v1)) * h;
+  const int steps = static_cast<int>(std::clamp(std::ceil(10.0 * way / reach), 4.0, 64.0));
+  for (int i = 0; i < steps; ++i) {
+    z = deflect(z, v0 + (v1 - v0) * (i + 0.5) / steps, h / steps, reach);
+  }
+  return z;
+}
+
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
+           Options& parameters) {
+  const double fc = parameter(parameters, "fc_n", 0.0);
+  const double sigma0 = parameter(parameters, "sigma0_npm", kTiny);
+  const double sigma1 = parameter(parameters, "sigma1_nspm", 0.0);
+  if (fc == 0.0) return;  // bristles without strength never deflect
+  const double reach = fc / sigma0;
+  const Line line = line_of(spec.axis, motion);
+  double z = 0.0;
+  resist(wrench, line, [&](double v, Index k) {
+    if (k > 0) z = advance(z, line.velocity(k - 1), v, step(motion, k), reach);
+    return sigma0 * z + sigma1 * (v - std::abs(v) * z / reach);
+  });
+}
+
+}  // namespace
+
+const EffectKind lugre_friction_effect{
+    .name = "lugre_friction",
+    .stage = Stage::kForce,
+    .kind = "structural",
+    .meaning = "friction with elastic presliding",
+    .equation = "dz/dt = v - abs(v) z sigma0/fc; -(sigma0 z + sigma1 dz/dt) n",
+    .example = R"({"fc_n": 0.4, "sigma0_npm": 2000.0, "sigma1_nspm": 2.0})",
+    .axis = AxisRule::kLine,
+    .needs_time = true,
+    .apply = apply,
+};
+
+}  // namespace dcnn

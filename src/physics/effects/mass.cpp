@@ -1,0 +1,23 @@
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+void change(ToolModel& model, Options& parameters) {
+  model.mass += parameter(parameters, "delta_mass_kg");
+}
+
+}  // namespace
+
+const EffectKind mass_effect{
+    .name = "mass",
+    .stage = Stage::kTool,
+    .kind = "parameter",
+    .meaning = "tool heavier or lighter",
+    .equation = "m -> m + d",
+    .example = R"({"delta_mass_kg": 0.05})",
+    .interval = IntervalRule::kNever,
+    .change = change,
+};
+
+}  // namespace dcnn

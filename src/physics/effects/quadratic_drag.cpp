@@ -1,0 +1,27 @@
+#include <cmath>
+
+#include "physics/friction.h"
+
+namespace dcnn {
+namespace {
+
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
+           Options& parameters) {
+  const double c2 = parameter(parameters, "c2_ns2pm2", 0.0);
+  resist(wrench, line_of(spec.axis, motion), [=](double v, Index) { return c2 * v * std::abs(v); });
+}
+
+}  // namespace
+
+const EffectKind quadratic_drag_effect{
+    .name = "quadratic_drag",
+    .stage = Stage::kForce,
+    .kind = "structural",
+    .meaning = "drag with the square of speed",
+    .equation = "-c2 v abs(v) n",
+    .example = R"({"c2_ns2pm2": 5.0})",
+    .axis = AxisRule::kLine,
+    .apply = apply,
+};
+
+}  // namespace dcnn

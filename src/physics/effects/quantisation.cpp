@@ -1,0 +1,24 @@
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+void apply(Wrench& wrench, const Motion&, const EffectSpec&, const ToolModel&,
+           Options& parameters) {
+  const double q = parameter(parameters, "step_n", 0.0);
+  if (q > 0.0) wrench.force = q * (wrench.force / q).array().round();
+}
+
+}  // namespace
+
+const EffectKind quantisation_effect{
+    .name = "quantisation",
+    .stage = Stage::kQuantisation,
+    .kind = "sensor",
+    .meaning = "reading in coarse steps",
+    .equation = "q round(F/q)",
+    .example = R"({"step_n": 0.05})",
+    .apply = apply,
+};
+
+}  // namespace dcnn

@@ -1,0 +1,26 @@
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+void apply(Wrench& wrench, const Motion&, const EffectSpec& spec, const ToolModel&,
+           Options& parameters) {
+  const double limit = parameter(parameters, "limit_n", 0.0);
+  const Index i = axis_index(spec.axis);
+  wrench.force.col(i) = wrench.force.col(i).cwiseMax(-limit).cwiseMin(limit);
+}
+
+}  // namespace
+
+const EffectKind saturation_effect{
+    .name = "saturation",
+    .stage = Stage::kSaturation,
+    .kind = "sensor",
+    .meaning = "reading clipped",
+    .equation = "clip(F_axis, -L, L)",
+    .example = R"({"limit_n": 5.0})",
+    .axis = AxisRule::kSensor,
+    .apply = apply,
+};
+
+}  // namespace dcnn

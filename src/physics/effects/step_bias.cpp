@@ -1,0 +1,25 @@
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolModel&,
+           Options& parameters) {
+  add(wrench, read_offset(parameters, "step"), Eigen::VectorXd::Ones(motion.samples()));
+}
+
+}  // namespace
+
+const EffectKind step_bias_effect{
+    .name = "step_bias",
+    .stage = Stage::kOffset,
+    .kind = "sensor",
+    .meaning = "offset jumps once (bumped sensor) and stays",
+    .equation = "+ s from t >= a",
+    .example = R"({"step_x_n": 0.4, "step_y_n": -0.3, "step_z_n": 0.2})",
+    .interval = IntervalRule::kOnset,
+    .needs_time = true,
+    .apply = apply,
+};
+
+}  // namespace dcnn

@@ -1,0 +1,47 @@
+#include <cmath>
+
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+/// Follows the logged temperature.
+void follow(Wrench& wrench, const Motion& motion, Options& parameters) {
+  const Offset k = read_offset(parameters, "k", "pk");
+  const double t_ref = parameter(parameters, "t_ref_degc");
+  require(
+      motion.temperature.size() == motion.samples(), Exit::kData, motion.recording,
+      ": thermal_drift with t_ref_degc needs a column temperature; log it, or give a_x_n … tau_s");
+  add(wrench, k, motion.temperature.array() - t_ref);
+}
+
+/// Settles with the clock.
+void settle(Wrench& wrench, const Motion& motion, Options& parameters) {
+  const Offset a = read_offset(parameters, "a");
+  const double tau = parameter(parameters, "tau_s", kTiny);
+  add(wrench, a, 1.0 - (-motion.t.array() / tau).exp());
+}
+
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolModel&,
+           Options& parameters) {
+  if (parameters.has("t_ref_degc")) {
+    follow(wrench, motion, parameters);
+  } else {
+    settle(wrench, motion, parameters);
+  }
+}
+
+}  // namespace
+
+const EffectKind thermal_drift_effect{
+    .name = "thermal_drift",
+    .stage = Stage::kOffset,
+    .kind = "sensor",
+    .meaning = "offset that settles, or follows `temperature`",
+    .equation = "a (1 - exp(-t/tau)), or k (T - t_ref)",
+    .example = R"({"a_x_n": 0.3, "a_y_n": -0.2, "a_z_n": 0.5, "tau_s": 60.0})",
+    .needs_time = true,
+    .apply = apply,
+};
+
+}  // namespace dcnn

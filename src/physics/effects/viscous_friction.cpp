@@ -1,0 +1,25 @@
+#include "physics/friction.h"
+
+namespace dcnn {
+namespace {
+
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
+           Options& parameters) {
+  const double c = parameter(parameters, "c_nspm", 0.0);
+  resist(wrench, line_of(spec.axis, motion), [=](double v, Index) { return c * v; });
+}
+
+}  // namespace
+
+const EffectKind viscous_friction_effect{
+    .name = "viscous_friction",
+    .stage = Stage::kForce,
+    .kind = "structural",
+    .meaning = "linear friction",
+    .equation = "-c v n",
+    .example = R"({"c_nspm": 2.0})",
+    .axis = AxisRule::kLine,
+    .apply = apply,
+};
+
+}  // namespace dcnn

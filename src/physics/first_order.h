@@ -1,0 +1,41 @@
+// Exact response of x' = p·x + u, of which every linear filter is made.
+#pragma once
+
+#include <cmath>
+#include <complex>
+
+namespace dcnn {
+
+/// Advances x' = p·x + u over a step of h seconds exactly for an input that runs linearly from u0
+/// to u1 (first-order hold; Franklin, Powell and Workman 1998, section 6.3.2). `Scalar` is double
+/// or complex.
+template <class Scalar>
+class FirstOrder {
+ public:
+  explicit FirstOrder(Scalar pole) : pole_(pole) {}
+
+  Scalar advance(Scalar x, double u0, double u1, double h) {
+    if (h != h_) prepare(h);
+    return decay_ * x + from_constant_ * u0 + from_ramp_ * (u1 - u0);
+  }
+
+ private:
+  void prepare(double h) {
+    const Scalar z = pole_ * h;
+    h_ = h;
+    decay_ = std::exp(z);
+    if (std::abs(z) < 1e-3) {  // series: the closed forms cancel
+      from_constant_ = h * (1.0 + z / 2.0 + z * z / 6.0 + z * z * z / 24.0);
+      from_ramp_ = h * (0.5 + z / 6.0 + z * z / 24.0 + z * z * z / 120.0);
+    } else {
+      from_constant_ = h * (decay_ - 1.0) / z;
+      from_ramp_ = h * (decay_ - 1.0 - z) / (z * z);
+    }
+  }
+
+  Scalar pole_;
+  double h_ = -1.0;
+  Scalar decay_{}, from_constant_{}, from_ramp_{};
+};
+
+}  // namespace dcnn

@@ -1,0 +1,115 @@
+#include "dcnn/physics/simulator.h"
+
+#include <cmath>
+
+#include "dcnn/core/options.h"
+#include "physics/effect_law.h"
+#include "physics/simulator_json.h"
+
+namespace dcnn {
+namespace {
+
+using Eigen::RowVector3d;
+using Eigen::Vector3d;
+
+/// AR(1) of stationary standard deviation `deviation`, starting anew in each segment.
+void add_noise(Eigen::MatrixXd& signals, const Motion& motion, double deviation, double ar,
+               Rng& rng) {
+  if (signals.rows() == 0) return;
+  const double fresh = std::sqrt(1.0 - ar * ar);
+  for (const Segment& segment : motion.segments) {
+    RowVector3d state;
+    for (Index k = segment.begin; k < segment.end; ++k) {
+      for (Index i = 0; i < 3; ++i) {
+        const double draw = rng.normal();
+        state(i) = k == segment.begin ? draw : ar * state(i) + fresh * draw;
+      }
+      signals.row(k) += deviation * state;
+    }
+  }
+}
+
+}  // namespace
+
+Simulator parse_simulator(const Json& json, const std::string& where, Exit exit) {
+  Options options(json, where, exit);
+  Simulator simulator{read_tool_model(options), parse_effects(options.raw("effects"), where, exit)};
+  options.finish();
+  return simulator;
+}
+
+Simulator read_simulator(const std::filesystem::path& path) {
+  return parse_simulator(read_json(path, Exit::kData), path.string(), Exit::kData);
+}
+
+Json to_json(const Simulator& simulator) {
+  Json json = to_json(simulator.model);
+  if (!simulator.effects.empty()) json["effects"] = to_json(simulator.effects);
+  return json;
+}
+
+Wrench rigid_wrench(const ToolModel& model, const Motion& motion) {
+  const bool full = model.inertial == ToolModel::Inertial::kFull;
+  const Eigen::MatrixXd felt = felt_acceleration(model, motion);
+  Wrench wrench{Eigen::MatrixXd(motion.samples(), 3), Eigen::MatrixXd(0, 3)};
+  if (model.inertia) wrench.torque.resize(motion.samples(), 3);
+  for (Index k = 0; k < motion.samples(); ++k) {
+    const Vector3d w = motion.w_S.row(k), dw = motion.dw_S.row(k), c = model.com;
+    const Vector3d field = felt.row(k);
+    Vector3d at_com = field;
+    if (full) at_com -= dw.cross(c) + w.cross(w.cross(c));
+    wrench.force.row(k) = (model.mass * at_com + model.bias).transpose();
+    if (!model.inertia) continue;
+    Vector3d torque = c.cross(model.mass * field) + model.bias_torque;
+    if (full) torque -= *model.inertia * dw + w.cross(*model.inertia * w);
+    wrench.torque.row(k) = torque.transpose();
+  }
+  return wrench;
+}
+
+Wrench simulate(const Simulator& simulator, const Motion& motion, const SensorNoise* noise,
+                Rng* rng) {
+  ToolModel model = simulator.model;
+  const auto each = [&](Stage stage, auto act) {
+    for (const EffectKind* kind : effect_kinds()) {
+      if (kind->stage != stage) continue;
+      for (const auto& effect : simulator.effects) {
+        if (effect.effect == kind->name) act(effect);
+      }
+    }
+  };
+  each(Stage::kTool, [&](const EffectSpec& effect) { change_model(effect, model); });
+  const Offset bias{model.bias, model.bias_torque};
+  model.bias.setZero();  // the sensor's offset acts after its gain and its filters
+  model.bias_torque.setZero();
+  Wrench wrench = rigid_wrench(model, motion);
+  for (int s = static_cast<int>(Stage::kForce); s <= static_cast<int>(Stage::kQuantisation); ++s) {
+    const auto stage = static_cast<Stage>(s);
+    if (stage == Stage::kOffset) add(wrench, bias, Eigen::VectorXd::Ones(motion.samples()));
+    if (stage == Stage::kNoise && noise) {
+      add_noise(wrench.force, motion, noise->force, noise->ar, *rng);
+      add_noise(wrench.torque, motion, noise->torque, noise->ar, *rng);
+    }
+    each(stage, [&](const EffectSpec& effect) { apply_effect(effect, motion, model, wrench); });
+  }
+  return wrench;
+}
+
+void set_wrench(const Wrench& wrench, const std::string& suffix, Recording& recording) {
+  for (Index i = 0; i < 3; ++i) {
+    recording.set(std::string("f") + "xyz"[i] + suffix, wrench.force.col(i));
+  }
+  for (Index i = 0; i < 3 && wrench.torque.rows() > 0; ++i) {
+    recording.set(std::string("t") + "xyz"[i] + suffix, wrench.torque.col(i));
+  }
+}
+
+Recording predict_motion(const Simulator& simulator, const Recording& motion,
+                         const DerivativeSpec& derivative) {
+  const Wrench wrench = simulate(simulator, motion_of(motion, simulator.model, derivative));
+  Recording out = motion;
+  set_wrench(wrench, "", out);
+  return out;
+}
+
+}  // namespace dcnn
