@@ -105,7 +105,7 @@ std::string fault_of(std::string_view cell) {
   if (contains(text, ";")) return "contains ';'" + found + "; separate columns by ','";
   if (contains(text, "\t")) return "contains a tab" + found + "; separate columns by ','";
   double value = 0.0;
-  const std::string_view digits = text[0] == '+' ? text.substr(1) : text;
+  const std::string_view digits = text[0] == '+' && text.substr(0, 2) != "+-" ? text.substr(1) : text;
   const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool whole = rest == digits.data() + digits.size() && error != std::errc::invalid_argument;
   const bool has_digit = text.find_first_of("0123456789") != std::string_view::npos;

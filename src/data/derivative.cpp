@@ -104,7 +104,8 @@ void check_lengths(const Recording& recording, const DerivativeSpec& spec) {
 
 int DerivativeSpec::window(double dt) const {
   assert(dt > 0.0);
-  const int wanted = 2 * static_cast<int>(std::round(window_s / (2.0 * dt))) + 1;
+  constexpr double kMost = 1e8;
+  const int wanted = 2 * static_cast<int>(std::min(std::round(window_s / (2.0 * dt)), kMost)) + 1;
   const int least = order + 4 + (order % 2 == 0 ? 1 : 0);
   return std::max(wanted, least);
 }

@@ -56,7 +56,7 @@ Eigen::MatrixXd low_pass(const Eigen::MatrixXd& signals, const Recording& record
   const Section sections[] = {
       make_section(hz, recording.dt, 0.5 / std::cos(std::numbers::pi / 8.0)),
       make_section(hz, recording.dt, 0.5 / std::cos(3.0 * std::numbers::pi / 8.0))};
-  const auto settling = static_cast<Index>(std::ceil(3.0 / (hz * recording.dt)));
+  const auto settling = static_cast<Index>(std::ceil(5.0 / (hz * recording.dt)));
   Eigen::MatrixXd filtered(signals.rows(), signals.cols());
   for (const Segment& segment : recording.segments) {
     const Index pad = std::min(segment.size() - 1, settling);
