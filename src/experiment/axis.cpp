@@ -59,7 +59,8 @@ Axis linear_axis(double low, double high, int wanted, bool outward) {
   const int exponent = common_exponent(std::max(std::abs(low), std::abs(high)));
   const double unit = std::pow(10.0, exponent);
   if (exponent != 0) axis.multiplier = "×10" + superscript(exponent);
-  const int decimals = std::clamp(-static_cast<int>(std::floor(std::log10(step / unit) + kSlack)), 0, 12);
+  const int decimals =
+      std::clamp(-static_cast<int>(std::floor(std::log10(step / unit) + kSlack)), 0, 12);
   const double first = std::ceil(low / step - kSlack);
   const double last = std::floor(high / step + kSlack);
   for (double k = first; k <= last; ++k) {
@@ -71,7 +72,10 @@ Axis linear_axis(double low, double high, int wanted, bool outward) {
 Axis log_axis(double low, double high) {
   const int first = static_cast<int>(std::floor(std::log10(low) + 1e-9));
   const int last = std::max(first + 1, static_cast<int>(std::ceil(std::log10(high) - 1e-9)));
-  Axis axis{.low = std::pow(10.0, first), .high = std::pow(10.0, last), .log = true, .ticks = {},
+  Axis axis{.low = std::pow(10.0, first),
+            .high = std::pow(10.0, last),
+            .log = true,
+            .ticks = {},
             .multiplier = {}};
   const int decades = last - first;
   const int stride = (decades + 7) / 8;
@@ -89,7 +93,10 @@ Axis log_axis(double low, double high) {
 }
 
 Axis category_axis(const std::vector<std::string>& words) {
-  Axis axis{.low = -0.5, .high = static_cast<double>(words.size()) - 0.5, .log = false, .ticks = {},
+  Axis axis{.low = -0.5,
+            .high = static_cast<double>(words.size()) - 0.5,
+            .log = false,
+            .ticks = {},
             .multiplier = {}};
   for (std::size_t i = 0; i < words.size(); ++i) {
     axis.ticks.push_back({static_cast<double>(i), words[i]});

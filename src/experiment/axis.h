@@ -22,8 +22,8 @@ struct Axis {
   double place(double value) const;
 };
 
-/// About `wanted` ticks at 1, 2 or 5 times a power of ten inside [low, high]; `outward` extends the range
-/// to whole ticks. An empty range is widened.
+/// About `wanted` ticks at 1, 2 or 5 times a power of ten inside [low, high]; `outward` extends the
+/// range to whole ticks. An empty range is widened.
 Axis linear_axis(double low, double high, int wanted, bool outward);
 
 /// Whole decades around [low, high], both positive.

@@ -74,7 +74,8 @@ void HtmlReport::table(const std::vector<std::string>& header,
   for (std::size_t i = 0; i < header.size(); ++i) {
     numeric.push_back(!rows.empty() && column_is_numeric(rows, i));
   }
-  body_ += "<div class=\"wide\"><table>\n<thead>" + table_row(header, numeric, "th") + "</thead>\n<tbody>\n";
+  body_ += "<div class=\"wide\"><table>\n<thead>" + table_row(header, numeric, "th") +
+           "</thead>\n<tbody>\n";
   for (const auto& row : rows) body_ += table_row(row, numeric, "td");
   body_ += "</tbody>\n</table></div>\n";
 }
@@ -88,14 +89,15 @@ std::string HtmlReport::html() const {
   const auto title = escape_markup(title_);
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
-         title + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n<h1>" + title + "</h1>\n" +
-         body_ + "</body>\n</html>\n";
+         title + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n<h1>" + title +
+         "</h1>\n" + body_ + "</body>\n</html>\n";
 }
 
 Chart histogram(const std::string& title, const std::string& x_label,
                 const std::vector<std::vector<double>>& values,
                 const std::vector<std::string>& labels, int bins) {
-  Chart chart{.title = title, .x_label = x_label, .y_label = "count", .series = {}, .categories = {}};
+  Chart chart{
+      .title = title, .x_label = x_label, .y_label = "count", .series = {}, .categories = {}};
   double low = INFINITY, high = -INFINITY;
   for (const auto& set : values) {
     for (const double value : set) {
@@ -105,10 +107,14 @@ Chart histogram(const std::string& title, const std::string& x_label,
     }
   }
   if (low > high || bins < 1) return chart;
-  const double width = high > low ? high / bins - low / bins : 1;  // no overflow at the largest numbers
-  if (high == low) low -= 0.5 * bins;                               // one value is in the middle
+  const double width =
+      high > low ? high / bins - low / bins : 1;  // no overflow at the largest numbers
+  if (high == low) low -= 0.5 * bins;             // one value is in the middle
   for (std::size_t k = 0; k < values.size(); ++k) {
-    Series series{.label = k < labels.size() ? labels[k] : "", .x = {}, .y = {}, .error = {},
+    Series series{.label = k < labels.size() ? labels[k] : "",
+                  .x = {},
+                  .y = {},
+                  .error = {},
                   .style = Series::Style::kBars};
     series.y.assign(static_cast<std::size_t>(bins), 0.0);
     for (int i = 0; i < bins; ++i) series.x.push_back(low + (i + 0.5) * width);
