@@ -83,8 +83,8 @@ class Drawing {
       for (const auto i : points_[k]) {
         left = std::min(left, series.x[i] - half);
         right = std::max(right, series.x[i] + half);
-        const double bottom = series.y[i] - error(k, i);
-        low = std::min(low, chart_.log_y && bottom <= 0 ? series.y[i] : bottom);
+        // On a logarithmic axis a bar that reaches down to nearly zero would squeeze all data.
+        low = std::min(low, series.y[i] - (chart_.log_y ? 0 : error(k, i)));
         high = std::max(high, series.y[i] + error(k, i));
         if (has_bars(series) && !chart_.log_y) low = std::min(low, 0.0), high = std::max(high, 0.0);
       }

@@ -6,7 +6,8 @@
 namespace dcnn {
 namespace {
 
-constexpr double kLargest = 1e300;  // beyond, differences of two values are infinite
+constexpr double kLargest = 1e300;    // beyond, differences of two values are infinite
+constexpr double kSmallest = 1e-290;  // below, the decade's power of ten is no normal number
 
 /// The column of every point.
 std::vector<double> columns_of(const Series& series, const std::vector<std::size_t>& points,
@@ -30,7 +31,7 @@ std::vector<std::size_t> drawable_points(const Series& series, bool positive) {
   std::vector<std::size_t> points;
   for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
     const bool shown = std::abs(series.x[i]) < kLargest && std::abs(series.y[i]) < kLargest;
-    if (shown && (!positive || series.y[i] > 0)) points.push_back(i);
+    if (shown && (!positive || series.y[i] > kSmallest)) points.push_back(i);
   }
   return points;
 }
