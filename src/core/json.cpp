@@ -8,9 +8,11 @@
 namespace dcnn {
 namespace {
 
-constexpr int kMaxDepth = 64;  // the library parses any depth, but its destructor and dump() recurse
+constexpr int kMaxDepth =
+    64;  // the library parses any depth, but its destructor and dump() recurse
 
-/// Refuses what the library would take silently: a key given twice, or nesting that exhausts the stack.
+/// Refuses what the library would take silently: a key given twice, or nesting that exhausts the
+/// stack.
 class Strictness {
  public:
   Strictness(const std::string& where, Exit exit) : where_(where), exit_(exit) {}
@@ -34,7 +36,8 @@ class Strictness {
   std::vector<std::set<std::string>> keys_;
 };
 
-/// "line 3, column 7: …" from the library's "[json.exception.parse_error.101] parse error at line 3, …".
+/// "line 3, column 7: …" from the library's "[json.exception.parse_error.101] parse error at line
+/// 3, …".
 std::string short_reason(const std::string& what) {
   const auto bracket = what.find("] ");
   return bracket == std::string::npos ? what : what.substr(bracket + 2);
@@ -43,6 +46,8 @@ std::string short_reason(const std::string& what) {
 }  // namespace
 
 Json parse_json(std::string_view text, const std::string& where, Exit exit) {
+  // The library takes a NUL for the end of the text and would ignore what follows.
+  require(text.find('\0') == text.npos, exit, where, ": has a NUL byte; it is not a JSON text");
   try {
     return Json::parse(text.begin(), text.end(), Strictness(where, exit));
   } catch (const Json::exception& error) {

@@ -1,0 +1,24 @@
+// The marks a chart is made of, as SVG elements. Looks are numbered: the k-th series has the k-th
+// look.
+#pragma once
+
+#include <string>
+
+namespace dcnn {
+
+struct Point {
+  double x, y;  // pixels, y downwards
+};
+
+std::string number(double value);  ///< a coordinate
+
+std::string line(Point a, Point b, const std::string& attributes);
+std::string words(Point at, const std::string& text, const std::string& attributes);
+std::string box(Point corner, double width, double height, const std::string& attributes);
+std::string marker(Point at, std::size_t k);
+
+std::string stroke(std::size_t k);  ///< attributes: colour
+std::string dashed(std::size_t k);  ///< attributes: colour and dashes of a line
+std::string filled(std::size_t k);  ///< attributes: colour and opacity of a bar
+
+}  // namespace dcnn

@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Which rooms a room may include besides itself (docs: includes only point downwards).
+const std::map<std::string, std::set<std::string>> kMayInclude = {
+    {"core", {}},
+    {"nn", {"core"}},
+    {"data", {"core"}},
+    {"physics", {"core", "data"}},
+    {"models", {"core", "nn", "data", "physics"}},
+    {"diagnose", {"core", "data", "physics"}},
+    {"runtime", {"core", "nn", "data", "models"}},
+    {"experiment", {"core", "nn", "data", "physics", "models", "diagnose", "runtime"}},
+    {"tools", {"core", "nn", "data", "physics", "models", "diagnose", "runtime", "experiment"}}};
+
+/// The includes in `text` that a file of `room` may not have.
+std::vector<std::string> wrong_includes(const std::string& room, const std::string& text) {
+  static const std::regex include(
+      R"re((?:^|\n)\s*#\s*include\s*["<](?:dcnn/)?([a-z_]+)/([^">]+)[">])re");
+  std::vector<std::string> wrong;
+  for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it) {
+    const std::string target = (*it)[1];
+    if (!kMayInclude.contains(target) || target == room) continue;
+    const auto allowed = kMayInclude.find(room);
+    if (allowed == kMayInclude.end() || !allowed->second.contains(target)) {
+      wrong.push_back(target + "/" + std::string((*it)[2]));
+    }
+  }
+  return wrong;
+}
+
+struct Source {
+  fs::path path;
+  std::string room, text;
+};
+
+std::vector<Source> sources() {
+  std::vector<Source> found;
+  const fs::path root = DCNN_SOURCE_DIR;
+  for (const auto* folder : {"include/dcnn", "src", "tools"}) {
+    for (const auto& file : fs::recursive_directory_iterator(root / folder)) {
+      const auto extension = file.path().extension();
+      if (extension != ".h" && extension != ".cpp" && extension != ".def") continue;
+      std::ostringstream text;
+      text << std::ifstream(file.path()).rdbuf();
+      const auto inside = fs::relative(file.path(), root / folder);
+      found.push_back({file.path(),
+                       folder == std::string("tools") ? "tools" : inside.begin()->string(),
+                       text.str()});
+    }
+  }
+  return found;
+}
+
+TEST(Layering, CheckerSeesAWrongInclude) {
+  EXPECT_TRUE(
+      wrong_includes("models", "#include \"dcnn/nn/layer.h\"\n#include <vector>\n").empty());
+  EXPECT_TRUE(
+      wrong_includes("core", "#include <sys/stat.h>\n#include \"dcnn/core/file.h\"").empty());
+  EXPECT_EQ(wrong_includes("core", "//\n#include \"dcnn/nn/layer.h\"").size(), 1U);
+  EXPECT_EQ(wrong_includes("nn", "# include <dcnn/data/csv.h>").size(), 1U);
+  EXPECT_EQ(wrong_includes("diagnose", "#include \"models/a.h\"\n#include \"nn/b.h\"").size(), 2U);
+  EXPECT_EQ(wrong_includes("unlisted", "#include \"dcnn/core/file.h\"").size(), 1U);
+}
+
+TEST(Layering, IncludesPointDownwards) {
+  const auto all = sources();
+  ASSERT_GT(all.size(), 20U);
+  for (const auto& source : all) {
+    for (const auto& include : wrong_includes(source.room, source.text)) {
+      ADD_FAILURE() << source.path << ": " << source.room << " may not include " << include;
+    }
+  }
+}
+
+TEST(Layering, NoFileIsLongerThan300Lines) {
+  for (const auto& source : sources()) {
+    EXPECT_LE(std::count(source.text.begin(), source.text.end(), '\n'), 300) << source.path;
+  }
+}
+
+}  // namespace
