@@ -14,6 +14,7 @@ struct Axis {
   std::string name, measured, unit;
   std::string position, velocity, acceleration, simulated;
   std::vector<std::string> signals, base;
+  bool has_base = false;  ///< 'base' is given; an empty list: the simulator predicts a constant
   double scale = 1.0;
 };
 

@@ -1,0 +1,160 @@
+#include "data/clock.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "data/spline.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kEpoch = 1e6;       // s; a larger t is a date, not a duration
+constexpr double kGap = 5.0;         // times dt
+constexpr double kOff = 0.2;         // of dt
+constexpr double kTolerated = 0.01;  // of the steps
+constexpr double kSlowest = 1000.0;  // s
+
+std::string place(const std::string& file, Index row) {
+  return file + ":" + std::to_string(row + 2);  // the header is line 1
+}
+
+void check_increasing(const Eigen::VectorXd& t, const std::string& file) {
+  for (Index i = 1; i < t.size(); ++i) {
+    const double step = t[i] - t[i - 1];
+    if (step > 0.0 && std::isfinite(step)) continue;
+    require(step != 0.0, Exit::kData, place(file, i), ": column 't' repeats ", t[i],
+            "; remove the repeated row");
+    fail(Exit::kData, place(file, i), ": column 't' goes from ", t[i - 1], " to ", t[i],
+         "; time must increase: sort the rows, or cut the recording where its clock was set");
+  }
+}
+
+double median_step(const Eigen::VectorXd& t) {
+  if (t.size() < 2) return 0.0;
+  Eigen::VectorXd steps = t.tail(t.size() - 1) - t.head(t.size() - 1);
+  const auto middle = steps.begin() + steps.size() / 2;
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+std::vector<Segment> split_at_gaps(const Eigen::VectorXd& t, double dt) {
+  std::vector<Segment> segments = {{0, t.size()}};
+  for (Index i = 1; i < t.size(); ++i) {
+    if (t[i] - t[i - 1] <= kGap * dt) continue;
+    segments.back().end = i;
+    segments.push_back({i, t.size()});
+  }
+  return segments;
+}
+
+/// Where the rows of one segment go: source row and time of each new row.
+struct Grid {
+  std::vector<Index> source;  // the last old row (within the segment) not after the new time
+  std::vector<double> t;
+};
+
+Grid make_grid(const Eigen::VectorXd& t, double hz) {
+  Grid grid;
+  const auto count = static_cast<Index>(std::floor((t[t.size() - 1] - t[0]) * hz + 1e-6)) + 1;
+  Index k = 0;
+  for (Index i = 0; i < count; ++i) {
+    const double at = std::min(t[0] + static_cast<double>(i) / hz, t[t.size() - 1]);
+    while (k + 1 < t.size() && t[k + 1] <= at) ++k;
+    grid.source.push_back(k);
+    grid.t.push_back(at);
+  }
+  return grid;
+}
+
+Eigen::VectorXd interpolate(const Grid& grid, const Eigen::VectorXd& t, const Eigen::VectorXd& x,
+                            bool smooth) {
+  Eigen::VectorXd out(static_cast<Index>(grid.t.size()));
+  if (smooth) {
+    const Spline spline(t, x);
+    for (std::size_t i = 0; i < grid.t.size(); ++i) {
+      out[static_cast<Index>(i)] = spline.value(grid.t[i], grid.source[i]);
+    }
+    return out;
+  }
+  for (std::size_t i = 0; i < grid.t.size(); ++i) {
+    const Index k = grid.source[i], next = std::min(k + 1, t.size() - 1);
+    const double part = next > k ? (grid.t[i] - t[k]) / (t[next] - t[k]) : 0.0;
+    out[static_cast<Index>(i)] = (1.0 - part) * x[k] + part * x[next];
+  }
+  return out;
+}
+
+}  // namespace
+
+void set_clock(Recording& recording, const std::string& file) {
+  recording.segments = {{0, recording.samples()}};
+  if (!recording.has("t")) return;
+  Eigen::VectorXd t = recording.column("t");
+  check_increasing(t, file);
+  if (t[0] > kEpoch) {
+    recording.clock_origin = t[0];
+    t.array() -= t[0];
+    recording.set("t", t);
+    recording.notes.push_back("clock origin subtracted from t");
+  }
+  recording.dt = median_step(t);
+  require(recording.dt > 0.0, Exit::kData, file,
+          ": has one sample in time; record for longer, or leave out t for a list of static poses");
+  require(recording.dt < kSlowest, Exit::kData, file, ": the median step of column 't' is ",
+          recording.dt, " s; write t in seconds");
+  recording.segments = split_at_gaps(t, recording.dt);
+  for (std::size_t k = 1; k < recording.segments.size(); ++k) {
+    const Index row = recording.segments[k].begin;
+    std::ostringstream note;
+    note << "gap of " << t[row] - t[row - 1] << " s before t = " << t[row] << " s: split there";
+    recording.notes.push_back(note.str());
+  }
+}
+
+void check_regular(const Recording& recording, const std::string& file) {
+  if (recording.dt == 0.0) return;
+  const Eigen::VectorXd t = recording.column("t");
+  Index off = 0, steps = 0, first = 0;
+  for (const Segment& segment : recording.segments) {
+    for (Index i = segment.begin + 1; i < segment.end; ++i, ++steps) {
+      // The smallest of margins: a clock written with few digits may sit exactly on the limit.
+      if (std::abs(t[i] - t[i - 1] - recording.dt) <= (kOff + 1e-9) * recording.dt) continue;
+      if (off++ == 0) first = i;
+    }
+  }
+  require(static_cast<double>(off) <= kTolerated * static_cast<double>(steps), Exit::kData,
+          place(file, first), ": irregular clock: ", off, " of ", steps,
+          " steps are off by more than 20 % of the median ", recording.dt, " s; use --resample");
+}
+
+void resample(Recording& recording, double hz, const std::vector<std::string>& smooth) {
+  const Table old = recording.table;
+  const Eigen::VectorXd t = recording.column("t");
+  if (hz == 0.0) hz = 1.0 / recording.dt;
+  std::vector<Grid> grids;
+  std::vector<Segment> segments;
+  for (const Segment& segment : recording.segments) {
+    grids.push_back(make_grid(t.segment(segment.begin, segment.size()), hz));
+    const Index begin = segments.empty() ? 0 : segments.back().end;
+    segments.push_back({begin, begin + static_cast<Index>(grids.back().t.size())});
+  }
+  Eigen::MatrixXd values(segments.back().end, old.values.cols());
+  for (std::size_t k = 0; k < grids.size(); ++k) {
+    const Segment from = recording.segments[k], to = segments[k];
+    const Eigen::VectorXd clock = t.segment(from.begin, from.size());
+    for (Index column = 0; column < values.cols(); ++column) {
+      const auto& name = old.columns[static_cast<std::size_t>(column)];
+      const bool by_spline = std::find(smooth.begin(), smooth.end(), name) != smooth.end();
+      values.col(column).segment(to.begin, to.size()) = interpolate(
+          grids[k], clock, old.values.col(column).segment(from.begin, from.size()), by_spline);
+    }
+  }
+  recording.table.values = std::move(values);
+  recording.segments = std::move(segments);
+  recording.dt = 1.0 / hz;
+  std::ostringstream note;
+  note << "resampled to " << hz << " Hz: pose by cubic spline, all other columns linearly";
+  recording.notes.push_back(note.str());
+}
+
+}  // namespace dcnn

@@ -1,0 +1,20 @@
+// The clock of a recording: increasing, without gaps inside a segment, regular.
+#pragma once
+
+#include "dcnn/data/recording.h"
+
+namespace dcnn {
+
+/// Checks column t (line = row + 2 in errors that name `file`), moves its origin where it is an
+/// epoch time, and fills dt and segments. A recording without t becomes one segment with dt 0.
+void set_clock(Recording& recording, const std::string& file);
+
+/// More than 1 % of the steps inside segments off by more than 20 % of dt is an Error(kData).
+void check_regular(const Recording& recording, const std::string& file);
+
+/// Puts every segment on a regular clock of `hz` (0: the recording's own rate): the columns in
+/// `smooth` by cubic spline, all others linearly. Angles must be unwrapped and quaternions
+/// sign-continuous before.
+void resample(Recording& recording, double hz, const std::vector<std::string>& smooth);
+
+}  // namespace dcnn

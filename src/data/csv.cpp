@@ -1,0 +1,215 @@
+#include "dcnn/data/csv.h"
+
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <string_view>
+
+#include "data/line_reader.h"
+#include "data/text.h"
+#include "dcnn/core/error.h"
+#include "dcnn/core/parallel.h"
+
+namespace dcnn {
+namespace {
+
+constexpr std::size_t kMaxColumns = 100000;
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (std::size_t begin = 0;;) {
+    const std::size_t comma = line.find(',', begin);
+    cells.push_back(line.substr(begin, comma - begin));
+    if (comma == std::string_view::npos) return cells;
+    begin = comma + 1;
+  }
+}
+
+bool contains(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
+}
+
+/// A decimal number that fills the whole text.
+bool parse_number(std::string_view text, double* value) {
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), *value);
+  return error == std::errc() && rest == text.data() + text.size() && std::isfinite(*value);
+}
+
+/// As above, with spaces around and a leading '+' allowed.
+bool parse_kindly(std::string_view text, double* value) {
+  text = trimmed(text);
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  return parse_number(text, value);
+}
+
+/// What no text encoding or CSV dialect of ours begins with.
+void check_encoding(std::string_view line, const std::string& place) {
+  const auto reject = [&](std::string_view bytes, const char* fault) {
+    require(line.substr(0, bytes.size()) != bytes, Exit::kData, place, ": ", fault);
+  };
+  reject("\xEF\xBB\xBF", "starts with a UTF-8 byte order mark; save as UTF-8 without BOM");
+  reject("\xFF\xFE", "is UTF-16 text; save as UTF-8");
+  reject("\xFE\xFF", "is UTF-16 text; save as UTF-8");
+  reject("\x1F\x8B", "is gzip-compressed; unpack it first");
+  require(line.find('\0') == std::string_view::npos, Exit::kData, place,
+          ": contains a NUL byte; save as plain UTF-8 text (this is UTF-16 or a binary file)");
+  require(is_utf8(line), Exit::kData, place, ": is not UTF-8 text; save as UTF-8");
+}
+
+void check_separator(std::string_view line, const std::string& place) {
+  const bool comma = contains(line, ",");
+  require(comma || !contains(line, ";"), Exit::kData, place,
+          ": columns are separated by ';'; separate them by ',' and write decimals with '.'");
+  require(comma || !contains(line, "\t"), Exit::kData, place,
+          ": columns are separated by tabs; separate them by ','");
+  require(comma || !contains(trimmed(line), " "), Exit::kData, place,
+          ": columns are separated by spaces; separate them by ','");
+  require(!contains(line, "\""), Exit::kData, place, ": quotes are not accepted; remove them");
+  require(!contains(line, "\r"), Exit::kData, place,
+          ": carriage return inside the line; end lines with \\n or \\r\\n");
+}
+
+std::vector<std::string> parse_header(std::string_view line, const std::string& place) {
+  check_encoding(line, place);
+  require(!trimmed(line).empty(), Exit::kData, place,
+          ": the first line is blank; begin with a header row of column names");
+  check_separator(line, place);
+  const auto cells = split(line);
+  require(cells.size() <= kMaxColumns, Exit::kData, place, ": more than ", kMaxColumns, " columns");
+  std::vector<std::string> names;
+  std::set<std::string_view> seen;
+  bool numbers = true;
+  for (const std::string_view cell : cells) {
+    const std::string_view name = trimmed(cell);
+    const std::size_t number = names.size() + 1;
+    require(!name.empty(), Exit::kData, place, ": column ", number, " has no name; give it one");
+    require(seen.insert(name).second, Exit::kData, place, ": column ", shown(name), " (number ",
+            number, ") is there twice; rename or remove one");
+    double ignored = 0.0;
+    numbers = numbers && parse_kindly(name, &ignored);
+    names.emplace_back(name);
+  }
+  require(!numbers, Exit::kData, place,
+          ": there is no header row, only numbers; put the column names in the first line");
+  return names;
+}
+
+/// Why the cell is no number, and what to do.
+std::string fault_of(std::string_view cell) {
+  const std::string_view text = trimmed(cell);
+  if (text.empty()) return "is empty; write a number or remove the row";
+  const std::string found = ": " + shown(text);
+  if (contains(text, std::string_view("\0", 1))) return "contains a NUL byte; the file is damaged";
+  if (contains(text, "\"") || contains(text, "'"))
+    return "is quoted" + found + "; remove the quotes";
+  if (contains(text, ";")) return "contains ';'" + found + "; separate columns by ','";
+  if (contains(text, "\t")) return "contains a tab" + found + "; separate columns by ','";
+  double value = 0.0;
+  const std::string_view digits = text[0] == '+' && text.substr(0, 2) != "+-" ? text.substr(1) : text;
+  const auto [rest, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool whole = rest == digits.data() + digits.size() && error != std::errc::invalid_argument;
+  const bool has_digit = text.find_first_of("0123456789") != std::string_view::npos;
+  if (whole && has_digit && !contains(text, "(")) {
+    return "is out of range" + found + "; a number must lie within those of double precision";
+  }
+  if (rest != digits.data() && !has_digit) {
+    return "is not finite" + found + "; remove the row or repair the log";
+  }
+  if (contains(text, "0x") || contains(text, "0X")) {
+    return "is hexadecimal" + found + "; write it as a decimal number";
+  }
+  return "is not a number" + found + "; write a decimal number such as -1.5e-3";
+}
+
+/// Reads the rows of one file into row-major cells.
+class Rows {
+ public:
+  Rows(const LineReader& reader, const std::vector<std::string>& columns)
+      : reader_(reader), columns_(columns) {}
+
+  void add(std::string_view line) {
+    const std::size_t before = cells_.size();
+    cells_.resize(before + columns_.size());
+    double* cell = cells_.data() + before;
+    const char* begin = line.data();
+    const char* const end = begin + line.size();
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+      const auto [rest, error] = std::from_chars(begin, end, cell[k]);
+      const char* next = rest;
+      if (error != std::errc() || (rest != end && *rest != ',') || !std::isfinite(cell[k])) {
+        next = slow_cell(line, begin, k, &cell[k]);
+      }
+      const bool last = k + 1 == columns_.size();
+      if ((next == end) != last) fail_ragged(line);
+      begin = next + 1;
+    }
+  }
+
+  Eigen::MatrixXd values() const {
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const auto columns = static_cast<Index>(columns_.size());
+    return Eigen::Map<const RowMajor>(cells_.data(), static_cast<Index>(cells_.size()) / columns,
+                                      columns);
+  }
+  bool empty() const { return cells_.empty(); }
+
+ private:
+  /// The cell from `begin` on, once the quick way has failed: spaces and '+', or an error.
+  const char* slow_cell(std::string_view line, const char* begin, std::size_t k,
+                        double* value) const {
+    const std::string_view rest = line.substr(static_cast<std::size_t>(begin - line.data()));
+    const std::string_view cell = rest.substr(0, rest.find(','));
+    if (!parse_kindly(cell, value)) {
+      check_count(line);
+      fail(Exit::kData, reader_.place(), ": column ", shown(columns_[k]), " ", fault_of(cell),
+           " (column ", k + 1, " of ", columns_.size(), ")");
+    }
+    return begin + cell.size();
+  }
+
+  void check_count(std::string_view line) const {
+    const std::size_t count = split(line).size();
+    const std::size_t wanted = columns_.size();
+    if (count == wanted) return;
+    if (count == 1 && contains(line, ";")) check_separator(line, reader_.place());
+    if (count == 1 && contains(line, "\t")) check_separator(line, reader_.place());
+    const bool commas = count == 2 * wanted || count == 2 * wanted - 1;  // t may be a whole number
+    fail(Exit::kData, reader_.place(), ": ", count, " cells where the header has ", wanted,
+         " columns",
+         commas ? "; decimal commas? write decimals with '.'" : "; repair or remove this row");
+  }
+  [[noreturn]] void fail_ragged(std::string_view line) const {
+    check_count(line);
+    fail(Exit::kFailure, reader_.place(), ": cannot count the cells of this row");
+  }
+
+  const LineReader& reader_;
+  const std::vector<std::string>& columns_;
+  std::vector<double> cells_;
+};
+
+}  // namespace
+
+Table read_csv(const std::filesystem::path& path) {
+  LineReader reader(path);
+  std::string_view line;
+  require(reader.next(&line), Exit::kData, reader.name(),
+          ": is empty; a recording is a header row and one row per sample");
+  Table table;
+  table.columns = parse_header(line, reader.place());
+  Rows rows(reader, table.columns);
+  Index blank = 0;  // blank lines are accepted at the end only
+  while (reader.next(&line)) {
+    if (trimmed(line).empty()) {
+      if (blank == 0) blank = reader.number();
+      continue;
+    }
+    require(blank == 0, Exit::kData, reader.place(blank), ": blank line between rows; remove it");
+    rows.add(line);
+  }
+  require(!rows.empty(), Exit::kData, reader.name(), ": has a header row but no samples");
+  table.values = rows.values();
+  return table;
+}
+
+}  // namespace dcnn

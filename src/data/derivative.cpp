@@ -1,0 +1,189 @@
+#include "dcnn/data/derivative.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "data/spline.h"
+
+namespace dcnn {
+namespace {
+
+using Kind = DerivativeSpec::Kind;
+using Input = Eigen::Ref<const Eigen::VectorXd>;
+using Output = Eigen::Ref<Eigen::VectorXd>;
+
+const std::vector<std::string> kKinds = {"sg", "sg_causal", "central", "spline"};  // in enum order
+
+/// Weights of the first and the second derivative, per second and per second squared.
+struct Weights {
+  Weights(int window, int order, double at, double dt)
+      : first(savitzky_golay_weights(window, order, 1, at) / dt),
+        second(savitzky_golay_weights(window, order, 2, at) / (dt * dt)) {}
+  Eigen::VectorXd first, second;
+};
+
+/// first[i] = sum_k w.first[k]·x[i + k], the same for second. Eight results at a time stay in
+/// registers.
+void slide(const Weights& w, const double* x, Index count, double* first, double* second) {
+  constexpr Index kTile = 8;
+  using Tile = Eigen::Array<double, kTile, 1>;
+  Index i = 0;
+  for (; i + kTile <= count; i += kTile) {
+    Tile one = Tile::Zero(), two = Tile::Zero();
+    for (Index k = 0; k < w.first.size(); ++k) {
+      const Eigen::Map<const Tile> part(x + i + k);
+      one += w.first[k] * part;
+      two += w.second[k] * part;
+    }
+    Eigen::Map<Tile>(first + i) = one;
+    Eigen::Map<Tile>(second + i) = two;
+  }
+  for (; i < count; ++i) {
+    const Eigen::Map<const Eigen::VectorXd> part(x + i, w.first.size());
+    first[i] = w.first.dot(part);
+    second[i] = w.second.dot(part);
+  }
+}
+
+/// Centred fits; at the ends the outermost fit evaluated off-centre.
+void centred(const Input& x, int window, int order, double dt, Output first, Output second) {
+  const Index half = window / 2, n = x.size();
+  slide(Weights(window, order, static_cast<double>(half), dt), x.data(), n - window + 1,
+        first.data() + half, second.data() + half);
+  for (Index k = 0; k < half; ++k) {
+    const Weights head(window, order, static_cast<double>(k), dt);
+    const Weights tail(window, order, static_cast<double>(window - 1 - k), dt);
+    first[k] = head.first.dot(x.head(window));
+    second[k] = head.second.dot(x.head(window));
+    first[n - 1 - k] = tail.first.dot(x.tail(window));
+    second[n - 1 - k] = tail.second.dot(x.tail(window));
+  }
+}
+
+/// Fits to the last samples, evaluated at the newest; before the first sample it is repeated.
+void causal(const Input& x, int window, int order, double dt, Output first, Output second) {
+  Eigen::VectorXd padded(x.size() + window - 1);
+  padded << Eigen::VectorXd::Constant(window - 1, x[0]), x;
+  slide(Weights(window, order, window - 1.0, dt), padded.data(), x.size(), first.data(),
+        second.data());
+}
+
+/// MATLAB's gradient: central differences, one-sided at the ends.
+void gradient(const Input& x, double dt, Output out) {
+  const Index n = x.size();
+  out[0] = (x[1] - x[0]) / dt;
+  out[n - 1] = (x[n - 1] - x[n - 2]) / dt;
+  for (Index i = 1; i + 1 < n; ++i) out[i] = (x[i + 1] - x[i - 1]) / (2.0 * dt);
+}
+
+void by_spline(const Input& t, const Input& x, Output first, Output second) {
+  const Spline spline(t, x);
+  second = spline.curvature();
+  for (Index i = 0; i < x.size(); ++i) first[i] = spline.slope(i);
+}
+
+int shortest(const DerivativeSpec& spec, double dt) {
+  if (spec.kind == Kind::kCentral) return 2;
+  if (spec.kind == Kind::kSpline) return 3;
+  return spec.kind == Kind::kSavitzkyGolay ? spec.window(dt) : 1;
+}
+
+void check_lengths(const Recording& recording, const DerivativeSpec& spec) {
+  require(recording.dt > 0.0, Exit::kData, recording.name,
+          ": has no column 't', so no derivatives; log the time or use features of the pose alone");
+  const int least = shortest(spec, recording.dt);
+  for (const Segment& segment : recording.segments) {
+    require(segment.size() >= least, Exit::kData, recording.name, ": samples ", segment.begin + 1,
+            " to ", segment.end, " between two gaps are fewer than the ", least,
+            " that derivatives need; cut them out or shorten derivative.window_s");
+  }
+}
+
+}  // namespace
+
+int DerivativeSpec::window(double dt) const {
+  assert(dt > 0.0);
+  constexpr double kMost = 1e8;
+  const int wanted = 2 * static_cast<int>(std::min(std::round(window_s / (2.0 * dt)), kMost)) + 1;
+  const int least = order + 4 + (order % 2 == 0 ? 1 : 0);
+  return std::max(wanted, least);
+}
+
+DerivativeSpec parse_derivative(Options options) {
+  DerivativeSpec spec;
+  const std::string kind = options.choice("kind", "sg", kKinds);
+  for (std::size_t k = 0; k < kKinds.size(); ++k) {
+    if (kKinds[k] == kind) spec.kind = static_cast<Kind>(k);
+  }
+  spec.window_s = options.number("window_s", spec.window_s, 0.0, 100.0);
+  spec.order = options.get("order", spec.kind == Kind::kCausalSavitzkyGolay ? 2 : 3);
+  if (spec.order < 2 || spec.order > 7) options.reject("order", "must be between 2 and 7");
+  options.finish();
+  return spec;
+}
+
+Json to_json(const DerivativeSpec& spec) {
+  return {{"kind", kKinds[static_cast<std::size_t>(spec.kind)]},
+          {"window_s", spec.window_s},
+          {"order", spec.order}};
+}
+
+// With V the monomials at the samples, scaled to [-1, 1] where they are well-conditioned, and p
+// those at the wanted place (differentiated): w = V·(VᵀV)⁻¹·p = Q·R⁻ᵀ·p.
+Eigen::VectorXd savitzky_golay_weights(int window, int order, int derivative, double at) {
+  assert(window > order && derivative >= 0 && derivative <= 2);
+  const double half = 0.5 * (window - 1);
+  Eigen::MatrixXd V(window, order + 1);
+  for (int k = 0; k < window; ++k) {
+    const double z = (k - half) / half;
+    V(k, 0) = 1.0;
+    for (int j = 1; j <= order; ++j) V(k, j) = V(k, j - 1) * z;
+  }
+  Eigen::VectorXd p = Eigen::VectorXd::Zero(order + 1);
+  const double z = (at - half) / half;
+  for (int j = derivative; j <= order; ++j) {
+    const double factor = derivative == 0 ? 1.0 : derivative == 1 ? j : j * (j - 1.0);
+    p[j] = factor * std::pow(z, j - derivative) / std::pow(half, derivative);
+  }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(V);
+  const Eigen::MatrixXd R = qr.matrixQR().topRows(order + 1).triangularView<Eigen::Upper>();
+  Eigen::VectorXd w = Eigen::VectorXd::Zero(window);
+  w.head(order + 1) = R.transpose().triangularView<Eigen::Lower>().solve(p);
+  return qr.householderQ() * w;
+}
+
+Derivatives differentiate(const Eigen::MatrixXd& signals, const Recording& recording,
+                          const DerivativeSpec& spec) {
+  check_lengths(recording, spec);
+  const double dt = recording.dt;
+  const int window = spec.window(dt);
+  const Eigen::VectorXd t = recording.column("t");
+  Derivatives out{Eigen::MatrixXd(signals.rows(), signals.cols()),
+                  Eigen::MatrixXd(signals.rows(), signals.cols())};
+  for_each_piece(signals.cols(), [&](Index column) {
+    for (const Segment& s : recording.segments) {
+      const auto x = signals.col(column).segment(s.begin, s.size());
+      auto first = out.first.col(column).segment(s.begin, s.size());
+      auto second = out.second.col(column).segment(s.begin, s.size());
+      switch (spec.kind) {
+        case Kind::kSavitzkyGolay:
+          centred(x, window, spec.order, dt, first, second);
+          break;
+        case Kind::kCausalSavitzkyGolay:
+          causal(x, window, spec.order, dt, first, second);
+          break;
+        case Kind::kSpline:
+          by_spline(t.segment(s.begin, s.size()), x, first, second);
+          break;
+        case Kind::kCentral:
+          gradient(x, dt, first);
+          gradient(first, dt, second);
+          break;
+      }
+    }
+  });
+  return out;
+}
+
+}  // namespace dcnn

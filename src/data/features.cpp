@@ -1,0 +1,180 @@
+#include "dcnn/data/features.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "data/feature_blocks.h"
+#include "dcnn/data/rotation.h"
+
+namespace dcnn {
+namespace {
+
+using Set = FeatureSpec::Set;
+
+constexpr double kRateTolerance = 0.01;
+constexpr double kSingular = 0.05;  // |cos beta| below which Euler angles mean nothing (spec 1.2)
+
+const std::vector<std::string> kSets = {"pose", "body", "axes"};  // in enum order
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : ",") + word;
+  return out;
+}
+
+Eigen::Vector3d vector_of(Options& options, const std::string& key) {
+  const auto numbers = options.get<std::vector<double>>(key, {0.0, 0.0, 0.0});
+  if (numbers.size() != 3) options.reject(key, "must be a list of 3 numbers");
+  const Eigen::Vector3d vector(numbers[0], numbers[1], numbers[2]);
+  if (!vector.allFinite()) options.reject(key, "must be finite");
+  return vector;
+}
+
+Json list_of(const Eigen::Vector3d& v) { return Json::array({v[0], v[1], v[2]}); }
+
+Json to_json(const FeatureSpec& spec) {
+  return {{"set", kSets[static_cast<std::size_t>(spec.set)]},
+          {"derivative", to_json(spec.derivative)},
+          {"sensor_rotation_rpy", list_of(spec.sensor_rotation_rpy)}};
+}
+
+Eigen::Vector3d circular_mean(const std::vector<Recording>& recordings) {
+  Eigen::RowVector3d sine = Eigen::RowVector3d::Zero(), cosine = sine;
+  for (const Recording& recording : recordings) {
+    const Eigen::ArrayXXd euler = euler_angles(recording).array();
+    sine += euler.sin().colwise().sum().matrix();
+    cosine += euler.cos().colwise().sum().matrix();
+  }
+  const auto angle = [](double y, double x) { return std::atan2(y, x); };
+  return sine.binaryExpr(cosine, angle).transpose();
+}
+
+void check_rate(const Recording& recording, double dt) {
+  require(std::abs(recording.dt - dt) <= kRateTolerance * dt, Exit::kData, recording.name,
+          ": rate of ", 1.0 / recording.dt, " Hz instead of ", 1.0 / dt,
+          " Hz as in training; use --resample ", 1.0 / dt);
+}
+
+/// The blocks whose rows the layout has; a row that no block makes is an error.
+std::vector<Block> used_blocks(const FeatureLayout& layout, const std::string& where, Exit exit) {
+  std::vector<Block> used;
+  std::vector<std::string> names;
+  for (const Block& block : feature_blocks(layout.spec, layout.system)) {
+    const auto& all = layout.names;
+    if (std::find(all.begin(), all.end(), block.names[0]) == all.end()) continue;
+    used.push_back(block);
+    names.insert(names.end(), block.names.begin(), block.names.end());
+  }
+  require(!names.empty() && names == layout.names, exit, where, ": the feature names ",
+          joined(layout.names), " do not belong to the set '",
+          kSets[static_cast<std::size_t>(layout.spec.set)], "'");
+  return used;
+}
+
+void add_block(FeatureLayout& layout, const Block& block, const std::vector<Recording>& training) {
+  const auto lacks = std::find_if(
+      training.begin(), training.end(),
+      [&](const Recording& recording) { return !is_available(block, recording, layout.system); });
+  if (lacks != training.end()) {
+    layout.notes.push_back("features " + joined(block.names) + " left out: " + lacks->name +
+                           " does not log what they need");
+    return;
+  }
+  layout.names.insert(layout.names.end(), block.names.begin(), block.names.end());
+  layout.units.insert(layout.units.end(), block.names.size(), block.unit);
+}
+
+}  // namespace
+
+FeatureSpec parse_features(Options options, const System& system) {
+  const bool axes = system.kind == System::Kind::kAxes;
+  FeatureSpec spec;
+  const std::string set = options.choice("set", axes ? "axes" : "pose", kSets);
+  spec.set = static_cast<Set>(std::find(kSets.begin(), kSets.end(), set) - kSets.begin());
+  if (axes != (spec.set == Set::kAxes)) {
+    options.reject("set", "must be ", axes ? "axes" : "pose or body", " for this system, not '",
+                   set, "'");
+  }
+  spec.derivative = parse_derivative(options.child("derivative"));
+  spec.sensor_rotation_rpy = vector_of(options, "sensor_rotation_rpy");
+  options.finish();
+  return spec;
+}
+
+Json to_json(const FeatureLayout& layout) {
+  return {{"features", to_json(layout.spec)},
+          {"system", layout.system.json},
+          {"names", layout.names},
+          {"units", layout.units},
+          {"dt_s", layout.dt},
+          {"circular_mean", list_of(layout.circular_mean)},
+          {"notes", layout.notes}};
+}
+
+FeatureLayout parse_layout(const Json& json, const std::string& where, Exit exit) {
+  Options options(json, where, exit);
+  FeatureLayout layout;
+  try {
+    layout.system = parse_system(options.raw("system"), where);
+  } catch (const Error& error) {
+    throw Error(exit, error.what());
+  }
+  layout.spec = parse_features(options.child("features"), layout.system);
+  layout.names = options.get<std::vector<std::string>>("names");
+  layout.units = options.get<std::vector<std::string>>("units");
+  layout.dt = options.number("dt_s", 0.0, 0.0, 1e6);
+  layout.circular_mean = vector_of(options, "circular_mean");
+  layout.notes = options.get<std::vector<std::string>>("notes", {});
+  options.finish();
+  require(layout.names.size() == layout.units.size(), exit, where,
+          ": there must be one unit per feature name");
+  used_blocks(layout, where, exit);
+  return layout;
+}
+
+FeatureLayout make_layout(const std::vector<Recording>& training, const FeatureSpec& spec,
+                          const System& system) {
+  require(!training.empty(), Exit::kUsage, "no training recording is given");
+  FeatureLayout layout;
+  layout.spec = spec;
+  layout.system = system;
+  if (system.kind == System::Kind::kAxes) layout.spec.set = Set::kAxes;
+  layout.dt = training[0].dt;
+  for (const Recording& recording : training) {
+    if (recording.dt > 0.0 && layout.dt > 0.0) check_rate(recording, layout.dt);
+    layout.dt = std::min(layout.dt, recording.dt);  // one static list: no feature needs time
+  }
+  for (const Block& block : feature_blocks(layout.spec, system)) add_block(layout, block, training);
+  require(!layout.names.empty(), Exit::kData, training[0].name,
+          ": holds no signal that a feature could be made of; log positions or velocities");
+  if (layout.spec.set == Set::kPose) layout.circular_mean = circular_mean(training);
+  return layout;
+}
+
+Index Features::invalid_count() const { return std::count(valid.begin(), valid.end(), 0); }
+
+Features make_features(const Recording& recording, const FeatureLayout& layout) {
+  if (layout.dt > 0.0 && recording.dt > 0.0) check_rate(recording, layout.dt);
+  const auto blocks = used_blocks(layout, recording.name, Exit::kData);
+  for (const Block& block : blocks) {
+    require(is_available(block, recording, layout.system), Exit::kData, recording.name,
+            ": does not log what the features ", joined(block.names),
+            " need; add the columns the training recordings have");
+  }
+  Features features;
+  features.valid.assign(static_cast<std::size_t>(recording.samples()), 1);
+  if (layout.spec.set == Set::kAxes) {
+    features.x = axis_features(recording, layout, blocks);
+    return features;
+  }
+  features.x = wrist_features(recording, layout, blocks);
+  if (layout.spec.set == Set::kPose) {
+    for (Index i = 0; i < recording.samples(); ++i) {
+      features.valid[static_cast<std::size_t>(i)] =
+          std::abs(std::cos(features.x(i, 1))) >= kSingular;
+    }
+  }
+  return features;
+}
+
+}  // namespace dcnn

@@ -1,0 +1,103 @@
+#include "dcnn/data/input_map.h"
+
+#include <cassert>
+#include <cmath>
+
+namespace dcnn {
+namespace {
+
+constexpr double kConstant = 1e-12;  // a deviation below this is no scale
+
+/// The five columns of Eq. 7 for one feature.
+template <class Write>
+inline void write_row(double x, double mean, double inverse_scale, const Write& write) {
+  const double centred = x - mean;
+  write(0, x);
+  write(1, centred);
+  write(2, centred * inverse_scale);
+  write(3, std::abs(x));
+  write(4, x * x);
+}
+
+Json list_of(const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); }
+
+Eigen::VectorXd vector_of(Options& options, const std::string& key, Index size) {
+  const auto numbers = options.get<std::vector<double>>(key);
+  if (size >= 0 && static_cast<Index>(numbers.size()) != size) {
+    options.reject(key, "must hold ", size, " numbers");
+  }
+  const Eigen::VectorXd vector =
+      Eigen::Map<const Eigen::VectorXd>(numbers.data(), static_cast<Index>(numbers.size()));
+  if (!vector.allFinite()) options.reject(key, "must be finite");
+  return vector;
+}
+
+Eigen::VectorXd inverse_scale_of(const Eigen::VectorXd& deviation, bool variance) {
+  return deviation.unaryExpr([variance](double sd) {
+    if (sd < kConstant) return 1.0;
+    return 1.0 / (variance ? sd * sd : sd);
+  });
+}
+
+}  // namespace
+
+InputMap::InputMap(const Eigen::MatrixXd& training, Spec spec) : spec_(spec) {
+  assert(training.rows() > 0);
+  const auto rows = static_cast<double>(training.rows());
+  mean_ = training.colwise().mean().transpose();
+  mean_square_ = training.colwise().squaredNorm().transpose() / rows;
+  deviation_ = Eigen::VectorXd::Zero(training.cols());
+  if (training.rows() > 1) {
+    const Eigen::MatrixXd centred = training.rowwise() - mean_.transpose();
+    deviation_ = (centred.colwise().squaredNorm().transpose() / (rows - 1.0)).cwiseSqrt();
+  }
+  inverse_scale_ = inverse_scale_of(deviation_, spec.variance);
+  centre_ = Eigen::VectorXd::Zero(training.cols() * kColumns);
+  if (!spec.zerocenter) return;
+  for (Index j = 0; j < training.cols(); ++j) {
+    double* sum = centre_.data() + j * kColumns;
+    for (const double x : training.col(j)) {
+      write_row(x, mean_[j], inverse_scale_[j], [sum](Index k, double value) { sum[k] += value; });
+    }
+  }
+  centre_ /= rows;
+}
+
+template <class Out>
+void InputMap::write(const double* x, Out* map) const {
+  for (Index j = 0; j < features(); ++j) {
+    Out* row = map + j * kColumns;
+    const double* centre = centre_.data() + j * kColumns;
+    write_row(x[j], mean_[j], inverse_scale_[j],
+              [=](Index k, double value) { row[k] = static_cast<Out>(value - centre[k]); });
+  }
+}
+template void InputMap::write<float>(const double*, float*) const;
+template void InputMap::write<double>(const double*, double*) const;
+
+Json InputMap::to_json() const {
+  return {{"variance", spec_.variance},
+          {"zerocenter", spec_.zerocenter},
+          {"mean", list_of(mean_)},
+          {"deviation", list_of(deviation_)},
+          {"mean_square", list_of(mean_square_)},
+          {"centre", list_of(centre_)}};
+}
+
+InputMap InputMap::parse(const Json& json, const std::string& where, Exit exit) {
+  Options options(json, where, exit);
+  InputMap map;
+  map.spec_.variance = options.get("variance", false);
+  map.spec_.zerocenter = options.get("zerocenter", true);
+  map.mean_ = vector_of(options, "mean", -1);
+  const Index features = map.mean_.size();
+  map.deviation_ = vector_of(options, "deviation", features);
+  if (features > 0 && map.deviation_.minCoeff() < 0.0) options.reject("deviation", "is negative");
+  map.mean_square_ = vector_of(options, "mean_square", features);
+  map.centre_ = vector_of(options, "centre", features * kColumns);
+  map.inverse_scale_ = inverse_scale_of(map.deviation_, map.spec_.variance);
+  options.finish();
+  return map;
+}
+
+}  // namespace dcnn

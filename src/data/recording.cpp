@@ -1,0 +1,207 @@
+#include "dcnn/data/recording.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "data/clock.h"
+#include "data/pose_checks.h"
+#include "dcnn/data/filter.h"
+
+namespace dcnn {
+namespace {
+
+using Names = std::vector<std::string>;
+
+const Names kForce = {"fx", "fy", "fz"}, kTorque = {"tx", "ty", "tz"};
+
+Index find(const Table& table, const std::string& name) {
+  const auto found = std::find(table.columns.begin(), table.columns.end(), name);
+  return found == table.columns.end() ? -1 : found - table.columns.begin();
+}
+
+bool has_any(const Recording& recording, const Names& columns) {
+  return std::any_of(columns.begin(), columns.end(),
+                     [&](const std::string& name) { return recording.has(name); });
+}
+
+/// A vector is there with all its components or not at all.
+bool has_whole(const Recording& recording, const Names& columns, const std::string& file) {
+  if (!has_any(recording, columns)) return false;
+  for (const std::string& name : columns) {
+    require(recording.has(name), Exit::kData, file, ":1: column '", name,
+            "' is missing beside its sisters; log all of them or none");
+  }
+  return true;
+}
+
+void require_column(const Recording& recording, const std::string& name, const std::string& axis,
+                    const std::string& file) {
+  require(name.empty() || recording.has(name), Exit::kData, file, ":1: column '", name,
+          "' of axis '", axis, "' is missing; add it or correct the system description");
+}
+
+void check_wrist_columns(const Recording& recording, const std::string& file) {
+  const bool quaternion = has_whole(recording, {"qw", "qx", "qy", "qz"}, file);
+  const bool euler = has_whole(recording, {"alpha", "beta", "gamma"}, file);
+  require(
+      quaternion || euler, Exit::kData, file,
+      ":1: no orientation; log qw,qx,qy,qz or alpha,beta,gamma, or name the columns with --system");
+  const bool force = has_whole(recording, kForce, file);
+  const bool torque = has_whole(recording, kTorque, file);
+  require(force || torque, Exit::kData, file, ":1: no measured force; log fx,fy,fz or tx,ty,tz");
+  for (const Names& optional :
+       {Names{"x", "y", "z"}, Names{"vx", "vy", "vz"}, Names{"wx", "wy", "wz"},
+        Names{"ax", "ay", "az"}, Names{"dwx", "dwy", "dwz"}}) {
+    has_whole(recording, optional, file);
+  }
+}
+
+void check_axis_columns(const Recording& recording, const System& system, const std::string& file) {
+  for (const Axis& axis : system.axes) {
+    for (const std::string& name :
+         {axis.measured, axis.position, axis.velocity, axis.acceleration, axis.simulated}) {
+      require_column(recording, name, axis.name, file);
+    }
+    for (const std::string& name : axis.signals) require_column(recording, name, axis.name, file);
+  }
+}
+
+void scale_columns(Recording& recording, const Names& columns, double factor) {
+  for (const std::string& name : columns) {
+    if (recording.has(name)) recording.set(name, factor * recording.column(name));
+  }
+}
+
+/// Text becomes SI here and nowhere else.
+void convert_units(Recording& recording, const ReadOptions& options) {
+  std::ostringstream note;
+  if (options.position_unit != 1.0) {
+    scale_columns(recording, {"x", "y", "z", "vx", "vy", "vz", "ax", "ay", "az"},
+                  options.position_unit);
+    note << "positions and linear rates converted: 1 unit = " << options.position_unit << " m";
+    recording.notes.push_back(note.str());
+  }
+  if (options.angle_unit != 1.0) {
+    scale_columns(recording, {"alpha", "beta", "gamma", "wx", "wy", "wz", "dwx", "dwy", "dwz"},
+                  options.angle_unit);
+    note.str("");
+    note << "angles and angular rates converted: 1 unit = " << options.angle_unit << " rad";
+    recording.notes.push_back(note.str());
+  }
+  if (options.force_sign != 1.0) {
+    scale_columns(recording,
+                  {"fx", "fy", "fz", "tx", "ty", "tz", "fx_sim", "fy_sim", "fz_sim", "tx_sim",
+                   "ty_sim", "tz_sim"},
+                  options.force_sign);
+    recording.notes.push_back("sign of forces and torques (measured and simulated) turned");
+  }
+}
+
+void check_options(const ReadOptions& options, const System& system) {
+  const bool plain =
+      options.position_unit == 1.0 && options.angle_unit == 1.0 && options.force_sign == 1.0;
+  require(plain || system.kind == System::Kind::kWrist, Exit::kUsage,
+          "--position-unit, --angle-unit and --force-sign are for wrist recordings; "
+          "give the axis a 'scale' in the system description");
+}
+
+Names smooth_columns(const System& system) {
+  if (system.kind == System::Kind::kWrist) {
+    return {"x", "y", "z", "alpha", "beta", "gamma", "qw", "qx", "qy", "qz"};
+  }
+  Names names;
+  for (const Axis& axis : system.axes) names.push_back(axis.position);
+  return names;
+}
+
+}  // namespace
+
+bool Recording::has(const std::string& column) const { return find(table, column) >= 0; }
+
+bool Recording::has_all(const Names& columns) const {
+  return std::all_of(columns.begin(), columns.end(),
+                     [&](const std::string& column_name) { return has(column_name); });
+}
+
+Eigen::VectorXd Recording::column(const std::string& column_name) const {
+  const Index k = find(table, column_name);
+  require(k >= 0, Exit::kData, name, ":1: column '", column_name,
+          "' is missing; add it to the log");
+  return table.values.col(k);
+}
+
+Eigen::MatrixXd Recording::block(const Names& columns) const {
+  Eigen::MatrixXd out(samples(), static_cast<Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    out.col(static_cast<Index>(k)) = column(columns[k]);
+  return out;
+}
+
+void Recording::set(const std::string& column_name, const Eigen::VectorXd& values) {
+  Index k = find(table, column_name);
+  if (k < 0) {
+    k = static_cast<Index>(table.columns.size());
+    table.columns.push_back(column_name);
+    table.values.conservativeResize(values.size(), k + 1);
+  }
+  table.values.col(k) = values;
+}
+
+Recording read_recording(const std::filesystem::path& path, const ReadOptions& options,
+                         const System& system) {
+  const std::string file = path.string();
+  check_options(options, system);
+  Recording recording;
+  recording.name = path.filename().string();
+  recording.table = read_csv(path);
+  require(
+      recording.has("t") || options.static_list, Exit::kData, file,
+      ":1: column 't' is missing; log the time in seconds (only lists of static poses have none)");
+  const bool wrist = system.kind == System::Kind::kWrist;
+  if (wrist) check_wrist_columns(recording, file);
+  if (!wrist) check_axis_columns(recording, system, file);
+  set_clock(recording, file);
+  convert_units(recording, options);
+  if (wrist) check_pose(recording, file);
+  const bool asked = options.resample || system.resample_hz > 0.0;
+  if (asked && recording.dt > 0.0) {
+    const double hz = options.resample_hz > 0.0 ? options.resample_hz : system.resample_hz;
+    if (wrist) make_continuous(recording);
+    resample(recording, hz, smooth_columns(system));
+  }
+  check_regular(recording, file);
+  if (wrist) normalise_quaternions(recording);
+  return recording;
+}
+
+Targets find_targets(const Recording& recording, const System& system) {
+  Targets targets;
+  if (system.kind == System::Kind::kAxes) {
+    for (const Axis& axis : system.axes) {
+      targets.names.push_back(axis.measured);
+      targets.units.push_back(axis.unit);
+    }
+    return targets;
+  }
+  const auto add = [&](const Names& columns, const char* unit) {
+    if (!recording.has_all(columns)) return;
+    targets.names.insert(targets.names.end(), columns.begin(), columns.end());
+    targets.units.insert(targets.units.end(), columns.size(), unit);
+  };
+  add(kForce, "N");
+  add(kTorque, "N*m");
+  return targets;
+}
+
+Eigen::MatrixXd measured(const Recording& recording, const Targets& targets, const System& system,
+                         bool filtered) {
+  Eigen::MatrixXd values = recording.block(targets.names);
+  for (const Axis& axis : system.axes) {
+    for (std::size_t k = 0; k < targets.names.size(); ++k) {
+      if (targets.names[k] == axis.measured) values.col(static_cast<Index>(k)) *= axis.scale;
+    }
+  }
+  return filtered ? low_pass(values, recording, system.lowpass_hz) : values;
+}
+
+}  // namespace dcnn

@@ -1,0 +1,115 @@
+#include "dcnn/data/rotation.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace dcnn {
+namespace {
+
+const std::vector<std::string> kQuaternion = {"qw", "qx", "qy", "qz"};
+const std::vector<std::string> kEuler = {"alpha", "beta", "gamma"};
+
+Eigen::Vector4d quaternion_from_euler(double alpha, double beta, double gamma) {
+  const double ca = std::cos(alpha / 2), sa = std::sin(alpha / 2);
+  const double cb = std::cos(beta / 2), sb = std::sin(beta / 2);
+  const double cg = std::cos(gamma / 2), sg = std::sin(gamma / 2);
+  return {ca * cb * cg + sa * sb * sg, ca * cb * sg - sa * sb * cg, ca * sb * cg + sa * cb * sg,
+          sa * cb * cg - ca * sb * sg};
+}
+
+Eigen::Matrix3d rotation_of(const Eigen::Vector4d& q) {
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+}
+
+}  // namespace
+
+Eigen::Matrix3d rotation_from_euler(const Eigen::Vector3d& euler) {
+  using Eigen::AngleAxisd;
+  using Eigen::Vector3d;
+  return (AngleAxisd(euler[0], Vector3d::UnitZ()) * AngleAxisd(euler[1], Vector3d::UnitY()) *
+          AngleAxisd(euler[2], Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+Eigen::Vector3d euler_from_rotation(const Eigen::Matrix3d& R) {
+  constexpr double kSingular = 1e-9;  // below this cos(beta), alpha and gamma cannot be told apart
+  const double cosine = std::hypot(R(0, 0), R(1, 0));
+  const double beta = std::atan2(-R(2, 0), cosine);
+  if (cosine < kSingular) return {std::atan2(-R(0, 1), R(1, 1)), beta, 0.0};
+  return {std::atan2(R(1, 0), R(0, 0)), beta, std::atan2(R(2, 1), R(2, 2))};
+}
+
+void unwrap(Eigen::Ref<Eigen::MatrixXd> angles) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  for (Index column = 0; column < angles.cols(); ++column) {
+    for (Index i = 1; i < angles.rows(); ++i) {
+      angles(i, column) -= kTurn * std::round((angles(i, column) - angles(i - 1, column)) / kTurn);
+    }
+  }
+}
+
+Eigen::MatrixXd quaternions(const Recording& recording) {
+  Eigen::MatrixXd q;
+  if (recording.has_all(kQuaternion)) {
+    q = recording.block(kQuaternion);
+    q.array().colwise() /= q.rowwise().norm().array().eval();
+  } else {
+    const Eigen::MatrixXd euler = recording.block(kEuler);
+    q.resize(euler.rows(), 4);
+    for (Index i = 0; i < euler.rows(); ++i) {
+      q.row(i) = quaternion_from_euler(euler(i, 0), euler(i, 1), euler(i, 2));
+    }
+  }
+  for (Index i = 1; i < q.rows(); ++i) {
+    if (q.row(i).dot(q.row(i - 1)) < 0.0) q.row(i) = -q.row(i);
+  }
+  return q;
+}
+
+Eigen::MatrixXd euler_angles(const Recording& recording) {
+  Eigen::MatrixXd euler;
+  if (recording.has_all(kQuaternion)) {
+    const Eigen::MatrixXd q = quaternions(recording);
+    euler.resize(q.rows(), 3);
+    for (Index i = 0; i < q.rows(); ++i) {
+      euler.row(i) = euler_from_rotation(rotation_of(q.row(i).transpose()));
+    }
+  } else {
+    euler = recording.block(kEuler);
+  }
+  unwrap(euler);
+  return euler;
+}
+
+std::vector<Eigen::Matrix3d> rotations(const Recording& recording) {
+  const Eigen::MatrixXd q = quaternions(recording);
+  std::vector<Eigen::Matrix3d> R(static_cast<std::size_t>(q.rows()));
+  for (Index i = 0; i < q.rows(); ++i) {
+    R[static_cast<std::size_t>(i)] = rotation_of(q.row(i).transpose());
+  }
+  return R;
+}
+
+Eigen::Matrix3d euler_rate_matrix(const Eigen::Vector3d& euler) {
+  const double cb = std::cos(euler[1]), sb = std::sin(euler[1]);
+  const double cg = std::cos(euler[2]), sg = std::sin(euler[2]);
+  Eigen::Matrix3d W;
+  W << -sb, 0.0, 1.0,    //
+      cb * sg, cg, 0.0,  //
+      cb * cg, -sg, 0.0;
+  return W;
+}
+
+Eigen::Matrix3d euler_rate_matrix_derivative(const Eigen::Vector3d& euler,
+                                             const Eigen::Vector3d& rates) {
+  const double cb = std::cos(euler[1]), sb = std::sin(euler[1]);
+  const double cg = std::cos(euler[2]), sg = std::sin(euler[2]);
+  const double db = rates[1], dg = rates[2];
+  Eigen::Matrix3d D;
+  D << -cb * db, 0.0, 0.0,                          //
+      -sb * sg * db + cb * cg * dg, -sg * dg, 0.0,  //
+      -sb * cg * db - cb * sg * dg, -cg * dg, 0.0;
+  return D;
+}
+
+}  // namespace dcnn

@@ -1,0 +1,158 @@
+#include "dcnn/data/derivative.h"
+
+#include <gtest/gtest.h>
+
+#include "data/sample_recording.h"
+#include "data/testing.h"
+#include "dcnn/core/json.h"
+
+namespace dcnn {
+namespace {
+
+using Kind = DerivativeSpec::Kind;
+using testing::sine_recording;
+
+const std::vector<Kind> kAll = {Kind::kSavitzkyGolay, Kind::kCausalSavitzkyGolay, Kind::kCentral,
+                                Kind::kSpline};
+
+DerivativeSpec spec_of(Kind kind, double window_s = 0.1) {
+  return {kind, window_s, kind == Kind::kCausalSavitzkyGolay ? 2 : 3};
+}
+
+/// Noise gain at sample `row`: root of the summed squares of what every single input sample adds
+/// there.
+Eigen::Vector2d noise_gain(Kind kind, Index row, double window_s) {
+  const Recording recording = sine_recording(200);
+  const Derivatives d =
+      differentiate(Eigen::MatrixXd::Identity(200, 200), recording, spec_of(kind, window_s));
+  return {d.first.row(row).norm(), d.second.row(row).norm()};
+}
+
+TEST(Derivative, WindowIsATime) {
+  const DerivativeSpec spec;
+  EXPECT_EQ(spec.window(0.002), 51);
+  EXPECT_EQ(spec.window(0.001), 101);
+  EXPECT_EQ(spec.window(0.01), 11);
+  EXPECT_EQ(spec.window(0.1), 7);
+  EXPECT_EQ(spec_of(Kind::kCausalSavitzkyGolay).window(1.0), 7);
+}
+
+TEST(Derivative, SavitzkyGolayIsExactOnCubicsUpToTheEnds) {
+  const Recording recording = sine_recording(200);
+  const Eigen::ArrayXd t = recording.column("t").array();
+  const Eigen::ArrayXd x = 2.0 - 3.0 * t + 4.0 * t.square() - 5.0 * t.cube();
+  const Derivatives d = differentiate(x.matrix(), recording, spec_of(Kind::kSavitzkyGolay));
+  EXPECT_LT((d.first.col(0).array() - (-3.0 + 8.0 * t - 15.0 * t.square())).abs().maxCoeff(),
+            1e-11);
+  EXPECT_LT((d.second.col(0).array() - (8.0 - 30.0 * t)).abs().maxCoeff(), 1e-8);
+}
+
+TEST(Derivative, CausalIsExactOnParabolasOnceTheWindowIsFull) {
+  const Recording recording = sine_recording(200);
+  const Eigen::ArrayXd t = recording.column("t").array();
+  const Derivatives d = differentiate((1.0 + 2.0 * t + 3.0 * t.square()).matrix(), recording,
+                                      spec_of(Kind::kCausalSavitzkyGolay));
+  EXPECT_LT((d.first.col(0).array() - (2.0 + 6.0 * t)).tail(150).abs().maxCoeff(), 1e-10);
+  EXPECT_LT((d.second.col(0).array() - 6.0).tail(150).abs().maxCoeff(), 1e-7);
+}
+
+TEST(Derivative, CausalDoesNotSeeTheFuture) {
+  const Recording recording = sine_recording(300);
+  Eigen::MatrixXd x = recording.block({"x", "gamma"});
+  const auto spec = spec_of(Kind::kCausalSavitzkyGolay);
+  const Derivatives before = differentiate(x, recording, spec);
+  for (const Index now : {0, 10, 57, 200}) {
+    Eigen::MatrixXd changed = x;
+    changed.bottomRows(299 - now).array() += 5.0;
+    const Derivatives after = differentiate(changed, recording, spec);
+    EXPECT_EQ(before.first.topRows(now + 1), after.first.topRows(now + 1)) << now;
+    EXPECT_EQ(before.second.topRows(now + 1), after.second.topRows(now + 1)) << now;
+    EXPECT_NE(before.first.row(now + 1), after.first.row(now + 1)) << now;
+  }
+}
+
+TEST(Derivative, EveryEstimatorApproachesTheTruth) {
+  const Recording recording = sine_recording(1000);
+  for (const Kind kind : kAll) {
+    const Derivatives d = differentiate(recording.block({"x"}), recording, spec_of(kind, 0.03));
+    for (Index i = 100; i < 900; ++i) {
+      const double t = 0.002 * static_cast<double>(i);
+      ASSERT_NEAR(d.first(i, 0), testing::kPositions[0].at(t, 1), 2e-4) << static_cast<int>(kind);
+      ASSERT_NEAR(d.second(i, 0), testing::kPositions[0].at(t, 2), 4e-2) << static_cast<int>(kind);
+    }
+  }
+}
+
+// Spec 1.3: what white noise of the pose becomes. A window of 31 samples is 0.06 s at 500 Hz.
+TEST(Derivative, NoiseGainsAreThoseOfTheFormulas) {
+  const double n = 31, dt = 0.002, dt2 = dt * dt;
+  const double sg = std::sqrt(720.0 / (n * (n * n - 1) * (n * n - 4))) / dt2;
+  EXPECT_NEAR(sg, 1.26e3, 5.0);
+  EXPECT_NEAR(noise_gain(Kind::kSavitzkyGolay, 100, 0.06)[1], sg, 1e-9 * sg);
+  const double three_points = std::sqrt(6.0) / dt2;  // (1, -2, 1)
+  EXPECT_NEAR(three_points, 6.1e5, 0.05e5);
+  // gradient twice is the three-point formula at twice the step
+  EXPECT_NEAR(noise_gain(Kind::kCentral, 100, 0.06)[1], three_points / 4.0, 1e-6);
+  EXPECT_NEAR(noise_gain(Kind::kCentral, 100, 0.06)[0], std::sqrt(0.5) / dt, 1e-9);
+  // the quadratic's second derivative is constant: the causal gain is the centred one
+  EXPECT_NEAR(noise_gain(Kind::kCausalSavitzkyGolay, 100, 0.06)[1], sg, 1e-9 * sg);
+  // velocity of a quadratic at its end: variance 12(2N-1)(8N-11)/(N(N^2-1)(N^2-4))
+  const double end =
+      std::sqrt(12 * (2 * n - 1) * (8 * n - 11) / (n * (n * n - 1) * (n * n - 4))) / dt;
+  EXPECT_NEAR(noise_gain(Kind::kCausalSavitzkyGolay, 100, 0.06)[0], end, 1e-9 * end);
+  EXPECT_GT(noise_gain(Kind::kSpline, 100, 0.06)[1], three_points);  // a spline does not smooth
+}
+
+TEST(Derivative, DoesNotCrossAGap) {
+  for (const Kind kind : kAll) {
+    Recording recording = sine_recording(400);
+    recording.segments = {{0, 150}, {150, 400}};
+    Eigen::MatrixXd x = recording.block({"x"});
+    const Derivatives before = differentiate(x, recording, spec_of(kind));
+    x.topRows(150).array() *= -3.0;
+    const Derivatives after = differentiate(x, recording, spec_of(kind));
+    EXPECT_EQ(before.first.bottomRows(250), after.first.bottomRows(250));
+    EXPECT_EQ(before.second.bottomRows(250), after.second.bottomRows(250));
+  }
+}
+
+TEST(Derivative, NamesASegmentThatIsTooShort) {
+  Recording recording = sine_recording(400);
+  recording.segments = {{0, 370}, {370, 400}};
+  const auto message =
+      testing::error_of([&] { differentiate(recording.block({"x"}), recording, {}); }, Exit::kData);
+  EXPECT_TRUE(testing::contains(message, "sines.csv: samples 371 to 400")) << message;
+  EXPECT_TRUE(testing::contains(message, "window_s")) << message;
+}
+
+TEST(Derivative, SpecComesBackFromJson) {
+  for (const Kind kind : kAll) {
+    const DerivativeSpec spec = spec_of(kind, 0.0625);
+    const DerivativeSpec back = parse_derivative(Options(to_json(spec), "c.json", Exit::kUsage));
+    EXPECT_EQ(back.kind, spec.kind);
+    EXPECT_EQ(back.window_s, spec.window_s);
+    EXPECT_EQ(back.order, spec.order);
+  }
+}
+
+TEST(Derivative, AgreesWithTheReference) {
+  const auto path = testing::shared("reference/savgol.json");
+  if (path.empty()) GTEST_SKIP() << "../shared/reference is absent";
+  const Json json = read_json(path, Exit::kData);
+  const auto matrix = [&](const char* key) {
+    Eigen::MatrixXd m(120, 3);
+    for (Index i = 0; i < 120; ++i) {
+      for (Index k = 0; k < 3; ++k) {
+        m(i, k) = json[key][static_cast<std::size_t>(i)][static_cast<std::size_t>(k)].get<double>();
+      }
+    }
+    return m;
+  };
+  const Derivatives d = differentiate(matrix("theta"), sine_recording(120), {});
+  const Eigen::MatrixXd first = matrix("d1"), second = matrix("d2");
+  EXPECT_LT((d.first - first).cwiseAbs().maxCoeff(), 1e-12 * first.cwiseAbs().maxCoeff());
+  EXPECT_LT((d.second - second).cwiseAbs().maxCoeff(), 1e-10 * second.cwiseAbs().maxCoeff());
+}
+
+}  // namespace
+}  // namespace dcnn

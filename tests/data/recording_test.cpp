@@ -1,0 +1,226 @@
+#include "dcnn/data/recording.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <iomanip>
+#include <numbers>
+#include <sstream>
+
+#include "data/sample_recording.h"
+#include "data/testing.h"
+
+namespace dcnn {
+namespace {
+
+using testing::contains;
+using testing::error_of;
+using testing::temporary_file;
+
+/// 100 rows at 500 Hz; `edit` changes one row (t, x,y,z, alpha,beta,gamma, fx,fy,fz).
+std::string log_text(const std::function<void(Index, std::vector<double>&)>& edit = {}) {
+  std::ostringstream out;
+  out << std::setprecision(17) << "t,x,y,z,alpha,beta,gamma,fx,fy,fz\n";
+  for (Index i = 0; i < 100; ++i) {
+    const double t = 0.002 * static_cast<double>(i);
+    std::vector<double> row = {t, 0.1 * t, 0.2, 0.3, 0.1, 0.2, 3.1 + 0.5 * t, 1.0, 2.0, t};
+    if (edit) edit(i, row);
+    for (std::size_t k = 0; k < row.size(); ++k) out << (k ? "," : "") << row[k];
+    out << "\n";
+  }
+  return out.str();
+}
+
+Recording read(const std::string& text, const ReadOptions& options = {},
+               const System& system = {}) {
+  return read_recording(temporary_file("log.csv", text), options, system);
+}
+
+void expect_error(const std::string& text, const std::vector<std::string>& fragments,
+                  const ReadOptions& options = {}) {
+  const std::string message = error_of([&] { read(text, options); }, Exit::kData);
+  for (const std::string& part : fragments) EXPECT_TRUE(contains(message, part)) << message;
+  EXPECT_FALSE(contains(message, "\n"));
+}
+
+bool noted(const Recording& recording, const std::string& part) {
+  for (const std::string& note : recording.notes) {
+    if (contains(note, part)) return true;
+  }
+  return false;
+}
+
+TEST(Recording, KeepsAPlainLogAsItIs) {
+  const Recording recording = read(log_text());
+  EXPECT_EQ(recording.name, "log.csv");
+  EXPECT_EQ(recording.samples(), 100);
+  EXPECT_NEAR(recording.dt, 0.002, 1e-12);
+  EXPECT_EQ(recording.segments.size(), 1u);
+  EXPECT_TRUE(recording.notes.empty());
+}
+
+TEST(Recording, NamesTheMissingColumn) {
+  expect_error("t,fx,fy,fz\n0,1,2,3\n", {":1:", "no orientation", "alpha,beta,gamma"});
+  expect_error("t,alpha,gamma,fx,fy,fz\n0,1,1,1,2,3\n", {":1:", "'beta'"});
+  expect_error("t,alpha,beta,gamma\n0,1,1,1\n", {":1:", "no measured force"});
+  expect_error("t,alpha,beta,gamma,fx,fz\n0,1,1,1,1,1\n", {":1:", "'fy'"});
+  expect_error("alpha,beta,gamma,fx,fy,fz\n1,1,1,1,1,1\n", {":1:", "'t'", "seconds"});
+}
+
+TEST(Recording, RejectsTimeThatRepeatsOrGoesBack) {
+  expect_error(log_text([](Index i, auto& row) {
+                 if (i == 40) row[0] = 0.078;
+               }),
+               {"log.csv:42:", "repeats", "remove"});
+  expect_error(log_text([](Index i, auto& row) {
+                 if (i >= 40) row[0] -= 1.0;
+               }),
+               {"log.csv:42:", "increase", "cut"});
+  expect_error(log_text([](Index, auto& row) { row[0] *= 1e9; }), {"'t'", "seconds"});
+}
+
+TEST(Recording, MovesTheOriginOfAnEpochClock) {
+  const Recording recording = read(log_text([](Index, auto& row) { row[0] += 1.7e9; }));
+  EXPECT_EQ(recording.clock_origin, 1.7e9);
+  EXPECT_EQ(recording.column("t")[0], 0.0);
+  EXPECT_NEAR(recording.dt, 0.002, 1e-6);
+}
+
+TEST(Recording, SplitsAtAGap) {
+  const Recording recording = read(log_text([](Index i, auto& row) {
+    if (i >= 60) row[0] += 1.0;
+  }));
+  ASSERT_EQ(recording.segments.size(), 2u);
+  EXPECT_EQ(recording.segments[0].end, 60);
+  EXPECT_EQ(recording.segments[1].begin, 60);
+  EXPECT_EQ(recording.segments[1].end, 100);
+  EXPECT_TRUE(noted(recording, "gap"));
+}
+
+std::string irregular_text() {
+  return log_text([](Index i, auto& row) {
+    if (i % 10 == 5) row[0] += 0.001;
+    row[1] = 0.1 * row[0];
+    row[6] = 3.1 + 0.5 * row[0];
+    row[9] = row[0];
+  });
+}
+
+TEST(Recording, RejectsAnIrregularClockAndNamesResample) {
+  expect_error(irregular_text(), {"log.csv:7:", "irregular", "--resample"});
+}
+
+TEST(Recording, ResamplesLinearSignalsExactly) {
+  for (const double hz : {0.0, 250.0, 800.0}) {
+    ReadOptions options;
+    options.resample = true;
+    options.resample_hz = hz;
+    const Recording recording = read(irregular_text(), options);
+    EXPECT_NEAR(1.0 / recording.dt, hz > 0.0 ? hz : 500.0, 1e-6);
+    const Eigen::VectorXd t = recording.column("t");
+    EXPECT_LT((recording.column("x") - 0.1 * t).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((recording.column("fz") - t).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT(
+        ((t.tail(t.size() - 1) - t.head(t.size() - 1)).array() - recording.dt).abs().maxCoeff(),
+        1e-12);
+    EXPECT_TRUE(noted(recording, "resampled"));
+  }
+}
+
+TEST(Recording, ResamplesAnglesAcrossTheBranch) {
+  const auto text = log_text([](Index i, auto& row) {
+    if (i % 10 == 5) row[0] += 0.001;
+    row[6] = 3.1 + 0.5 * row[0];
+    if (row[6] > std::numbers::pi) row[6] -= 2.0 * std::numbers::pi;
+  });
+  ReadOptions options;
+  options.resample = true;
+  const Recording recording = read(text, options);
+  const Eigen::VectorXd wanted = (0.5 * recording.column("t")).array() + 3.1;
+  EXPECT_LT((recording.column("gamma") - wanted).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(Recording, NamesDegreesAndMillimetres) {
+  expect_error(log_text([](Index, auto& row) { row[6] = 180.0; }),
+               {":2:", "'gamma'", "--angle-unit deg"});
+  expect_error(log_text([](Index i, auto& row) {
+                 if (i == 9) row[5] = -35.0;
+               }),
+               {":11:", "'beta'", "--angle-unit deg"});
+  expect_error(log_text([](Index, auto& row) { row[2] = 350.0; }),
+               {":2:", "'y'", "--position-unit mm"});
+  expect_error(log_text([](Index, auto& row) { row[1] = 60.0 * row[0]; }),
+               {"speed", "--position-unit mm"});
+}
+
+TEST(Recording, ConvertsUnitsAndSaysSo) {
+  ReadOptions options;
+  options.position_unit = 0.001;
+  options.angle_unit = std::numbers::pi / 180.0;
+  options.force_sign = -1.0;
+  const auto text = log_text([](Index, auto& row) {
+    for (int k = 1; k <= 3; ++k) row[static_cast<std::size_t>(k)] *= 1000.0;
+    for (int k = 4; k <= 6; ++k) row[static_cast<std::size_t>(k)] *= 180.0 / std::numbers::pi;
+  });
+  const Recording recording = read(text, options), plain = read(log_text());
+  const std::vector<std::string> pose = {"x", "y", "z", "alpha", "beta", "gamma"};
+  EXPECT_LT((recording.block(pose) - plain.block(pose)).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_EQ(recording.column("fx"), -plain.column("fx"));
+  EXPECT_EQ(recording.notes.size(), 3u);
+}
+
+TEST(Recording, RenormalisesQuaternionsAndRejectsBadOnes) {
+  const std::string head = "qw,qx,qy,qz,fx,fy,fz\n0.5,0.5,0.5,0.5,1,2,3\n";
+  ReadOptions options;
+  options.static_list = true;
+  const Recording recording = read(head + "1.0005,0,0,0,1,2,3\n", options);
+  EXPECT_EQ(recording.dt, 0.0);
+  EXPECT_EQ(recording.column("qw")[1], 1.0);
+  expect_error(head + "1.002,0,0,0,1,2,3\n", {":3:", "1.002"}, options);
+  expect_error(head + "0,0,0,0,1,2,3\n", {":3:", "quaternion"}, options);
+  expect_error(head, {"'t'"});
+}
+
+TEST(Recording, ReadsTheAxesOfASystem) {
+  const System system = parse_system(
+      Json::parse(
+          R"({"kind":"axes","axes":[{"name":"a","measured":"tau","unit":"N*m","position":"q","scale":2}]})"),
+      "s.json");
+  const std::string text = "t,q,tau\n0,1000,1\n0.1,2000,2\n0.2,-3000,3\n";
+  const Recording recording = read(text, {}, system);
+  const Targets targets = find_targets(recording, system);
+  EXPECT_EQ(targets.names, std::vector<std::string>{"tau"});
+  EXPECT_EQ(targets.units, std::vector<std::string>{"N*m"});
+  EXPECT_EQ(measured(recording, targets, system)(2, 0), 6.0);
+  const std::string message = error_of([&] { read("t,q\n0,1\n1,2\n", {}, system); }, Exit::kData);
+  EXPECT_TRUE(contains(message, "'tau' of axis 'a'")) << message;
+}
+
+TEST(System, RejectsWhatItDoesNotKnow) {
+  const auto message = [](const char* text) {
+    return error_of([&] { parse_system(Json::parse(text), "s.json"); }, Exit::kData);
+  };
+  EXPECT_TRUE(contains(message(R"({"kind":"axis"})"), "wrist, axes"));
+  EXPECT_TRUE(contains(message(R"({"lowpas_hz":3})"), "lowpass_hz"));
+  EXPECT_TRUE(contains(message(R"({"kind":"axes"})"), "'axes'"));
+  EXPECT_TRUE(
+      contains(message(R"({"kind":"axes","axes":[{"name":"a"}]})"), "'measured' is missing"));
+  EXPECT_TRUE(
+      contains(message(R"({"kind":"axes","axes":[{"name":"a","measured":"m","postion":"q"}]})"),
+               "position"));
+  EXPECT_TRUE(contains(
+      message(
+          R"({"kind":"axes","axes":[{"name":"a","measured":"m"},{"name":"a","measured":"n"}]})"),
+      "twice"));
+}
+
+TEST(System, TellsAnEmptyBaseFromNone) {
+  const auto axis = [](const char* text) {
+    return parse_system(Json::parse(text), "s.json").axes[0];
+  };
+  EXPECT_TRUE(axis(R"({"kind":"axes","axes":[{"name":"a","measured":"m","base":[]}]})").has_base);
+  EXPECT_FALSE(axis(R"({"kind":"axes","axes":[{"name":"a","measured":"m"}]})").has_base);
+}
+
+}  // namespace
+}  // namespace dcnn
