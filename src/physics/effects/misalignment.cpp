@@ -1,0 +1,26 @@
+#include "dcnn/data/rotation.h"
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+void apply(Wrench& wrench, const Motion&, const EffectSpec&, const ToolModel&,
+           Options& parameters) {
+  const Eigen::Matrix3d Rm = rotation_from_euler(parameters3(parameters, "rot", "_rad").reverse());
+  wrench.force *= Rm;  // rows are transposed vectors
+  wrench.torque *= Rm;
+}
+
+}  // namespace
+
+const EffectKind misalignment_effect{
+    .name = "misalignment",
+    .stage = Stage::kSensor,
+    .kind = "sensor",
+    .meaning = "sensor axes turned against the pose frame",
+    .equation = "F -> Rm^T F, Rm = Rz(rz) Ry(ry) Rx(rx)",
+    .example = R"({"rot_x_rad": 0.02, "rot_y_rad": -0.01, "rot_z_rad": 0.03})",
+    .apply = apply,
+};
+
+}  // namespace dcnn
