@@ -2,7 +2,7 @@
 include(CMakePackageConfigHelpers)
 install(TARGETS dcnn EXPORT dcnnTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY include/dcnn DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/dcnn OPTIONAL)
+install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/dcnn)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/dcnn)
 install(EXPORT dcnnTargets NAMESPACE dcnn:: DESTINATION ${package_dir})
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/dcnnConfig.cmake

@@ -46,9 +46,11 @@ int main(int argc, char** argv) {
   const ReadFlags read(app);
 
   return tool.run(argc, argv, [&] {
+    ReadOptions options = read.options();
+    options.motion_only = true;
     const bool simulator = model.extension() == ".json";
-    const Recording recording = simulator ? predict_with_simulator(model, data, read.options())
-                                          : predict_with_model(model, data, read.options());
+    const Recording recording = simulator ? predict_with_simulator(model, data, options)
+                                          : predict_with_model(model, data, options);
     for (const auto& note : recording.notes) tool.note(note);
     write_csv(out, recording.table);
     const Json summary = {{"rows", recording.samples()}, {"file", out.string()}};

@@ -32,7 +32,8 @@ Json simulate_folder(const std::filesystem::path& config, const std::filesystem:
 
 /// The simulator's prediction for a logged motion.
 Json simulate_motion(const std::filesystem::path& sim, const std::filesystem::path& motion,
-                     const std::filesystem::path& out, const ReadOptions& read) {
+                     const std::filesystem::path& out, ReadOptions read) {
+  read.motion_only = true;
   const Recording recording = read_recording(motion, read, System());
   const Recording predicted = predict_motion(read_simulator(sim), recording, DerivativeSpec());
   write_csv(out, predicted.table);

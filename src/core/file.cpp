@@ -55,7 +55,7 @@ void sync_folder(const fs::path& path) {
 }  // namespace
 
 std::string read_file(const fs::path& path, std::size_t max_bytes, Exit exit) {
-  Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   require(fd.get() >= 0, exit, path.string(), ": cannot open: ", reason());
   struct stat info {};
   require(::fstat(fd.get(), &info) == 0, exit, path.string(), ": cannot read: ", reason());

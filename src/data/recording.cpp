@@ -40,7 +40,7 @@ void require_column(const Recording& recording, const std::string& name, const s
           "' of axis '", axis, "' is missing; add it or correct the system description");
 }
 
-void check_wrist_columns(const Recording& recording, const std::string& file) {
+void check_wrist_columns(const Recording& recording, bool motion_only, const std::string& file) {
   const bool quaternion = has_whole(recording, {"qw", "qx", "qy", "qz"}, file);
   const bool euler = has_whole(recording, {"alpha", "beta", "gamma"}, file);
   require(
@@ -48,7 +48,8 @@ void check_wrist_columns(const Recording& recording, const std::string& file) {
       ":1: no orientation; log qw,qx,qy,qz or alpha,beta,gamma, or name the columns with --system");
   const bool force = has_whole(recording, kForce, file);
   const bool torque = has_whole(recording, kTorque, file);
-  require(force || torque, Exit::kData, file, ":1: no measured force; log fx,fy,fz or tx,ty,tz");
+  require(force || torque || motion_only, Exit::kData, file,
+          ":1: no measured force; log fx,fy,fz or tx,ty,tz");
   for (const Names& optional :
        {Names{"x", "y", "z"}, Names{"vx", "vy", "vz"}, Names{"wx", "wy", "wz"},
         Names{"ax", "ay", "az"}, Names{"dwx", "dwy", "dwz"}}) {
@@ -56,10 +57,11 @@ void check_wrist_columns(const Recording& recording, const std::string& file) {
   }
 }
 
-void check_axis_columns(const Recording& recording, const System& system, const std::string& file) {
+void check_axis_columns(const Recording& recording, const System& system, bool motion_only,
+                        const std::string& file) {
   for (const Axis& axis : system.axes) {
-    for (const std::string& name :
-         {axis.measured, axis.position, axis.velocity, axis.acceleration, axis.simulated}) {
+    if (!motion_only) require_column(recording, axis.measured, axis.name, file);
+    for (const std::string& name : {axis.position, axis.velocity, axis.acceleration, axis.simulated}) {
       require_column(recording, name, axis.name, file);
     }
     for (const std::string& name : axis.signals) require_column(recording, name, axis.name, file);
@@ -158,8 +160,8 @@ Recording read_recording(const std::filesystem::path& path, const ReadOptions& o
       recording.has("t") || options.static_list, Exit::kData, file,
       ":1: column 't' is missing; log the time in seconds (only lists of static poses have none)");
   const bool wrist = system.kind == System::Kind::kWrist;
-  if (wrist) check_wrist_columns(recording, file);
-  if (!wrist) check_axis_columns(recording, system, file);
+  if (wrist) check_wrist_columns(recording, options.motion_only, file);
+  if (!wrist) check_axis_columns(recording, system, options.motion_only, file);
   set_clock(recording, file);
   convert_units(recording, options);
   if (wrist) check_pose(recording, file);

@@ -26,6 +26,7 @@ struct ReadOptions {
   bool resample = false;       ///< put an irregular clock on a regular one
   double resample_hz = 0.0;    ///< 0: the recording's own median rate
   bool static_list = false;    ///< accept a list of poses without time
+  bool motion_only = false;   ///< nothing measured is needed: the log is to be predicted
 };
 
 struct Recording {
