@@ -107,6 +107,7 @@ class Drawing {
     right_ = chart_.width - 18;
     tilted_ = longest >
               (right_ - left_) / std::max<double>(1, static_cast<double>(chart_.categories.size()));
+    if (tilted_) left_ = std::max(left_, 0.87 * longest);  // cos 30°: the first word starts inside
     top_ = chart_.title.empty() ? 20 : 38;
     bottom_ = std::max(top_ + 60, chart_.height - 44 - (tilted_ ? 0.5 * longest : 0));
     place_legend();
