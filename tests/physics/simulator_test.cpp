@@ -90,7 +90,7 @@ TEST(RigidWrench, AgreesWithAnIndependentRegressor) {
   const std::filesystem::path path = DCNN_SOURCE_DIR "/../shared/reference/physics.json";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "reference physics.json is not here";
   const Json reference = read_json(path, Exit::kData);
-  const Eigen::MatrixXd w = matrix(reference["omega"]), dw = matrix(reference["alpha"]);
+  const Eigen::MatrixXd w = matrix(reference["omega_body"]), dw = matrix(reference["alpha_body"]);
   Motion motion = still_motion(w.rows());
   motion.w_S = w;
   motion.dw_S = dw;
