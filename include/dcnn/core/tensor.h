@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dcnn/core/parallel.h"
@@ -28,6 +29,8 @@ class Tensor {
   Tensor() = default;
   /// Zeros. `wants_gradient` marks a leaf that is trained.
   explicit Tensor(Shape shape, bool wants_gradient = false);
+  /// Values not yet set: for an operation that is about to write all of them.
+  static Tensor uninitialised(Shape shape);
   static Tensor from(Shape shape, std::span<const Real> values, bool wants_gradient = false);
 
   bool defined() const { return node_ != nullptr; }
@@ -41,6 +44,12 @@ class Tensor {
   Real* gradient_data() const;
   std::span<Real> gradient() const;
   bool has_gradient() const;
+  /// Where a backward pass writes: adds to what is there, or overwrites it all (saves filling with zeros).
+  struct GradientSlot {
+    Real* data;
+    bool add;
+  };
+  GradientSlot gradient_slot() const;
   void clear_gradient() const;
 
   /// The same values under another shape of the same size; gradients flow through.
@@ -51,6 +60,7 @@ class Tensor {
 
  private:
   struct Node;
+  explicit Tensor(std::shared_ptr<Node> node) : node_(std::move(node)) {}
   friend Tensor record(Tensor, std::vector<Tensor>, std::function<void(const Tensor&)>);
   std::shared_ptr<Node> node_;
 };

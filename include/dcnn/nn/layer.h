@@ -1,6 +1,7 @@
 // Layers hold parameters and no mood: training and randomness arrive with the call.
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <vector>
@@ -49,7 +50,7 @@ using LayerPtr = std::unique_ptr<Layer>;
 struct LayerKind {
   const char* name;
   const char* example;  ///< options for the shared tests, JSON
-  Shape example_input;  ///< (N, …)
+  std::initializer_list<Index> example_input;  ///< (N, …)
   /// `input` is the shape of one sample, without N.
   LayerPtr (*make)(Options&, const Shape& input, Rng&);
 };

@@ -1,0 +1,138 @@
+#include "nn/kernels/elementwise.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "nn/kernels/elementwise.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace dcnn::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Full = hn::ScalableTag<Real>;
+using One = hn::CappedTag<Real, 1>;  // the rest of an array, with the same arithmetic
+
+template <class Loop>
+HWY_INLINE void for_all(Index n, const Loop& loop) {
+  const auto lanes = static_cast<Index>(hn::Lanes(Full()));
+  Index i = 0;
+  for (; i + lanes <= n; i += lanes) loop(Full(), i);
+  for (; i < n; ++i) loop(One(), i);
+}
+
+template <class D, class V>
+HWY_INLINE void put(D d, V value, Tensor::GradientSlot out, Index i) {
+  hn::StoreU(out.add ? hn::Add(hn::LoadU(d, out.data + i), value) : value, d, out.data + i);
+}
+
+void relu_forward_target(const Real* x, Index n, Real* y) {
+  for_all(n, [=](auto d, Index i)
+                 HWY_ATTR { hn::StoreU(hn::Max(hn::LoadU(d, x + i), hn::Zero(d)), d, y + i); });
+}
+
+void relu_gradient_target(const Real* y, const Real* dy, Index n, Tensor::GradientSlot slot) {
+  for_all(n, [=](auto d, Index i) HWY_ATTR {
+    const auto positive = hn::Gt(hn::LoadU(d, y + i), hn::Zero(d));
+    put(d, hn::IfThenElseZero(positive, hn::LoadU(d, dy + i)), slot, i);
+  });
+}
+
+void multiply_target(const Real* a, const Real* b, Index n, Tensor::GradientSlot out) {
+  for_all(n, [=](auto d, Index i)
+                 HWY_ATTR { put(d, hn::Mul(hn::LoadU(d, a + i), hn::LoadU(d, b + i)), out, i); });
+}
+
+void sum_arrays_target(const Real* arrays, Index count, Index n, Tensor::GradientSlot out) {
+  for_all(n, [=](auto d, Index i) HWY_ATTR {
+    auto sum = hn::LoadU(d, arrays + i);
+    for (Index k = 1; k < count; ++k) sum = hn::Add(sum, hn::LoadU(d, arrays + k * n + i));
+    put(d, sum, out, i);
+  });
+}
+
+void adam_target(const AdamStep& s, Index n, const Real* gradient, Real* first, Real* second,
+                 Real* value) {
+  for_all(n, [=](auto d, Index i) HWY_ATTR {
+    const auto w = hn::LoadU(d, value + i);
+    const auto g = hn::MulAdd(hn::Set(d, s.l2), w, hn::LoadU(d, gradient + i));
+    const auto m = hn::MulAdd(hn::Set(d, s.beta1), hn::LoadU(d, first + i),
+                              hn::Mul(hn::Set(d, 1 - s.beta1), g));
+    const auto v = hn::MulAdd(hn::Set(d, s.beta2), hn::LoadU(d, second + i),
+                              hn::Mul(hn::Mul(hn::Set(d, 1 - s.beta2), g), g));
+    const auto root = hn::MulAdd(hn::Sqrt(v), hn::Set(d, s.root_scale), hn::Set(d, s.epsilon));
+    hn::StoreU(m, d, first + i);
+    hn::StoreU(v, d, second + i);
+    hn::StoreU(hn::NegMulAdd(hn::Set(d, s.rate), hn::Div(m, root), w), d, value + i);
+  });
+}
+
+/// kOutputs dot products at once: as many independent sums, and x is read once.
+template <Index kOutputs>
+void affine_block(const Real* x, const Real* weights, const Real* bias, Index inputs, Real* y) {
+  using V = hn::Vec<Full>;
+  const Full d;
+  const auto lanes = static_cast<Index>(hn::Lanes(d));
+  V sum[kOutputs];
+  for (V& s : sum) s = hn::Zero(d);
+  Index i = 0;
+  for (; i + lanes <= inputs; i += lanes) {
+    const V value = hn::LoadU(d, x + i);
+    for (Index o = 0; o < kOutputs; ++o) {
+      sum[o] = hn::MulAdd(value, hn::LoadU(d, weights + o * inputs + i), sum[o]);
+    }
+  }
+  for (Index o = 0; o < kOutputs; ++o) {
+    Real total = hn::GetLane(hn::SumOfLanes(d, sum[o]));
+    for (Index k = i; k < inputs; ++k) total += x[k] * weights[o * inputs + k];
+    y[o] = bias[o] + total;
+  }
+}
+
+void affine_target(const Real* x, const Real* weights, const Real* bias, Index inputs,
+                   Index outputs, Real* y) {
+  Index o = 0;
+  for (; o + 3 <= outputs; o += 3) {
+    affine_block<3>(x, weights + o * inputs, bias + o, inputs, y + o);
+  }
+  for (; o < outputs; ++o) affine_block<1>(x, weights + o * inputs, bias + o, inputs, y + o);
+}
+
+}  // namespace dcnn::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace dcnn {
+HWY_EXPORT(relu_forward_target);
+HWY_EXPORT(relu_gradient_target);
+HWY_EXPORT(multiply_target);
+HWY_EXPORT(sum_arrays_target);
+HWY_EXPORT(adam_target);
+HWY_EXPORT(affine_target);
+
+void relu_forward(const Real* x, Index n, Real* y) {
+  HWY_DYNAMIC_DISPATCH(relu_forward_target)(x, n, y);
+}
+
+void relu_gradient(const Real* y, const Real* dy, Index n, Tensor::GradientSlot slot) {
+  HWY_DYNAMIC_DISPATCH(relu_gradient_target)(y, dy, n, slot);
+}
+
+void multiply(const Real* a, const Real* b, Index n, Tensor::GradientSlot out) {
+  HWY_DYNAMIC_DISPATCH(multiply_target)(a, b, n, out);
+}
+
+void sum_arrays(const Real* arrays, Index count, Index n, Tensor::GradientSlot out) {
+  HWY_DYNAMIC_DISPATCH(sum_arrays_target)(arrays, count, n, out);
+}
+
+void adam(const AdamStep& step, Index n, const Real* gradient, Real* first, Real* second,
+          Real* value) {
+  HWY_DYNAMIC_DISPATCH(adam_target)(step, n, gradient, first, second, value);
+}
+
+void affine(const Real* x, const Real* weights, const Real* bias, Index inputs, Index outputs,
+            Real* y) {
+  HWY_DYNAMIC_DISPATCH(affine_target)(x, weights, bias, inputs, outputs, y);
+}
+}  // namespace dcnn
+#endif

@@ -1,0 +1,100 @@
+#include "dcnn/nn/layer.h"
+#include "nn/init.h"
+#include "nn/kernels/channels.h"
+#include "nn/kernels/elementwise.h"
+#include "nn/kernels/tile.h"
+#include "nn/pieces.h"
+
+namespace dcnn {
+namespace {
+
+/// y = W·x + b. (N, inputs) in, (N, outputs) out; weight (outputs, inputs).
+class Linear final : public Layer {
+ public:
+  Linear(Tensor weight, Tensor bias) : weight_(std::move(weight)), bias_(std::move(bias)) {}
+
+  Tensor forward(const Tensor& x, Pass&) const override {
+    const Index inputs = weight_.dim(1), outputs = weight_.dim(0);
+    Tensor y = Tensor::uninitialised({x.dim(0), outputs});
+    for_each_part(x.dim(0), [&](Index, Index begin, Index samples) {
+      for (Index n = begin; n < begin + samples; ++n) {
+        affine(x.data() + n * inputs, weight_.data(), bias_.data(), inputs, outputs,
+               y.data() + n * outputs);
+      }
+    });
+    return record(y, {x, weight_, bias_}, [x, weight = weight_, bias = bias_](const Tensor& out) {
+      backward(x, weight, bias, out.gradient_data());
+    });
+  }
+
+  std::vector<NamedTensor> state() const override {
+    return {{"weight", weight_, NamedTensor::Role::kWeight},
+            {"bias", bias_, NamedTensor::Role::kBias}};
+  }
+
+ private:
+  static void backward(const Tensor& x, const Tensor& weight, const Tensor& bias, const Real* dy) {
+    const Index inputs = weight.dim(1), outputs = weight.dim(0);
+    PieceSums dweight(x.dim(0), weight.size()), dbias(x.dim(0), outputs);
+    const Tensor::GradientSlot dx = x.wants_gradient() ? x.gradient_slot() : Tensor::GradientSlot{};
+    for_each_part(x.dim(0), [&](Index piece, Index begin, Index samples) {
+      const Real *x_piece = x.data() + begin * inputs, *dy_piece = dy + begin * outputs;
+      weight_product(x_piece, dy_piece, samples, inputs, outputs, dweight.of(piece));
+      channel_sums(dy_piece, samples, outputs, dbias.of(piece));
+      if (!dx.data) return;
+      Real* to = dx.data + begin * inputs;
+      const Run run{0, 0, outputs};
+      tile_product({.a = dy_piece,
+                    .a_row = outputs,
+                    .a_step = 1,
+                    .b = weight.data(),
+                    .b_step = inputs,
+                    .runs = {&run, 1},
+                    .out = to,
+                    .out_row = inputs,
+                    .start = dx.add ? to : nullptr,
+                    .start_row = inputs,
+                    .rows = samples,
+                    .columns = inputs});
+    });
+    sum_pieces(dweight, weight);
+    sum_pieces(dbias, bias);
+  }
+
+  static void weight_product(const Real* x, const Real* dy, Index samples, Index inputs,
+                             Index outputs, Real* dweight) {
+    const Run run{0, 0, samples};
+    tile_product({.a = dy,
+                  .a_row = 1,
+                  .a_step = outputs,
+                  .b = x,
+                  .b_step = inputs,
+                  .runs = {&run, 1},
+                  .out = dweight,
+                  .out_row = inputs,
+                  .start = nullptr,
+                  .start_row = 0,
+                  .rows = outputs,
+                  .columns = inputs});
+  }
+
+  Tensor weight_, bias_;
+};
+
+LayerPtr make_linear(Options& options, const Shape& input, Rng& rng) {
+  const Index outputs = options.get<Index>("outputs");
+  if (outputs < 1) options.reject("outputs", "must be at least 1, not ", outputs);
+  require(input.size() == 1, Exit::kUsage, "linear: input ", to_string(input),
+          " is not a vector; put a 'flatten' layer before it");
+  Tensor weight = initial_weight(options, {outputs, input[0]}, input[0], outputs, rng);
+  return std::make_unique<Linear>(weight, Tensor({outputs}, true));
+}
+
+}  // namespace
+
+extern constinit const LayerKind linear{.name = "linear",
+                                        .example = R"({"outputs": 3})",
+                                        .example_input = {6, 37},
+                                        .make = make_linear};
+
+}  // namespace dcnn

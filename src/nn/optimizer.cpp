@@ -1,0 +1,115 @@
+#include "dcnn/nn/optimizer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "nn/kernels/elementwise.h"
+
+namespace dcnn {
+namespace {
+
+using Role = NamedTensor::Role;
+
+std::vector<NamedTensor> trained_only(std::vector<NamedTensor> tensors) {
+  std::erase_if(tensors, [](const NamedTensor& t) { return t.role == Role::kStatistic; });
+  return tensors;
+}
+
+}  // namespace
+
+Adam::Adam(std::vector<NamedTensor> parameters, Settings settings)
+    : parameters_(trained_only(std::move(parameters))), settings_(settings) {
+  for (const auto& parameter : parameters_) {
+    first_.emplace_back(parameter.tensor.shape());
+    second_.emplace_back(parameter.tensor.shape());
+  }
+}
+
+void Adam::step(double rate) {
+  ++steps_;
+  const double t = static_cast<double>(steps_);
+  const double correction1 = 1 - std::pow(settings_.beta1, t);
+  const double correction2 = 1 - std::pow(settings_.beta2, t);
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const Tensor& parameter = parameters_[i].tensor;
+    const AdamStep coefficients{
+        .beta1 = static_cast<Real>(settings_.beta1),
+        .beta2 = static_cast<Real>(settings_.beta2),
+        .rate = static_cast<Real>(rate / correction1),
+        .root_scale = static_cast<Real>(1 / std::sqrt(correction2)),
+        .epsilon = static_cast<Real>(settings_.epsilon),
+        .l2 = static_cast<Real>(parameters_[i].role == Role::kWeight ? settings_.l2 : 0.0)};
+    adam(coefficients, parameter.size(), parameter.gradient_data(), first_[i].data(),
+         second_[i].data(), parameter.data());
+    parameter.clear_gradient();
+  }
+}
+
+std::vector<NamedTensor> Adam::state() const {
+  std::vector<NamedTensor> state;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    state.push_back({parameters_[i].name + ".m", first_[i], Role::kStatistic});
+    state.push_back({parameters_[i].name + ".v", second_[i], Role::kStatistic});
+  }
+  return state;
+}
+
+LearningRate::LearningRate(Options& training, Index epochs, Index steps_per_epoch)
+    : initial_(training.number("lr", 1e-3, 0.0, 1e3)),
+      factor_(training.number("drop_factor", 0.1, 0.0, 1.0)),
+      period_(training.get<Index>("drop_period", std::max<Index>(epochs, 1))),
+      total_steps_(std::max<Index>(epochs * steps_per_epoch, 1)),
+      steps_per_epoch_(steps_per_epoch) {
+  const auto word = training.choice("schedule", "piecewise", {"constant", "piecewise", "cosine"});
+  kind_ = word == "constant" ? Kind::kConstant
+          : word == "cosine" ? Kind::kCosine
+                             : Kind::kPiecewise;
+  if (period_ < 1) training.reject("drop_period", "must be at least 1, not ", period_);
+}
+
+double LearningRate::at(Index epoch, Index step) const {
+  switch (kind_) {
+    case Kind::kConstant:
+      return initial_;
+    case Kind::kPiecewise:
+      return initial_ * std::pow(factor_, static_cast<double>(epoch / period_));
+    case Kind::kCosine:
+      break;
+  }
+  const double done = static_cast<double>(epoch * steps_per_epoch_ + step);
+  return initial_ * 0.5 *
+         (1 + std::cos(std::numbers::pi * done / static_cast<double>(total_steps_)));
+}
+
+WeightAverage::WeightAverage(std::vector<NamedTensor> parameters, double decay)
+    : parameters_(trained_only(std::move(parameters))), decay_(decay) {
+  for (const auto& parameter : parameters_) {
+    averages_.push_back(Tensor::from(parameter.tensor.shape(), parameter.tensor.values()));
+  }
+}
+
+void WeightAverage::update() {
+  const Real weight = static_cast<Real>(1 - decay_);
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const Real* value = parameters_[i].tensor.data();
+    for (Real& average : averages_[i].values()) average += weight * (*value++ - average);
+  }
+}
+
+void WeightAverage::swap() {
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const auto values = parameters_[i].tensor.values();
+    std::swap_ranges(values.begin(), values.end(), averages_[i].values().begin());
+  }
+}
+
+std::vector<NamedTensor> WeightAverage::state() const {
+  std::vector<NamedTensor> state;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    state.push_back({parameters_[i].name + ".ema", averages_[i], Role::kStatistic});
+  }
+  return state;
+}
+
+}  // namespace dcnn
