@@ -15,9 +15,8 @@ struct Table {
 };
 
 /// Reads a header row and rows of finite decimal numbers, comma-separated. Everything else is an
-/// Error(kData) naming file, line, column and remedy (contract.md section 2). Accepted beside:
-/// CRLF, a last row without line end, blank lines after the last row, spaces around a cell, a
-/// leading '+'.
+/// Error(kData) naming file, line, column and remedy (contract.md section 2). Accepted beside: CRLF, a
+/// last row without line end, blank lines after the last row, spaces around a cell, a leading '+'.
 Table read_csv(const std::filesystem::path& path);
 
 /// Writes the shortest decimals that read back as the same doubles; replaced atomically.

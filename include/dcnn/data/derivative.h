@@ -1,5 +1,4 @@
-// The four estimators of spec 1.3: first and second derivatives of sampled signals, length
-// preserved.
+// The four estimators of spec 1.3: first and second derivatives of sampled signals, length preserved.
 #pragma once
 
 #include <Eigen/Dense>
@@ -25,9 +24,8 @@ struct DerivativeSpec {
 DerivativeSpec parse_derivative(Options options);
 Json to_json(const DerivativeSpec& spec);
 
-/// Weights w so that the derivative of the given order (0, 1, 2) at offset `at` (samples from the
-/// window's first) of the least-squares polynomial through `window` samples is sum w_k·x_k /
-/// dt^derivative.
+/// Weights w so that the derivative of the given order (0, 1, 2) at offset `at` (samples from the window's
+/// first) of the least-squares polynomial through `window` samples is sum w_k·x_k / dt^derivative.
 Eigen::VectorXd savitzky_golay_weights(int window, int order, int derivative, double at);
 
 struct Derivatives {

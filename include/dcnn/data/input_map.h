@@ -13,14 +13,12 @@ class InputMap {
  public:
   static constexpr Index kColumns = 5;
   struct Spec {
-    bool variance =
-        false;  ///< divide by the variance, as the paper says, not the standard deviation
-    bool zerocenter = true;  ///< subtract the per-cell mean over the training part
+    bool variance = false;    ///< divide by the variance, as the paper says, not the standard deviation
+    bool zerocenter = true;   ///< subtract the per-cell mean over the training part
   };
 
   InputMap() = default;
-  /// Statistics of the training features (T, F), N - 1 in the denominator; sd below 1e-12 counts
-  /// as 1.
+  /// Statistics of the training features (T, F), N - 1 in the denominator; sd below 1e-12 counts as 1.
   InputMap(const Eigen::MatrixXd& training, Spec spec);
 
   Index features() const { return mean_.size(); }

@@ -49,9 +49,8 @@ struct Recording {
   void set(const std::string& name, const Eigen::VectorXd& values);
 };
 
-/// Reads, checks and converts one recording. `system` names the columns that must be there: for
-/// `wrist` time, an orientation and a force; for `axes` those of the description. All faults are
-/// Error(kData).
+/// Reads, checks and converts one recording. `system` names the columns that must be there: for `wrist`
+/// time, an orientation and a force; for `axes` those of the description. All faults are Error(kData).
 Recording read_recording(const std::filesystem::path& path, const ReadOptions& options,
                          const System& system);
 
@@ -61,8 +60,7 @@ struct Targets {
 };
 Targets find_targets(const Recording& recording, const System& system);
 
-/// (T, targets): measured values times the axis' scale, zero-phase low-passed where the system says
-/// so
+/// (T, targets): measured values times the axis' scale, zero-phase low-passed where the system says so
 /// (`filtered` false leaves that out).
 Eigen::MatrixXd measured(const Recording& recording, const Targets& targets, const System& system,
                          bool filtered = true);

@@ -20,8 +20,7 @@ void unwrap(Eigen::Ref<Eigen::MatrixXd> angles);
 /// neighbours are near (continuous within a segment). Quaternion columns win over Euler angles.
 Eigen::MatrixXd quaternions(const Recording& recording);
 
-/// Euler angles of a recording, (T,3) alpha,beta,gamma, unwrapped. Quaternion columns win over
-/// Euler angles.
+/// Euler angles of a recording, (T,3) alpha,beta,gamma, unwrapped. Quaternion columns win.
 Eigen::MatrixXd euler_angles(const Recording& recording);
 
 /// R_BE of each sample.
