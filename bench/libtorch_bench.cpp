@@ -1,4 +1,5 @@
-// dcnn_bench_libtorch [pairs]: epochs of the same training, ours and libtorch's in turn, in one process.
+// dcnn_bench_libtorch [pairs]: epochs of the same training, ours and libtorch's in turn, in one
+// process.
 #include <torch/torch.h>
 
 #include <algorithm>
@@ -42,7 +43,8 @@ class TorchTraining {
     network_->push_back(nn::Dropout(0.5));
     network_->push_back(nn::Flatten());
     network_->push_back(nn::Linear(same ? 2400 : 352, 3));
-    return torch::optim::Adam(network_->parameters(), torch::optim::AdamOptions(1e-3).weight_decay(1e-4));
+    return torch::optim::Adam(network_->parameters(),
+                              torch::optim::AdamOptions(1e-3).weight_decay(1e-4));
   }
 
   torch::nn::Sequential network_;

@@ -13,7 +13,8 @@ constexpr Index kSamples = 41729, kBatch = 50;  // spec 2.4: 834 iterations, the
 
 /// Multiply-adds of the products of one prediction (spec 2.0).
 inline double products(const std::string& padding) { return padding == "same" ? 508800 : 117024; }
-/// And of one training sample: forward, weight gradient and, but for the first layer, input gradient.
+/// And of one training sample: forward, weight gradient and, but for the first layer, input
+/// gradient.
 inline double training_products(const std::string& padding) {
   return 3 * products(padding) - (padding == "same" ? 15 * 5 - 5.25 : 14 * 4) * 8 * 4;
 }
@@ -44,8 +45,8 @@ class Training {
     for (Index first = 0; first + kBatch <= kSamples; first += kBatch) {
       Pass pass{.mode = Pass::Mode::kTrain, .rng = Rng({1, static_cast<std::uint64_t>(first)})};
       const Tensor batch = rows(x, first, {kBatch, 15, 5, 1});
-      const Tensor loss = half_mean_squared_error(network.forward(batch, pass),
-                                                  rows(wanted, first, {kBatch, 3}));
+      const Tensor loss =
+          half_mean_squared_error(network.forward(batch, pass), rows(wanted, first, {kBatch, 3}));
       loss.backward();
       adam_.step(1e-3);
     }
@@ -55,7 +56,8 @@ class Training {
   static Tensor rows(const Tensor& from, Index first, const Shape& shape) {
     const Index width = element_count(shape) / shape[0];
     const auto begin = static_cast<std::size_t>(first * width);
-    return Tensor::from(shape, from.values().subspan(begin, static_cast<std::size_t>(kBatch * width)));
+    return Tensor::from(shape,
+                        from.values().subspan(begin, static_cast<std::size_t>(kBatch * width)));
   }
 
   Rng rng_{1};
@@ -68,7 +70,8 @@ class Training {
   Adam adam_;
 };
 
-/// Measured multiply-adds per second of all threads together, in the widest vectors of this machine.
+/// Measured multiply-adds per second of all threads together, in the widest vectors of this
+/// machine.
 double peak_multiply_adds();
 
 }  // namespace dcnn

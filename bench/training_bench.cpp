@@ -1,5 +1,5 @@
-// dcnn_bench: an epoch of training and a single prediction, in multiply-adds per second and as a share of
-// what the machine can do.
+// dcnn_bench: an epoch of training and a single prediction, in multiply-adds per second and as a
+// share of what the machine can do.
 #include <benchmark/benchmark.h>
 
 #include "bench/training.h"
@@ -21,7 +21,8 @@ void count_products(benchmark::State& state, double per_iteration) {
 void epoch(benchmark::State& state, const std::string& padding) {
   Training training(padding);
   for (auto _ : state) training.epoch();
-  count_products(state, training_products(padding) * static_cast<double>(kSamples / kBatch * kBatch));
+  count_products(state,
+                 training_products(padding) * static_cast<double>(kSamples / kBatch * kBatch));
 }
 
 void prediction(benchmark::State& state, const std::string& padding) {
