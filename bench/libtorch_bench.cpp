@@ -89,6 +89,7 @@ int main(int argc, char** argv) {
   torch::set_num_threads(dcnn::threads());
   std::printf("%d threads, batch %d, %d pairs of epochs\n", dcnn::threads(),
               static_cast<int>(dcnn::kBatch), pairs);
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // results as they come
   compare("valid", pairs);
   compare("same", pairs);
 }

@@ -16,7 +16,7 @@ inline double products(const std::string& padding) { return padding == "same" ? 
 /// And of one training sample: forward, weight gradient and, but for the first layer, input
 /// gradient.
 inline double training_products(const std::string& padding) {
-  return 3 * products(padding) - (padding == "same" ? 15 * 5 - 5.25 : 14 * 4) * 8 * 4;
+  return 3 * products(padding) - (padding == "same" ? 15 * 5 : 14 * 4) * 4 * 8;
 }
 
 inline Json dcnn_layers(const std::string& padding) {
