@@ -1,7 +1,6 @@
 // Recordings of a swinging tool for the tests of the physics room.
 #pragma once
 
-#include <fstream>
 #include <string>
 
 #include "dcnn/physics/simulator.h"
