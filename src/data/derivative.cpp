@@ -129,28 +129,26 @@ Json to_json(const DerivativeSpec& spec) {
           {"order", spec.order}};
 }
 
-// With V the monomials at the samples, scaled to [-1, 1] where they are well-conditioned, and p
-// those at the wanted place (differentiated): w = V·(VᵀV)⁻¹·p = Q·R⁻ᵀ·p.
+// Least squares in polynomials p_j orthogonal on the samples z in [-1, 1] (Gram), by the recursion
+// p_{j+1} = z·p_j - b_j·p_{j-1}: the weight of sample k is sum_j p_j(z_k)·p_j^(d)(at)/<p_j, p_j>.
 Eigen::VectorXd savitzky_golay_weights(int window, int order, int derivative, double at) {
   assert(window > order && derivative >= 0 && derivative <= 2);
-  const double half = 0.5 * (window - 1);
-  Eigen::MatrixXd V(window, order + 1);
-  for (int k = 0; k < window; ++k) {
-    const double z = (k - half) / half;
-    V(k, 0) = 1.0;
-    for (int j = 1; j <= order; ++j) V(k, j) = V(k, j - 1) * z;
+  const double half = 0.5 * (window - 1), z_at = (at - half) / half;
+  const Eigen::ArrayXd z = Eigen::ArrayXd::LinSpaced(window, -1.0, 1.0);
+  Eigen::ArrayXd p = Eigen::ArrayXd::Ones(window), p_before = Eigen::ArrayXd::Zero(window);
+  Eigen::Array3d q(1.0, 0.0, 0.0), q_before = Eigen::Array3d::Zero();  // p_j(at) and its derivatives
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(window);
+  double norm = window, norm_before = 1.0;
+  for (int j = 0; j <= order; ++j) {
+    weights += (p * (q[derivative] / norm)).matrix();
+    const double b = j == 0 ? 0.0 : norm / norm_before;
+    const Eigen::ArrayXd p_next = z * p - b * p_before;
+    const Eigen::Array3d q_next = z_at * q + Eigen::Array3d(0.0, q[0], 2.0 * q[1]) - b * q_before;
+    p_before = p, p = p_next;
+    q_before = q, q = q_next;
+    norm_before = norm, norm = p.square().sum();
   }
-  Eigen::VectorXd p = Eigen::VectorXd::Zero(order + 1);
-  const double z = (at - half) / half;
-  for (int j = derivative; j <= order; ++j) {
-    const double factor = derivative == 0 ? 1.0 : derivative == 1 ? j : j * (j - 1.0);
-    p[j] = factor * std::pow(z, j - derivative) / std::pow(half, derivative);
-  }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(V);
-  const Eigen::MatrixXd R = qr.matrixQR().topRows(order + 1).triangularView<Eigen::Upper>();
-  Eigen::VectorXd w = Eigen::VectorXd::Zero(window);
-  w.head(order + 1) = R.transpose().triangularView<Eigen::Lower>().solve(p);
-  return qr.householderQ() * w;
+  return weights / std::pow(half, derivative);
 }
 
 Derivatives differentiate(const Eigen::MatrixXd& signals, const Recording& recording,
