@@ -1,7 +1,9 @@
 #include "dcnn/data/input_map.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace dcnn {
 namespace {
@@ -32,16 +34,24 @@ Eigen::VectorXd vector_of(Options& options, const std::string& key, Index size) 
   return vector;
 }
 
-Eigen::VectorXd inverse_scale_of(const Eigen::VectorXd& deviation, bool variance) {
-  return deviation.unaryExpr([variance](double sd) {
-    if (sd < kConstant) return 1.0;
-    return 1.0 / (variance ? sd * sd : sd);
-  });
+/// Deviations, none below the given share of the largest among features of the same unit.
+Eigen::VectorXd floored(const Eigen::VectorXd& deviation, double share,
+                        const std::vector<std::string>& units) {
+  Eigen::VectorXd scale = deviation;
+  for (std::size_t j = 0; j < units.size(); ++j) {
+    for (std::size_t k = 0; k < units.size(); ++k) {
+      if (units[j].empty() || units[j] != units[k]) continue;
+      double& own = scale[static_cast<Index>(j)];
+      own = std::max(own, share * deviation[static_cast<Index>(k)]);
+    }
+  }
+  return scale;
 }
 
 }  // namespace
 
-InputMap::InputMap(const Eigen::MatrixXd& training, Spec spec) : spec_(spec) {
+InputMap::InputMap(const Eigen::MatrixXd& training, Spec spec, const std::vector<std::string>& units)
+    : spec_(spec) {
   assert(training.rows() > 0);
   const auto rows = static_cast<double>(training.rows());
   mean_ = training.colwise().mean().transpose();
@@ -51,16 +61,30 @@ InputMap::InputMap(const Eigen::MatrixXd& training, Spec spec) : spec_(spec) {
     const Eigen::MatrixXd centred = training.rowwise() - mean_.transpose();
     deviation_ = (centred.colwise().squaredNorm().transpose() / (rows - 1.0)).cwiseSqrt();
   }
-  inverse_scale_ = inverse_scale_of(deviation_, spec.variance);
+  scale_ = floored(deviation_, spec.sigma_floor, units);
+  derive();
   centre_ = Eigen::VectorXd::Zero(training.cols() * kColumns);
   if (!spec.zerocenter) return;
   for (Index j = 0; j < training.cols(); ++j) {
     double* sum = centre_.data() + j * kColumns;
     for (const double x : training.col(j)) {
-      write_row(x, mean_[j], inverse_scale_[j], [sum](Index k, double value) { sum[k] += value; });
+      write_row(std::clamp(x, least_[j], most_[j]), mean_[j], inverse_scale_[j], [sum](Index k, double value) { sum[k] += value; });
     }
   }
   centre_ /= rows;
+}
+
+/// What follows from the stored numbers.
+void InputMap::derive() {
+  const bool variance = spec_.variance;
+  inverse_scale_ = scale_.unaryExpr([variance](double sd) {
+    if (sd < kConstant) return 1.0;
+    return 1.0 / (variance ? sd * sd : sd);
+  });
+  const double width = spec_.clip > 0.0 ? spec_.clip : std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd reach = scale_.unaryExpr([](double sd) { return std::max(sd, kConstant); }) * width;
+  least_ = mean_ - reach;
+  most_ = mean_ + reach;
 }
 
 template <class Out>
@@ -68,7 +92,7 @@ void InputMap::write(const double* x, Out* map) const {
   for (Index j = 0; j < features(); ++j) {
     Out* row = map + j * kColumns;
     const double* centre = centre_.data() + j * kColumns;
-    write_row(x[j], mean_[j], inverse_scale_[j],
+    write_row(std::clamp(x[j], least_[j], most_[j]), mean_[j], inverse_scale_[j],
               [=](Index k, double value) { row[k] = static_cast<Out>(value - centre[k]); });
   }
 }
@@ -78,8 +102,11 @@ template void InputMap::write<double>(const double*, double*) const;
 Json InputMap::to_json() const {
   return {{"variance", spec_.variance},
           {"zerocenter", spec_.zerocenter},
+          {"sigma_floor", spec_.sigma_floor},
+          {"clip", spec_.clip},
           {"mean", list_of(mean_)},
           {"deviation", list_of(deviation_)},
+          {"scale", list_of(scale_)},
           {"mean_square", list_of(mean_square_)},
           {"centre", list_of(centre_)}};
 }
@@ -89,13 +116,17 @@ InputMap InputMap::parse(const Json& json, const std::string& where, Exit exit) 
   InputMap map;
   map.spec_.variance = options.get("variance", false);
   map.spec_.zerocenter = options.get("zerocenter", true);
+  map.spec_.sigma_floor = options.number("sigma_floor", 0.0, 0.0, 1.0);
+  map.spec_.clip = options.number("clip", 0.0, 0.0, 1e9);
   map.mean_ = vector_of(options, "mean", -1);
   const Index features = map.mean_.size();
   map.deviation_ = vector_of(options, "deviation", features);
+  map.scale_ = vector_of(options, "scale", features);
   if (features > 0 && map.deviation_.minCoeff() < 0.0) options.reject("deviation", "is negative");
+  if (features > 0 && map.scale_.minCoeff() < 0.0) options.reject("scale", "is negative");
   map.mean_square_ = vector_of(options, "mean_square", features);
   map.centre_ = vector_of(options, "centre", features * kColumns);
-  map.inverse_scale_ = inverse_scale_of(map.deviation_, map.spec_.variance);
+  map.derive();
   options.finish();
   return map;
 }

@@ -146,7 +146,8 @@ TrainingOutcome train(const TrainingRequest& request, const TrainingObserver& ob
           ": no sample is left to train on; choose --features body or longer recordings");
 
   identifier.model = configuration.kind->make({training.x.cols(), training.y.cols(), configuration.json,
-                                               configuration.where, configuration.seed});
+                                               configuration.where, configuration.seed,
+                                               identifier.layout.units});
   RunDirectory run(run_directory(request.out));
   const std::string identity = identity_of(configuration, training, validation);
   FitSession session = make_session(run, identity, identifier, configuration.json, observer);

@@ -32,7 +32,8 @@ Json dcnn_layers(Options options, Index targets, Index features) {
 
 /// Spec 2.6: row dcnn, and the rule for --system data.
 Json dcnn_preset(const std::string& preset, bool axes) {
-  Json json = {{"model", {{"padding", "same"}, {"dropout", 0.5}, {"init", "glorot"}}},
+  Json json = {{"map", {{"sigma_floor", 0.01}}},
+               {"model", {{"padding", "same"}, {"dropout", 0.5}, {"init", "glorot"}}},
                {"training", {{"epochs", 30}, {"batch", 50}, {"lr", 1e-3}, {"drop_factor", 0.1},
                              {"drop_period", 20}, {"l2", 1e-4}, {"standardise_targets", true}}}};
   Json& training = json["training"];
@@ -45,6 +46,7 @@ Json dcnn_preset(const std::string& preset, bool axes) {
     training.update({{"epochs", 500}, {"drop_factor", 0.001}, {"drop_period", 300},
                      {"standardise_targets", false}, {"keep", "last"}, {"validation", 0.0}});
     json["model"]["init"] = "narrow";
+    json["map"]["sigma_floor"] = 0.0;
   } else if (axes) {
     json["model"]["dropout"] = 0.0;
     training["batch"] = 200;

@@ -16,6 +16,8 @@ InputMap::Spec parse_map(Options options) {
   InputMap::Spec spec;
   spec.variance = options.choice("sigma", "std", {"std", "variance"}) == "variance";
   spec.zerocenter = options.get("zerocenter", true);
+  spec.sigma_floor = options.number("sigma_floor", 0.0, 0.0, 1.0);
+  spec.clip = options.number("clip", 0.0, 0.0, 1e6);
   options.finish();
   return spec;
 }
@@ -69,7 +71,7 @@ TrainingSpec TrainingSpec::parse(Options options) {
 }
 
 NetworkModel::NetworkModel(std::string kind, const Json& layers, const Problem& problem)
-    : kind_(std::move(kind)), seed_(problem.seed) {
+    : kind_(std::move(kind)), units_(problem.units), seed_(problem.seed) {
   Options options(problem.configuration, problem.where, Exit::kUsage);
   map_spec_ = parse_map(options.child("map"));
   training_ = TrainingSpec::parse(options.child("training"));
@@ -104,7 +106,7 @@ NetworkModel::NetworkModel(const Container& file, const std::string& where)
 NetworkModel::~NetworkModel() = default;
 
 bool NetworkModel::fit(const Samples& training, const Samples& validation, FitSession& session) {
-  map_ = InputMap(training.x, map_spec_);
+  map_ = InputMap(training.x, map_spec_, units_);
   spread_ = target_spread(training.y);
   scale_ = make_scale(training.y, spread_, training_.standardise_targets);
   Trainer trainer(*this, training, validation, session);

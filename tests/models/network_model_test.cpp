@@ -26,7 +26,7 @@ std::unique_ptr<Model> make(const Json& patch = Json::object(), std::uint64_t se
   configuration["model"]["padding"] = "valid";
   configuration["noise"] = {{"levels_db", {nullptr}}};
   for (const auto& [section, keys] : patch.items()) configuration[section].update(keys);
-  return model_kind("dcnn", Exit::kUsage).make({15, 3, configuration, "test", seed});
+  return model_kind("dcnn", Exit::kUsage).make({15, 3, configuration, "test", seed, {}});
 }
 
 Eigen::VectorXd rmse(const Model& model, const Samples& samples) {
@@ -136,7 +136,7 @@ TEST(NetworkModel, ValidPaddingNeedsRoomAndSaysSo) {
   Json configuration = model_kind("dcnn", Exit::kUsage).preset("quick", false);
   configuration["model"]["padding"] = "valid";
   try {
-    model_kind("dcnn", Exit::kUsage).make({4, 1, configuration, "c.json", 1});
+    model_kind("dcnn", Exit::kUsage).make({4, 1, configuration, "c.json", 1, {}});
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.exit(), Exit::kUsage);

@@ -64,6 +64,7 @@ struct Problem {
   Json configuration;  ///< resolved: map, model, training, noise
   std::string where;   ///< names the configuration in errors
   std::uint64_t seed = 0;
+  std::vector<std::string> units;  ///< of the features; empty where unknown
 };
 
 /// One row of the list of models (models.def).

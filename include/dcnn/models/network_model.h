@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "dcnn/models/model.h"
 #include "dcnn/nn/network.h"
@@ -47,6 +48,7 @@ class NetworkModel : public Model {
   void refold();
 
   std::string kind_;
+  std::vector<std::string> units_;  // of the features
   std::unique_ptr<Network> network_, folded_;
   InputMap::Spec map_spec_;
   InputMap map_;
