@@ -46,6 +46,9 @@ std::string cell(const char* format, double value) {
   return text;
 }
 
+constexpr std::size_t kColumn = 22;
+constexpr const char* kUnidentified = "(no identification)";
+
 std::string padded(std::string text, std::size_t width) {
   text.resize(std::max(width, text.size()), ' ');
   return text;
@@ -72,18 +75,18 @@ Json to_json(const Evaluation& evaluation) {
 }
 
 std::string to_text(const Evaluation& evaluation) {
-  std::size_t width = 8;
+  std::size_t width = std::string(kUnidentified).size() + 2;
   for (const auto& s : evaluation.summary) width = std::max(width, s.file.size() + 2);
   std::string text = padded("file", width) + padded("SNR [dB]", 10) + padded("runs", 6);
   for (std::size_t j = 0; j < evaluation.targets.names.size(); ++j) {
-    text += padded(evaluation.targets.names[j] + " [" + evaluation.targets.units[j] + "]", 18);
+    text += padded(evaluation.targets.names[j] + " [" + evaluation.targets.units[j] + "]", kColumn);
   }
   text += "overall\n";
   const auto line = [&](const std::string& name, const std::string& level, int runs,
                         const std::vector<Spread>& rmse, const std::optional<Spread>& overall) {
     text += padded(name, width) + padded(level, 10) + padded(std::to_string(runs), 6);
     for (const Spread& axis : rmse) {
-      text += padded(cell("%.5f", axis.mean) + " +- " + cell("%.5f", axis.deviation), 18) + " ";
+      text += padded(cell("%.5f", axis.mean) + " +- " + cell("%.5f", axis.deviation), kColumn);
     }
     text += overall ? cell("%.5f", overall->mean) + " +- " + cell("%.5f", overall->deviation) : "-";
     text += "\n";
@@ -95,7 +98,7 @@ std::string to_text(const Evaluation& evaluation) {
   for (const double value : evaluation.unidentified.rmse) zero.push_back({value, 0.0});
   std::optional<Spread> overall;
   if (evaluation.unidentified.overall) overall = Spread{*evaluation.unidentified.overall, 0.0};
-  line("(no identification)", "-", 1, zero, overall);
+  line(kUnidentified, "-", 1, zero, overall);
   for (const auto& row : evaluation.unfiltered) {
     text += row.file + ": against the unfiltered targets, clean:";
     for (const double value : row.score.rmse) text += " " + cell("%.5f", value);

@@ -42,8 +42,9 @@ class Tools : public testing::Test {
   static std::string at(const std::string& name) { return (*folder_ / name).string(); }
 
   static std::vector<std::string> training(const std::string& out, std::vector<std::string> more = {}) {
-    std::vector<std::string> arguments{"--train", at("data/train.csv"), "--preset", "quick", "--epochs", "3",
+    std::vector<std::string> arguments{"--train", at("data/train.csv"), "--preset", "quick",
                                        "--out", at(out), "--quiet"};
+    if (std::find(more.begin(), more.end(), "--epochs") == more.end()) more.insert(more.end(), {"--epochs", "3"});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }

@@ -48,9 +48,37 @@ TEST(InputMap, AConstantFeatureHasScaleOne) {
   EXPECT_EQ(map[2], 2.0f);
 }
 
+TEST(InputMap, FloorsTheScaleOfAComponentThatHardlyMovedBesideItsSisters) {
+  Eigen::MatrixXd x = random_features(500, 3);
+  x.col(1) *= 1e-9;
+  const InputMap literal(x, {false, false}, {"rad/s", "rad/s", "m"});
+  const InputMap floored(x, {false, false, 0.01}, {"rad/s", "rad/s", "m"});
+  const InputMap alone(x, {false, false, 0.01}, {"", "", ""});
+  const double sample[] = {0.0, 0.1, 0.0};
+  double one[15], two[15], three[15];
+  literal.write(sample, one);
+  floored.write(sample, two);
+  alone.write(sample, three);
+  EXPECT_GT(std::abs(one[7]), 1e7);
+  EXPECT_NEAR(two[7], (0.1 - floored.mean()[1]) / (0.01 * floored.deviation()[0]), 1e-9);
+  EXPECT_EQ(three[7], one[7]) << "features of unknown unit are no sisters";
+  EXPECT_EQ(two[12], one[12]) << "another unit is left alone";
+}
+
+TEST(InputMap, ClipHoldsEveryColumnWithinReachOfTheTraining) {
+  const Eigen::MatrixXd x = random_features(500, 1);
+  const InputMap input_map(x, {false, false, 0.0, 3.0});
+  const double far = 1e6, near = input_map.mean()[0] + 3.0 * input_map.deviation()[0];
+  double one[5], two[5];
+  input_map.write(&far, one);
+  input_map.write(&near, two);
+  for (int k = 0; k < 5; ++k) EXPECT_EQ(one[k], two[k]);
+}
+
 TEST(InputMap, ComesBackExactlyFromJson) {
   for (const bool flag : {false, true}) {
-    const InputMap input_map(random_features(50, 3), {flag, !flag});
+    const InputMap input_map(random_features(50, 3), {flag, !flag, flag ? 0.0 : 0.3, flag ? 2.0 : 0.0},
+                             {"m", "m", "m"});
     const Json json = parse_json(input_map.to_json().dump(), "m", Exit::kModel);
     const InputMap back = InputMap::parse(json, "m", Exit::kModel);
     EXPECT_EQ(back.mean(), input_map.mean());
@@ -87,6 +115,7 @@ TEST(InputMap, AgreesWithTheReference) {
                                               {"zerocenter", false},
                                               {"mean", json["mean"]},
                                               {"deviation", json["sd"]},
+                                              {"scale", json["sd"]},
                                               {"mean_square", std::vector<double>(15)},
                                               {"centre", std::vector<double>(75)}},
                                              "xmap.json", Exit::kData);

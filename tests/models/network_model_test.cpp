@@ -147,7 +147,7 @@ TEST(NetworkModel, ValidPaddingNeedsRoomAndSaysSo) {
 TEST(NetworkModel, DivergenceIsAnErrorNotANaN) {
   Samples training = draw_samples(200, 1);
   training.y *= 1e30;
-  const auto model = make({{"training", {{"lr", 1e6}, {"standardise_targets", false}}}});
+  const auto model = make({{"training", {{"lr", 1e3}, {"standardise_targets", false}}}});
   FitSession session;
   EXPECT_THROW(model->fit(training, {}, session), Error);
 }

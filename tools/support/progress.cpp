@@ -40,13 +40,12 @@ Progress::~Progress() { clear(); }
 void Progress::update(double done, const std::string& text) {
   if (quiet_) return;
   const auto now = Clock::now();
-  const std::chrono::duration<double> since = now - drawn_at_, run = now - start_;
   if (first_done_ < 0.0) {
     first_done_ = done;
     if (!terminal_) drawn_at_ = now;  // short work says nothing in a log
   }
-  if (drawn_ && since.count() < (terminal_ ? kRedrawSeconds : kPlainSeconds)) return;
-  if (!terminal_ && since.count() < kPlainSeconds) return;
+  const std::chrono::duration<double> since = now - drawn_at_, run = now - start_;
+  if (since.count() < (terminal_ ? kRedrawSeconds : kPlainSeconds)) return;
   const double gained = done - first_done_;
   const std::string eta = gained > 0.0 ? clock_text(run.count() * (1.0 - done) / gained) : "-:--";
   char percent[8];
