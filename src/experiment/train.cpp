@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <utility>
 
 #include "dcnn/core/file.h"
@@ -74,7 +75,7 @@ class Splitter {
 };
 
 /// Names the configuration and every number that is learned from, so that a resumed run is the same run.
-std::string identity_of(const Configuration& configuration, const Samples& training,
+std::string identity_of(const Json& configuration, const Samples& training,
                         const Samples& validation) {
   std::uint64_t hash = 0;
   for (const Eigen::MatrixXd* m : {&training.x, &training.y, &validation.x, &validation.y}) {
@@ -85,7 +86,7 @@ std::string identity_of(const Configuration& configuration, const Samples& train
   }
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return configuration.json.dump() + " " + text;
+  return configuration.dump() + " " + text;
 }
 
 FitSession make_session(RunDirectory& run, const std::string& identity, const Identifier& identifier,
@@ -114,6 +115,81 @@ std::vector<double> rmse_of(const Model& model, const Samples& samples) {
   return {rmse.data(), rmse.data() + rmse.size()};
 }
 
+/// One training under way: what every fit of it shares.
+class Learner {
+ public:
+  Learner(const TrainingRequest& request, const TrainingObserver& observer,
+          const Configuration& configuration, Identifier& identifier, const Samples& training,
+          const Samples& validation)
+      : request_(request), observer_(observer), configuration_(configuration),
+        identifier_(identifier), training_(training), validation_(validation) {}
+
+  /// Fits a model of this configuration in a run directory of its own. False when stopped.
+  bool fit(const Json& json, const std::filesystem::path& folder) {
+    identifier_.configuration = json;
+    identifier_.model = configuration_.kind->make({training_.x.cols(), training_.y.cols(), json,
+                                                   configuration_.where, configuration_.seed,
+                                                   identifier_.layout.units});
+    RunDirectory run(folder);
+    const std::string identity = identity_of(json, training_, validation_);
+    FitSession session = make_session(run, identity, identifier_, json, observer_);
+    if (request_.resume) session.checkpoint = run.find_checkpoint(identity);
+    if (session.checkpoint) {
+      const auto* position = session.checkpoint->find("position");
+      run.keep_metrics(std::get<std::vector<std::int64_t>>(position->values).at(0));
+    } else {
+      run.start(json);
+    }
+    return identifier_.model->fit(training_, validation_, session);
+  }
+
+  /// Where the configuration lists `training.candidates`, each is tried for `candidate_epochs` and the one
+  /// with the least validation error is laid on it. Empty when stopped.
+  std::optional<Json> choose(Json json, const std::filesystem::path& folder) {
+    const Json candidates = json["training"].value("candidates", Json::array());
+    if (candidates.empty() || validation_.x.rows() == 0) return json;
+    const Index epochs = json["training"].value("candidate_epochs", Index{15});
+    for (const char* key : {"candidates", "candidate_epochs"}) json["training"].erase(key);
+    double least = std::numeric_limits<double>::infinity();
+    Json best;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const Json trial = merged(json, candidates[i]);
+      if (!fit(merged(trial, {{"training", {{"epochs", epochs}}}}),
+               folder / ("candidate_" + std::to_string(i)))) {
+        return std::nullopt;
+      }
+      const double error = relative_error();
+      if (observer_.note) {
+        observer_.note("candidate " + candidates[i].dump() + ": validation error " +
+                       std::to_string(error) + " of the targets' spread");
+      }
+      if (error < least) {
+        least = error;
+        best = trial;
+      }
+    }
+    return best;
+  }
+
+ private:
+  /// Mean over targets of validation RMSE / spread of the target.
+  double relative_error() const {
+    const auto rmse = rmse_of(*identifier_.model, validation_);
+    double sum = 0.0;
+    for (Index j = 0; j < validation_.y.cols(); ++j) {
+      const Eigen::ArrayXd y = validation_.y.col(j);
+      sum += rmse[static_cast<std::size_t>(j)] / std::sqrt((y - y.mean()).square().mean() + 1e-24);
+    }
+    return sum / static_cast<double>(validation_.y.cols());
+  }
+
+  const TrainingRequest& request_;
+  const TrainingObserver& observer_;
+  const Configuration& configuration_;
+  Identifier& identifier_;
+  const Samples &training_, &validation_;
+};
+
 }  // namespace
 
 std::filesystem::path run_directory(const std::filesystem::path& model) {
@@ -130,7 +206,6 @@ TrainingOutcome train(const TrainingRequest& request, const TrainingObserver& ob
   identifier.name = configuration.kind->name;
   identifier.layout = make_layout(recordings, configuration.features, configuration.system);
   identifier.targets = find_targets(recordings.front(), configuration.system);
-  identifier.configuration = configuration.json;
   identifier.seed = configuration.seed;
   if (request.base) identifier.base = read_simulator(*request.base);
   for (const auto& note : identifier.layout.notes) {
@@ -143,30 +218,20 @@ TrainingOutcome train(const TrainingRequest& request, const TrainingObserver& ob
   for (const auto& recording : recordings) splitter.add(recording, share, training, validation);
   for (const auto& recording : held_out) splitter.add(recording, 0.0, validation, validation);
   require(training.x.rows() > 0, Exit::kData, recordings.front().name,
-          ": no sample is left to train on; choose --features body or longer recordings");
+          ": no sample is left to train on; choose the feature set 'body' or longer recordings");
 
-  identifier.model = configuration.kind->make({training.x.cols(), training.y.cols(), configuration.json,
-                                               configuration.where, configuration.seed,
-                                               identifier.layout.units});
-  RunDirectory run(run_directory(request.out));
-  const std::string identity = identity_of(configuration, training, validation);
-  FitSession session = make_session(run, identity, identifier, configuration.json, observer);
-  if (request.resume) session.checkpoint = run.find_checkpoint(identity);
-  if (session.checkpoint) {
-    run.keep_metrics(std::get<std::vector<std::int64_t>>(session.checkpoint->find("position")->values)[0]);
-  } else {
-    run.start(configuration.json);
-  }
-
+  const auto folder = run_directory(request.out);
+  Learner learner(request, observer, configuration, identifier, training, validation);
+  const auto chosen = learner.choose(configuration.json, folder);
   TrainingOutcome outcome;
-  outcome.finished = identifier.model->fit(training, validation, session);
+  outcome.finished = chosen && learner.fit(*chosen, folder);
   outcome.summary = {{"model", identifier.name},
                      {"parameters", identifier.model->parameter_count()},
                      {"training_rows", training.x.rows()},
                      {"validation_rows", validation.x.rows()},
                      {"targets", identifier.targets.names},
                      {"units", identifier.targets.units},
-                     {"run_directory", run.folder().string()}};
+                     {"run_directory", folder.string()}};
   if (outcome.finished) {
     outcome.summary["validation_rmse"] = rmse_of(*identifier.model, validation);
     write_container(request.out, pack(identifier));

@@ -30,6 +30,17 @@ Json dcnn_layers(Options options, Index targets, Index features) {
   return layers;
 }
 
+/// Dropout and weight averaging are chosen on the validation rows.
+Json fair_candidates() {
+  Json list = Json::array();
+  for (const double dropout : {0.5, 0.25, 0.0}) {
+    for (const double ema : {0.0, 0.998}) {
+      list.push_back({{"model", {{"dropout", dropout}}}, {"training", {{"ema", ema}}}});
+    }
+  }
+  return list;
+}
+
 /// Spec 2.6: row dcnn, and the rule for --system data.
 Json dcnn_preset(const std::string& preset, bool axes) {
   Json json = {{"map", {{"sigma_floor", 0.01}}},
@@ -41,6 +52,7 @@ Json dcnn_preset(const std::string& preset, bool axes) {
   if (preset == "fair") {
     training["epochs"] = 60;
     training["drop_period"] = 40;
+    training["candidates"] = fair_candidates();
   }
   if (preset == "paper") {
     training.update({{"epochs", 500}, {"drop_factor", 0.001}, {"drop_period", 300},

@@ -62,7 +62,9 @@ TrainingSpec TrainingSpec::parse(Options options) {
   for (const char* key : {"lr", "schedule", "drop_factor", "drop_period"}) {
     if (const Json value = options.raw(key); !value.is_null()) spec.rate[key] = value;
   }
-  options.raw("validation");  // the share of rows kept for validation: read by the experiment
+  for (const char* key : {"validation", "candidates", "candidate_epochs"}) {
+    options.raw(key);  // read by the experiment
+  }
   Options rate(spec.rate, "training", Exit::kUsage);
   LearningRate check(rate, spec.epochs, 1);
   rate.finish();

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "dcnn/nn/layer.h"
 #include "nn/init.h"
 #include "nn/kernels/channels.h"
@@ -63,8 +65,10 @@ class Conv2d final : public Layer {
 /// `window`: [height, width], each from 1 to the input's.
 std::vector<Index> read_window(Options& options) {
   const auto window = options.get<std::vector<Index>>("window", {2, 2});
-  if (window.size() != 2 || window[0] < 1 || window[1] < 1) {
-    options.reject("window", "must be two whole numbers of at least 1: [height, width]");
+  constexpr Index kMost = 64;
+  if (window.size() != 2 || std::min(window[0], window[1]) < 1 ||
+      std::max(window[0], window[1]) > kMost) {
+    options.reject("window", "must be two whole numbers from 1 to ", kMost, ": [height, width]");
   }
   return window;
 }
@@ -72,8 +76,7 @@ std::vector<Index> read_window(Options& options) {
 LayerPtr make_conv2d(Options& options, const Shape& input, Rng& rng) {
   require(input.size() == 3, Exit::kUsage, "conv2d: input ", to_string(input),
           " is not an image (height, width, channels)");
-  const Index filters = options.get<Index>("filters");
-  if (filters < 1) options.reject("filters", "must be at least 1, not ", filters);
+  const Index filters = read_units(options, "filters");
   const auto window = read_window(options);
   const bool same = options.choice("padding", "same", {"same", "valid"}) == "same";
   const Index h = window[0], w = window[1], channels = input[2];

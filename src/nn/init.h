@@ -10,10 +10,26 @@
 
 namespace dcnn {
 
+// A configuration or a model file cannot ask for more than this: far above any network for this task,
+// far below what would exhaust the memory.
+inline constexpr Index kMostUnits = Index{1} << 14;    // of one layer
+inline constexpr Index kMostWeights = Index{1} << 24;  // of one network
+
+/// The number of filters or outputs under `key`.
+inline Index read_units(Options& options, const std::string& key) {
+  const Index units = options.get<Index>(key);
+  if (units < 1 || units > kMostUnits) {
+    options.reject(key, "must be between 1 and ", kMostUnits, ", not ", units);
+  }
+  return units;
+}
+
 /// Key `init`: "glorot" (uniform within ±sqrt(6/(fan_in + fan_out)), Glorot and Bengio 2010) or
 /// "narrow" (normal, standard deviation 0.01, spec 2.4). Fans count the window.
 inline Tensor initial_weight(Options& options, Shape shape, Index fan_in, Index fan_out, Rng& rng) {
   const bool glorot = options.choice("init", "glorot", {"glorot", "narrow"}) == "glorot";
+  require(element_count(shape) <= kMostWeights, Exit::kUsage, "a weight of shape ", to_string(shape),
+          " is larger than ", kMostWeights, " numbers; use fewer filters or outputs");
   const double limit = std::sqrt(6.0 / static_cast<double>(fan_in + fan_out));
   Tensor weight(std::move(shape), true);
   for (Real& w : weight.values()) {

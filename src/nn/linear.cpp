@@ -82,8 +82,7 @@ class Linear final : public Layer {
 };
 
 LayerPtr make_linear(Options& options, const Shape& input, Rng& rng) {
-  const Index outputs = options.get<Index>("outputs");
-  if (outputs < 1) options.reject("outputs", "must be at least 1, not ", outputs);
+  const Index outputs = read_units(options, "outputs");
   require(input.size() == 1, Exit::kUsage, "linear: input ", to_string(input),
           " is not a vector; put a 'flatten' layer before it");
   Tensor weight = initial_weight(options, {outputs, input[0]}, input[0], outputs, rng);

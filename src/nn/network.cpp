@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "nn/batch_norm.h"
+#include "nn/init.h"
 
 namespace dcnn {
 namespace {
+
+constexpr std::size_t kMostLayers = 256;
 
 const LayerKind& find_kind(const std::string& name, const std::string& where) {
   std::vector<std::string> names;
@@ -57,6 +60,8 @@ Network::Network(const Json& layers, const Shape& input, Rng& rng)
     const auto& kind = find_kind(options.get<std::string>("kind"), place);
     stack_.push_back(kind.make(options, Shape(x.shape().begin() + 1, x.shape().end()), rng));
     options.finish();
+    require(i < kMostLayers && parameter_count() <= kMostWeights, Exit::kUsage, place,
+            ": more than ", kMostLayers, " layers or ", kMostWeights, " weights; use a smaller network");
     for (auto& named : stack_.back()->state()) {
       named.name = std::to_string(i) + "." + kind.name + "." + named.name;
       state_.push_back(std::move(named));
