@@ -10,8 +10,8 @@ namespace {
 TEST(Pieces, CoverTheBatchOnceWhateverItsSize) {
   for (Index n = 0; n < 300; ++n) {
     const Index pieces = piece_count(n);
-    EXPECT_EQ(piece_begin(n, pieces, 0), 0);
     if (pieces > 0) {
+      EXPECT_EQ(piece_begin(n, pieces, 0), 0);
       EXPECT_EQ(piece_begin(n, pieces, pieces), n);
     }
     for (Index k = 0; k < pieces; ++k) {
