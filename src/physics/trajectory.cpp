@@ -19,10 +19,14 @@ using Tones = std::vector<Tone>;
 /// How the tones of one coordinate are drawn.
 using Draw = Tones (*)(int tones, double low_hz, double high_hz, Rng& rng);
 
+/// Log-spaced over the band, each up to 0.3 of a spacing higher than a regular grid. With one grid for
+/// all six coordinates every feature would be a mix of the same twelve sines and cosines, and no
+/// identifier could tell from one recording which feature makes the force.
 Tones equal_tones(int tones, double low_hz, double high_hz, Rng& rng) {
+  constexpr double kShift = 0.3;
   Tones list;
   for (int k = 0; k < tones; ++k) {
-    const double place = tones > 1 ? static_cast<double>(k) / (tones - 1) : 0.0;
+    const double place = (k + kShift * rng.uniform()) / (tones - 1 + kShift);
     const double hz = low_hz * std::pow(high_hz / low_hz, place);
     list.push_back(
         {1.0 / tones, 2.0 * std::numbers::pi * hz, rng.uniform(0.0, 2.0 * std::numbers::pi)});
