@@ -18,7 +18,7 @@ h2 { font-size: 1.2em; margin-top: 2em; border-bottom: 1px solid #ccc; padding-b
 p { max-width: 44em; }
 table { border-collapse: collapse; margin: 1em 0; font-size: .9em; font-variant-numeric: tabular-nums;
   border-top: 2px solid #1a1a1a; border-bottom: 2px solid #1a1a1a; }
-th, td { padding: .25em .8em; text-align: left; vertical-align: top; }
+th, td { white-space: nowrap; padding: .25em .8em; text-align: left; vertical-align: top; }
 thead { border-bottom: 1px solid #1a1a1a; }
 .n { text-align: right; white-space: nowrap; }
 .wide { overflow-x: auto; }
