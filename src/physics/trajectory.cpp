@@ -19,11 +19,11 @@ using Tones = std::vector<Tone>;
 /// How the tones of one coordinate are drawn.
 using Draw = Tones (*)(int tones, double low_hz, double high_hz, Rng& rng);
 
-/// Log-spaced over the band, each up to 0.3 of a spacing higher than a regular grid. With one grid for
+/// Log-spaced over the band, each up to 0.15 of a spacing higher than a regular grid. With one grid for
 /// all six coordinates every feature would be a mix of the same twelve sines and cosines, and no
 /// identifier could tell from one recording which feature makes the force.
 Tones equal_tones(int tones, double low_hz, double high_hz, Rng& rng) {
-  constexpr double kShift = 0.3;
+  constexpr double kShift = 0.15;
   Tones list;
   for (int k = 0; k < tones; ++k) {
     const double place = (k + kShift * rng.uniform()) / (tones - 1 + kShift);
