@@ -82,6 +82,7 @@ EvaluationSummary summarise(const std::vector<EvaluationRow>& rows) {
                       {},            {},           {},             rows[0].score};
   const auto over = [&](auto value) {
     std::vector<double> values;
+    values.reserve(rows.size());
     for (const auto& row : rows) values.push_back(value(row.score));
     return spread(values);
   };

@@ -134,6 +134,16 @@ TEST_F(Tools, ResumeRefusesAnotherConfiguration) {
   EXPECT_NE(result.err.find("another configuration"), std::string::npos) << result.err;
 }
 
+TEST_F(Tools, ChoosesAmongCandidatesOnTheValidationRows) {
+  std::ofstream(at("choice.json")) << R"({"preset": "quick", "training": {"candidate_epochs": 8, "candidates":
+    [{"training": {"lr": 1e-9}}, {"training": {"lr": 1e-3}}]}})";
+  ASSERT_EQ(run("train", training("chosen.dcnn", {"--config", at("choice.json")})).exit_code, 0);
+  const Json chosen = read_json(at("chosen.run/configuration.json"), Exit::kFailure);
+  EXPECT_EQ(chosen["training"]["lr"], 1e-3) << "the other one cannot learn";
+  EXPECT_EQ(chosen["training"]["epochs"], 3);
+  EXPECT_FALSE(chosen["training"].contains("candidates"));
+}
+
 TEST_F(Tools, LearnsWhatABaseSimulatorLeaves) {
   ASSERT_EQ(run("train", training("rest.dcnn", {"--base", at("data/sim.json")})).exit_code, 0);
   const Result result = run("eval", {at("rest.dcnn"), "--data", at("data/test.csv"), "--snr", "clean", "--json"});
