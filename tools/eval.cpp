@@ -28,8 +28,8 @@ std::vector<SnrLevel> parse_levels(const std::string& text) {
     }
     double value = 0.0;
     const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    require(error == std::errc() && stop == word.data() + word.size() && !word.empty(), Exit::kUsage,
-            "--snr: '", word, "' is neither 'clean' nor a number of dB");
+    require(error == std::errc() && stop == word.data() + word.size() && !word.empty(),
+            Exit::kUsage, "--snr: '", word, "' is neither 'clean' nor a number of dB");
     levels.emplace_back(value);
   }
   return levels;
@@ -44,7 +44,8 @@ void write_report(const std::filesystem::path& folder, const Evaluation& evaluat
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool("dcnn-eval", "Scores trained models on recordings: RMSE per axis over levels of input noise.",
+  Tool tool("dcnn-eval",
+            "Scores trained models on recordings: RMSE per axis over levels of input noise.",
             kExamples);
   EvaluationRequest request;
   std::string levels = "clean,40,30,20,10", noise_mode = "feature";
@@ -52,10 +53,13 @@ int main(int argc, char** argv) {
   auto& app = tool.app();
   app.add_option("models", request.models, "model files")->required();
   app.add_option("--data", request.data, "recordings to score on")->required();
-  app.add_option("--snr", levels, "signal-to-noise ratios of the input [dB], or clean")->capture_default_str();
-  app.add_option("--runs", request.runs, "noise draws per level")->check(CLI::Range(1, 100000))
+  app.add_option("--snr", levels, "signal-to-noise ratios of the input [dB], or clean")
       ->capture_default_str();
-  app.add_option("--noise-mode", noise_mode, "power of the noise: per feature, or as MATLAB's awgn 'measured'")
+  app.add_option("--runs", request.runs, "noise draws per level")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  app.add_option("--noise-mode", noise_mode,
+                 "power of the noise: per feature, or as MATLAB's awgn 'measured'")
       ->check(CLI::IsMember({"feature", "matlab"}))
       ->capture_default_str();
   app.add_option("--out", out, "folder for report.html and evaluation.json");
@@ -68,13 +72,16 @@ int main(int argc, char** argv) {
     request.read = read.options();
     Progress bar(tool.common().quiet);
     const Evaluation evaluation = evaluate(request, [&](int done, int total) {
-      bar.update(double(done) / total, std::to_string(done) + "/" + std::to_string(total) + " predictions");
+      bar.update(double(done) / total,
+                 std::to_string(done) + "/" + std::to_string(total) + " predictions");
     });
     bar.clear();
     for (const auto& note : evaluation.notes) tool.note(note);
     if (evaluation.singular_samples > 0) {
-      tool.note(std::to_string(evaluation.singular_samples) + " of " + std::to_string(evaluation.samples) +
-                " samples lie near the Euler singularity: a model on the set 'pose' cannot know them; 'body' can");
+      tool.note(std::to_string(evaluation.singular_samples) + " of " +
+                std::to_string(evaluation.samples) +
+                " samples lie near the Euler singularity: a model on the set 'pose' cannot know "
+                "them; 'body' can");
     }
     if (!out.empty()) {
       write_report(out, evaluation, request);

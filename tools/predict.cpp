@@ -10,7 +10,8 @@ using namespace dcnn;
 
 constexpr const char* kExamples =
     "  dcnn-predict model.dcnn --data log.csv --out predicted.csv\n"
-    "  dcnn-predict diagnosis/model.json --data log.csv --out predicted.csv   # a corrected simulator\n";
+    "  dcnn-predict diagnosis/model.json --data log.csv --out predicted.csv   # a corrected "
+    "simulator\n";
 
 Recording predict_with_model(const std::filesystem::path& model, const std::filesystem::path& data,
                              const ReadOptions& read) {
@@ -18,18 +19,20 @@ Recording predict_with_model(const std::filesystem::path& model, const std::file
   Recording recording = read_recording(data, read, identifier.layout.system);
   const Eigen::MatrixXd predicted = identifier.predict(recording);
   for (std::size_t j = 0; j < identifier.targets.names.size(); ++j) {
-    recording.set(identifier.targets.names[j] + "_hat", predicted.col(static_cast<Eigen::Index>(j)));
+    recording.set(identifier.targets.names[j] + "_hat",
+                  predicted.col(static_cast<Eigen::Index>(j)));
   }
   return recording;
 }
 
-Recording predict_with_simulator(const std::filesystem::path& model, const std::filesystem::path& data,
-                                 const ReadOptions& read) {
+Recording predict_with_simulator(const std::filesystem::path& model,
+                                 const std::filesystem::path& data, const ReadOptions& read) {
   const Simulator simulator = read_simulator(model);
   Recording recording = read_recording(data, read, System());
   const Recording predicted = predict_motion(simulator, recording, DerivativeSpec());
   for (const char* target : {"fx", "fy", "fz", "tx", "ty", "tz"}) {
-    if (predicted.has(target)) recording.set(std::string(target) + "_hat", predicted.column(target));
+    if (predicted.has(target))
+      recording.set(std::string(target) + "_hat", predicted.column(target));
   }
   return recording;
 }

@@ -10,8 +10,10 @@ namespace {
 using namespace dcnn;
 
 constexpr const char* kExamples =
-    "  dcnn-sim --config configs/sim/embedded.json --out data      # recordings, sim.json, truth.json\n"
-    "  dcnn-sim --sim data/sim.json --motion log.csv --out b.csv   # what the simulator says to a motion\n";
+    "  dcnn-sim --config configs/sim/embedded.json --out data      # recordings, sim.json, "
+    "truth.json\n"
+    "  dcnn-sim --sim data/sim.json --motion log.csv --out b.csv   # what the simulator says to a "
+    "motion\n";
 
 /// Recordings with ground truth from a configuration.
 Json simulate_folder(const std::filesystem::path& config, const std::filesystem::path& out,
@@ -26,7 +28,8 @@ Json simulate_folder(const std::filesystem::path& config, const std::filesystem:
   }
   write_file(out / "sim.json", scenario.simulator.dump(2) + "\n");
   write_file(out / "truth.json", scenario.truth.dump(2) + "\n");
-  return {{"recordings", files}, {"simulator", (out / "sim.json").string()},
+  return {{"recordings", files},
+          {"simulator", (out / "sim.json").string()},
           {"truth", (out / "truth.json").string()}};
 }
 
@@ -43,7 +46,8 @@ Json simulate_motion(const std::filesystem::path& sim, const std::filesystem::pa
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool("dcnn-sim", "Simulates recordings of a tool on a wrist sensor, with effects hidden in them.",
+  Tool tool("dcnn-sim",
+            "Simulates recordings of a tool on a wrist sensor, with effects hidden in them.",
             kExamples);
   std::filesystem::path config, sim, motion, out;
   auto& app = tool.app();
@@ -52,7 +56,8 @@ int main(int argc, char** argv) {
   auto* with_motion = app.add_option("--motion", motion, "recording whose motion is simulated");
   from_sim->needs(with_motion)->excludes(from_config);
   with_motion->needs(from_sim);
-  app.add_option("--out", out, "folder (with --config) or CSV file (with --motion) to write")->required();
+  app.add_option("--out", out, "folder (with --config) or CSV file (with --motion) to write")
+      ->required();
   const ReadFlags read(app);
 
   return tool.run(argc, argv, [&] {

@@ -15,9 +15,11 @@ using namespace dcnn;
 
 constexpr const char* kExamples =
     "  dcnn-train --train log.csv --preset quick --out model.dcnn\n"
-    "  dcnn-train --config configs/embedded.json --train a.csv b.csv --valid c.csv --out model.dcnn\n"
+    "  dcnn-train --config configs/embedded.json --train a.csv b.csv --valid c.csv --out "
+    "model.dcnn\n"
     "  dcnn-train --system tool.json --train run1.csv run2.csv --out tool.dcnn\n"
-    "  dcnn-train ... --resume                     # after Ctrl-C or a crash: goes on, same bytes in the end\n";
+    "  dcnn-train ... --resume                     # after Ctrl-C or a crash: goes on, same bytes "
+    "in the end\n";
 
 std::string epoch_text(const TrainingProgress& p) {
   char text[96];
@@ -66,27 +68,33 @@ class Observer {
 void print_summary(const Json& summary) {
   std::cout << "model       " << summary["file"].get<std::string>() << " (" << summary["parameters"]
             << " parameters)\n"
-            << "rows        " << summary["training_rows"] << " training, " << summary["validation_rows"]
-            << " validation\n";
+            << "rows        " << summary["training_rows"] << " training, "
+            << summary["validation_rows"] << " validation\n";
   const auto rmse = summary["validation_rmse"].get<std::vector<double>>();
   for (std::size_t j = 0; j < rmse.size(); ++j) {
-    std::cout << (j == 0 ? "validation  " : "            ") << summary["targets"][j].get<std::string>()
-              << " RMSE " << rmse[j] << " " << summary["units"][j].get<std::string>() << "\n";
+    std::cout << (j == 0 ? "validation  " : "            ")
+              << summary["targets"][j].get<std::string>() << " RMSE " << rmse[j] << " "
+              << summary["units"][j].get<std::string>() << "\n";
   }
   std::cout << "run         " << summary["run_directory"].get<std::string>() << "\n"
-            << "next        dcnn-eval " << summary["file"].get<std::string>() << " --data TEST.csv\n";
+            << "next        dcnn-eval " << summary["file"].get<std::string>()
+            << " --data TEST.csv\n";
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool("dcnn-train", "Learns the force a tool puts on its sensor from recordings (CSV).", kExamples);
+  Tool tool("dcnn-train", "Learns the force a tool puts on its sensor from recordings (CSV).",
+            kExamples);
   TrainingRequest request;
   ConfigurationFlags& flags = request.configuration;
   std::string list;
-  for (const ModelKind* kind : model_kinds()) list += std::string("\n  ") + kind->name + ": " + kind->summary;
+  for (const ModelKind* kind : model_kinds())
+    list += std::string("\n  ") + kind->name + ": " + kind->summary;
   auto& app = tool.app();
-  app.add_option("--train", request.training, "recordings to learn from")->required()->check(CLI::ExistingPath);
+  app.add_option("--train", request.training, "recordings to learn from")
+      ->required()
+      ->check(CLI::ExistingPath);
   app.add_option("--valid", request.validation,
                  "recordings for validation (default: the last 15 % of each training recording)");
   app.add_option("--config", flags.file, "configuration (JSON)");
@@ -95,9 +103,12 @@ int main(int argc, char** argv) {
   app.add_option("--model", flags.model, "which identifier:" + list);
   app.add_option("--system", flags.system, "description of another machine (JSON)");
   app.add_option("--epochs", flags.epochs, "number of epochs")->check(CLI::PositiveNumber);
-  app.add_option("--base", request.base, "simulator (sim.json or model.json) whose remainder is learned");
-  app.add_flag("--online", flags.online, "causal derivatives: required by dcnn-run and dcnn-teleop");
-  app.add_option("--out", request.out, "model file to write; its run directory is beside it")->required();
+  app.add_option("--base", request.base,
+                 "simulator (sim.json or model.json) whose remainder is learned");
+  app.add_flag("--online", flags.online,
+               "causal derivatives: required by dcnn-run and dcnn-teleop");
+  app.add_option("--out", request.out, "model file to write; its run directory is beside it")
+      ->required();
   app.add_flag("--resume", request.resume, "go on from the last checkpoint");
   const ReadFlags read(app);
 
@@ -109,7 +120,8 @@ int main(int argc, char** argv) {
     const TrainingOutcome outcome = train(request, observer.callbacks());
     observer.clear();
     if (!outcome.finished) {
-      tool.note("interrupted; the state is saved in " + outcome.summary["run_directory"].get<std::string>() +
+      tool.note("interrupted; the state is saved in " +
+                outcome.summary["run_directory"].get<std::string>() +
                 ", go on with the same command and --resume");
       return Exit::kInterrupted;
     }

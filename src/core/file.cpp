@@ -49,7 +49,8 @@ void make_parent(const fs::path& path) {
 void sync_folder(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   Descriptor fd(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (fd.get() >= 0) ::fsync(fd.get());  // not every file system can; the rename itself has happened
+  if (fd.get() >= 0)
+    ::fsync(fd.get());  // not every file system can; the rename itself has happened
 }
 
 }  // namespace

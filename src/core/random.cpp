@@ -36,7 +36,8 @@ std::uint64_t Rng::bits() {
 double Rng::uniform() { return static_cast<double>(bits() >> 11) * 0x1.0p-53; }
 
 std::uint64_t Rng::below(std::uint64_t n) {
-  const std::uint64_t reject_below = (0 - n) % n;  // 2^64 mod n: without it small numbers come oftener
+  const std::uint64_t reject_below =
+      (0 - n) % n;  // 2^64 mod n: without it small numbers come oftener
   for (;;) {
     const std::uint64_t draw = bits();
     if (draw >= reject_below) return draw % n;

@@ -50,7 +50,8 @@ Eigen::VectorXd floored(const Eigen::VectorXd& deviation, double share,
 
 }  // namespace
 
-InputMap::InputMap(const Eigen::MatrixXd& training, Spec spec, const std::vector<std::string>& units)
+InputMap::InputMap(const Eigen::MatrixXd& training, Spec spec,
+                   const std::vector<std::string>& units)
     : spec_(spec) {
   assert(training.rows() > 0);
   const auto rows = static_cast<double>(training.rows());
@@ -68,7 +69,8 @@ InputMap::InputMap(const Eigen::MatrixXd& training, Spec spec, const std::vector
   for (Index j = 0; j < training.cols(); ++j) {
     double* sum = centre_.data() + j * kColumns;
     for (const double x : training.col(j)) {
-      write_row(std::clamp(x, least_[j], most_[j]), mean_[j], inverse_scale_[j], [sum](Index k, double value) { sum[k] += value; });
+      write_row(std::clamp(x, least_[j], most_[j]), mean_[j], inverse_scale_[j],
+                [sum](Index k, double value) { sum[k] += value; });
     }
   }
   centre_ /= rows;
@@ -82,7 +84,8 @@ void InputMap::derive() {
     return 1.0 / (variance ? sd * sd : sd);
   });
   const double width = spec_.clip > 0.0 ? spec_.clip : std::numeric_limits<double>::infinity();
-  const Eigen::VectorXd reach = scale_.unaryExpr([](double sd) { return std::max(sd, kConstant); }) * width;
+  const Eigen::VectorXd reach =
+      scale_.unaryExpr([](double sd) { return std::max(sd, kConstant); }) * width;
   least_ = mean_ - reach;
   most_ = mean_ + reach;
 }
@@ -100,14 +103,10 @@ template void InputMap::write<float>(const double*, float*) const;
 template void InputMap::write<double>(const double*, double*) const;
 
 Json InputMap::to_json() const {
-  return {{"variance", spec_.variance},
-          {"zerocenter", spec_.zerocenter},
-          {"sigma_floor", spec_.sigma_floor},
-          {"clip", spec_.clip},
-          {"mean", list_of(mean_)},
-          {"deviation", list_of(deviation_)},
-          {"scale", list_of(scale_)},
-          {"mean_square", list_of(mean_square_)},
+  return {{"variance", spec_.variance},       {"zerocenter", spec_.zerocenter},
+          {"sigma_floor", spec_.sigma_floor}, {"clip", spec_.clip},
+          {"mean", list_of(mean_)},           {"deviation", list_of(deviation_)},
+          {"scale", list_of(scale_)},         {"mean_square", list_of(mean_square_)},
           {"centre", list_of(centre_)}};
 }
 

@@ -13,7 +13,8 @@ std::vector<SnrLevel> parse_levels(Options& options) {
   const Json list = options.raw("levels_db");
   if (list.is_null()) return NoiseSpec().levels;
   if (!list.is_array() || list.empty()) {
-    options.reject("levels_db", "must be a list of dB values, null for clean, such as [null, 40, 20]");
+    options.reject("levels_db",
+                   "must be a list of dB values, null for clean, such as [null, 40, 20]");
   }
   std::vector<SnrLevel> levels;
   for (const Json& level : list) {

@@ -61,7 +61,8 @@ void check_axis_columns(const Recording& recording, const System& system, bool m
                         const std::string& file) {
   for (const Axis& axis : system.axes) {
     if (!motion_only) require_column(recording, axis.measured, axis.name, file);
-    for (const std::string& name : {axis.position, axis.velocity, axis.acceleration, axis.simulated}) {
+    for (const std::string& name :
+         {axis.position, axis.velocity, axis.acceleration, axis.simulated}) {
       require_column(recording, name, axis.name, file);
     }
     for (const std::string& name : axis.signals) require_column(recording, name, axis.name, file);

@@ -10,8 +10,8 @@ Json read_file_or_empty(const ConfigurationFlags& flags) {
   return json;
 }
 
-/// The system description named by the flag or, relative to the configuration's folder, by its key; an
-/// object in its place is taken as it is.
+/// The system description named by the flag or, relative to the configuration's folder, by its key;
+/// an object in its place is taken as it is.
 System find_system(const ConfigurationFlags& flags, const Json& given, const std::string& where) {
   if (flags.system) return read_system(*flags.system);
   if (!given.contains("system") || given["system"].is_null()) return {};
@@ -37,7 +37,8 @@ Json flag_patch(const ConfigurationFlags& flags) {
   return patch;
 }
 
-/// With a file that names an order for another estimator, --online keeps its window and takes its own order.
+/// With a file that names an order for another estimator, --online keeps its window and takes its
+/// own order.
 void drop_foreign_order(Json& json, const ConfigurationFlags& flags) {
   if (flags.online) json["features"]["derivative"].erase("order");
 }

@@ -78,8 +78,9 @@ NoiseSpec test_noise(const EvaluationRequest& request) {
 }
 
 EvaluationSummary summarise(const std::vector<EvaluationRow>& rows) {
-  EvaluationSummary s{rows[0].model, rows[0].file, rows[0].snr_db, static_cast<int>(rows.size()),
-                      {},            {},           {},             rows[0].score};
+  EvaluationSummary s{
+      rows[0].model, rows[0].file, rows[0].snr_db, static_cast<int>(rows.size()), {}, {}, {},
+      rows[0].score};
   const auto over = [&](auto value) {
     std::vector<double> values;
     values.reserve(rows.size());
@@ -96,7 +97,8 @@ EvaluationSummary summarise(const std::vector<EvaluationRow>& rows) {
   return s;
 }
 
-void check_targets(const Evaluation& evaluation, const Identifier& identifier, const std::string& file) {
+void check_targets(const Evaluation& evaluation, const Identifier& identifier,
+                   const std::string& file) {
   require(evaluation.targets.names.empty() || evaluation.targets.names == identifier.targets.names,
           Exit::kUsage, file, ": predicts other targets than the first model; evaluate them apart");
 }
@@ -128,14 +130,15 @@ Evaluation evaluate(const EvaluationRequest& request,
         const auto key = level ? noise_key(request.seed, *level, run) : 0;
         const Eigen::MatrixXd predicted =
             identifier.model->predict(with_noise(set.x, deviation, key)) + set.base;
-        rows.push_back({identifier.name, file, level, run,
-                        score(predicted, set.wanted, identifier.targets)});
+        rows.push_back(
+            {identifier.name, file, level, run, score(predicted, set.wanted, identifier.targets)});
         if (!level && identifier.layout.system.lowpass_hz > 0.0) {
           evaluation.unfiltered.push_back({identifier.name, file, level, run,
                                            score(predicted, set.unfiltered, identifier.targets)});
         }
         if (!level) {
-          evaluation.traces.push_back({identifier.name, set.first_t, set.wanted.topRows(set.first_rows),
+          evaluation.traces.push_back({identifier.name, set.first_t,
+                                       set.wanted.topRows(set.first_rows),
                                        predicted.topRows(set.first_rows)});
         }
         if (progress) progress(++done, per_model * static_cast<int>(request.models.size()));

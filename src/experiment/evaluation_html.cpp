@@ -47,7 +47,8 @@ Chart level_chart(const Evaluation& evaluation, const std::string& title, const 
       chart.series.push_back({s.file, {}, {}, {}, Series::Style::kBars});
     }
     const Spread value = pick(s);
-    const auto at = std::find(chart.categories.begin(), chart.categories.end(), level_name(s.snr_db));
+    const auto at =
+        std::find(chart.categories.begin(), chart.categories.end(), level_name(s.snr_db));
     chart.series.back().x.push_back(static_cast<double>(at - chart.categories.begin()));
     chart.series.back().y.push_back(value.mean);
     chart.series.back().error.push_back(value.deviation);
@@ -67,16 +68,20 @@ void add_table(HtmlReport& page, const Evaluation& evaluation) {
     for (const Spread& axis : s.rmse) row.push_back(with_spread(axis));
     row.push_back(s.overall ? with_spread(*s.overall) : "–");
     char text[64];
-    std::snprintf(text, sizeof text, "%.3f", *std::max_element(s.first.max_abs.begin(), s.first.max_abs.end()));
+    std::snprintf(text, sizeof text, "%.3f",
+                  *std::max_element(s.first.max_abs.begin(), s.first.max_abs.end()));
     row.emplace_back(text);
-    std::snprintf(text, sizeof text, "%.4f", *std::min_element(s.first.r2.begin(), s.first.r2.end()));
+    std::snprintf(text, sizeof text, "%.4f",
+                  *std::min_element(s.first.r2.begin(), s.first.r2.end()));
     row.emplace_back(text);
     rows.push_back(row);
   }
   page.table(header, rows);
-  page.paragraph("RMSE as mean ± standard deviation over noise draws; the largest error over all targets "
-                 "and the least R² of them are those of the first draw. Without identification the overall "
-                 "RMSE is " + std::to_string(evaluation.unidentified.overall.value_or(0.0)) + ".");
+  page.paragraph(
+      "RMSE as mean ± standard deviation over noise draws; the largest error over all targets "
+      "and the least R² of them are those of the first draw. Without identification the overall "
+      "RMSE is " +
+      std::to_string(evaluation.unidentified.overall.value_or(0.0)) + ".");
 }
 
 std::vector<double> values(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
@@ -93,7 +98,8 @@ void add_traces(HtmlReport& page, const Evaluation& evaluation) {
     chart.y_label = evaluation.targets.names[j] + " [" + evaluation.targets.units[j] + "]";
     chart.series.push_back({"measured", values(first.t), values(first.measured.col(column)), {}});
     for (const Trace& trace : evaluation.traces) {
-      chart.series.push_back({trace.model, values(trace.t), values(trace.predicted.col(column)), {}});
+      chart.series.push_back(
+          {trace.model, values(trace.t), values(trace.predicted.col(column)), {}});
     }
     page.chart(chart, evaluation.data.front() + ", input without added noise");
   }
@@ -107,7 +113,8 @@ void add_traces(HtmlReport& page, const Evaluation& evaluation) {
       labels.push_back(trace.model);
     }
     page.chart(histogram(evaluation.targets.names[j],
-                         "measured - predicted [" + evaluation.targets.units[j] + "]", residuals, labels, 60),
+                         "measured - predicted [" + evaluation.targets.units[j] + "]", residuals,
+                         labels, 60),
                "how the residual is spread, input without added noise");
   }
 }
@@ -117,7 +124,8 @@ void add_training_curve(HtmlReport& page, const std::filesystem::path& model) {
   const auto path = run_directory(model) / "metrics.jsonl";
   if (!std::filesystem::exists(path)) return;
   Series loss{"training loss", {}, {}, {}, Series::Style::kLineAndMarkers};
-  Series validation{"validation RMSE (mean over targets)", {}, {}, {}, Series::Style::kLineAndMarkers};
+  Series validation{
+      "validation RMSE (mean over targets)", {}, {}, {}, Series::Style::kLineAndMarkers};
   std::istringstream lines(read_file(path, std::size_t{64} << 20, Exit::kData));
   for (std::string line; std::getline(lines, line);) {
     const Json record = parse_json(line, path.string(), Exit::kData);
@@ -134,11 +142,13 @@ void add_training_curve(HtmlReport& page, const std::filesystem::path& model) {
   chart.y_label = "loss, RMSE";
   chart.log_y = true;
   chart.series = {loss, validation};
-  page.chart(chart, "from " + path.filename().string() +
-                        "; the loss is of the targets as the network sees them, with noise and dropout");
+  page.chart(chart,
+             "from " + path.filename().string() +
+                 "; the loss is of the targets as the network sees them, with noise and dropout");
 }
 
-void add_settings(HtmlReport& page, const Evaluation& evaluation, const EvaluationRequest& request) {
+void add_settings(HtmlReport& page, const Evaluation& evaluation,
+                  const EvaluationRequest& request) {
   page.heading("What these numbers depend on");
   std::string data;
   for (const auto& name : evaluation.data) data += (data.empty() ? "" : ", ") + name;
@@ -174,7 +184,8 @@ std::string to_html(const Evaluation& evaluation, const EvaluationRequest& reque
   if (evaluation.summary.front().overall) {
     page.chart(level_chart(evaluation, "overall", targets.units[0],
                            [](const EvaluationSummary& s) { return *s.overall; }),
-               "mean of the RMSEs per axis (Eq. 6); bars: mean, whiskers: one standard deviation over draws");
+               "mean of the RMSEs per axis (Eq. 6); bars: mean, whiskers: one standard deviation "
+               "over draws");
   }
   for (std::size_t j = 0; j < targets.names.size(); ++j) {
     page.chart(level_chart(evaluation, targets.names[j], targets.units[j],

@@ -10,8 +10,9 @@ Json number(const std::optional<double>& value) { return value ? Json(*value) : 
 Json level_json(const SnrLevel& level) { return level ? Json(*level) : Json(); }
 
 Json row_json(const EvaluationRow& row) {
-  Json json = {{"model", row.model}, {"file", row.file}, {"snr_db", level_json(row.snr_db)},
-               {"run", row.run}, {"rmse", row.score.rmse}, {"rmse_overall", number(row.score.overall)}};
+  Json json = {
+      {"model", row.model}, {"file", row.file},       {"snr_db", level_json(row.snr_db)},
+      {"run", row.run},     {"rmse", row.score.rmse}, {"rmse_overall", number(row.score.overall)}};
   if (row.score.overall_torque) json["rmse_overall_torque"] = *row.score.overall_torque;
   return json;
 }
@@ -22,8 +23,12 @@ Json summary_json(const EvaluationSummary& s, const Score& unidentified) {
     mean.push_back(axis.mean);
     deviation.push_back(axis.deviation);
   }
-  Json json = {{"model", s.model}, {"file", s.file}, {"snr_db", level_json(s.snr_db)},
-               {"runs", s.runs}, {"rmse_mean", mean}, {"rmse_std", deviation},
+  Json json = {{"model", s.model},
+               {"file", s.file},
+               {"snr_db", level_json(s.snr_db)},
+               {"runs", s.runs},
+               {"rmse_mean", mean},
+               {"rmse_std", deviation},
                {"rmse_overall_mean", s.overall ? Json(s.overall->mean) : Json()},
                {"rmse_overall_std", s.overall ? Json(s.overall->deviation) : Json()}};
   if (s.overall_torque) {
@@ -33,10 +38,9 @@ Json summary_json(const EvaluationSummary& s, const Score& unidentified) {
   json["max_abs_error"] = s.first.max_abs;
   json["r2"] = s.first.r2;
   json["vector_rmse"] = number(s.first.vector_rmse);
-  json["ratio_to_unidentified"] =
-      s.overall && unidentified.overall && *unidentified.overall > 0.0
-          ? Json(s.overall->mean / *unidentified.overall)
-          : Json();
+  json["ratio_to_unidentified"] = s.overall && unidentified.overall && *unidentified.overall > 0.0
+                                      ? Json(s.overall->mean / *unidentified.overall)
+                                      : Json();
   return json;
 }
 
@@ -57,10 +61,14 @@ std::string padded(std::string text, std::size_t width) {
 }  // namespace
 
 Json to_json(const Evaluation& evaluation) {
-  Json json = {{"data", evaluation.data}, {"samples", evaluation.samples},
-               {"targets", evaluation.targets.names}, {"units", evaluation.targets.units},
+  Json json = {{"data", evaluation.data},
+               {"samples", evaluation.samples},
+               {"targets", evaluation.targets.names},
+               {"units", evaluation.targets.units},
                {"samples_near_singularity", evaluation.singular_samples},
-               {"notes", evaluation.notes}, {"rows", Json::array()}, {"summary", Json::array()}};
+               {"notes", evaluation.notes},
+               {"rows", Json::array()},
+               {"summary", Json::array()}};
   for (const auto& row : evaluation.rows) json["rows"].push_back(row_json(row));
   for (const auto& s : evaluation.summary) {
     json["summary"].push_back(summary_json(s, evaluation.unidentified));

@@ -7,7 +7,8 @@
 namespace dcnn {
 namespace {
 
-/// The targets that one overall number covers: those in newtons, else all where they share one unit.
+/// The targets that one overall number covers: those in newtons, else all where they share one
+/// unit.
 std::vector<std::size_t> overall_targets(const Targets& targets) {
   std::vector<std::size_t> all(targets.names.size()), forces;
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -19,14 +20,16 @@ std::vector<std::size_t> overall_targets(const Targets& targets) {
   return one_unit ? all : std::vector<std::size_t>{};
 }
 
-std::optional<double> mean_at(const std::vector<double>& values, const std::vector<std::size_t>& at) {
+std::optional<double> mean_at(const std::vector<double>& values,
+                              const std::vector<std::size_t>& at) {
   if (at.empty()) return std::nullopt;
   double sum = 0.0;
   for (const auto j : at) sum += values[j];
   return sum / static_cast<double>(at.size());
 }
 
-std::optional<double> length_at(const std::vector<double>& values, const std::vector<std::size_t>& at) {
+std::optional<double> length_at(const std::vector<double>& values,
+                                const std::vector<std::size_t>& at) {
   if (at.empty()) return std::nullopt;
   double sum = 0.0;
   for (const auto j : at) sum += values[j] * values[j];
@@ -35,7 +38,8 @@ std::optional<double> length_at(const std::vector<double>& values, const std::ve
 
 }  // namespace
 
-Score score(const Eigen::MatrixXd& predicted, const Eigen::MatrixXd& wanted, const Targets& targets) {
+Score score(const Eigen::MatrixXd& predicted, const Eigen::MatrixXd& wanted,
+            const Targets& targets) {
   const double n = static_cast<double>(wanted.rows());
   Score result;
   for (Eigen::Index j = 0; j < wanted.cols(); ++j) {

@@ -37,7 +37,8 @@ std::optional<Container> RunDirectory::find_checkpoint(const std::string& identi
   if (!std::filesystem::exists(path)) return std::nullopt;
   Container file = read_container(path);
   require(file.metadata["identity"] == identity, Exit::kUsage, path.string(),
-          ": was made with another configuration, seed or other recordings; give the same ones, or leave "
+          ": was made with another configuration, seed or other recordings; give the same ones, or "
+          "leave "
           "--resume out to start anew");
   return file;
 }
@@ -56,7 +57,8 @@ void RunDirectory::keep_metrics(Index epochs) {
   metrics_.clear();
   if (!std::filesystem::exists(path)) return;
   std::istringstream lines(read_file(path, kMaxMetricsBytes, Exit::kFailure));
-  for (std::string line; static_cast<Index>(metrics_.size()) < epochs && std::getline(lines, line);) {
+  for (std::string line;
+       static_cast<Index>(metrics_.size()) < epochs && std::getline(lines, line);) {
     metrics_.push_back(line);
   }
 }
@@ -67,9 +69,12 @@ void RunDirectory::save_checkpoint(Container file, const std::string& identity) 
 }
 
 void RunDirectory::add_metrics(const EpochRecord& record) {
-  Json line = {{"epoch", record.epoch}, {"loss", record.loss}, {"learning_rate", record.rate},
+  Json line = {{"epoch", record.epoch},
+               {"loss", record.loss},
+               {"learning_rate", record.rate},
                {"snr_db", record.snr_db ? Json(*record.snr_db) : Json()},
-               {"validation_rmse", record.validation_rmse}, {"best", record.best}};
+               {"validation_rmse", record.validation_rmse},
+               {"best", record.best}};
   metrics_.push_back(line.dump());
   write_metrics();
 }

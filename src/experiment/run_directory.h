@@ -1,5 +1,5 @@
-// The folder of one training: configuration, metrics, best and last model, checkpoint; every file is
-// replaced as a whole, so a kill at any moment leaves the last good state.
+// The folder of one training: configuration, metrics, best and last model, checkpoint; every file
+// is replaced as a whole, so a kill at any moment leaves the last good state.
 #pragma once
 
 #include <filesystem>
@@ -21,8 +21,8 @@ class RunDirectory {
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
 
-  /// The checkpoint to go on from; none where there is none yet. `identity` names configuration and data:
-  /// a checkpoint of another one is Error(kUsage).
+  /// The checkpoint to go on from; none where there is none yet. `identity` names configuration and
+  /// data: a checkpoint of another one is Error(kUsage).
   std::optional<Container> find_checkpoint(const std::string& identity) const;
   /// Starts anew: what an earlier training left is removed, the configuration written.
   void start(const Json& configuration);

@@ -44,15 +44,16 @@ class Splitter {
   Splitter(const Identifier& identifier, const TrainingObserver& observer)
       : identifier_(identifier), observer_(observer) {}
 
-  /// The last `share` of the recording's rows go to `validation`, those before them by 1 s or more to
-  /// `training`; rows near the Euler singularity to neither.
+  /// The last `share` of the recording's rows go to `validation`, those before them by 1 s or more
+  /// to `training`; rows near the Euler singularity to neither.
   void add(const Recording& recording, double share, Samples& training, Samples& validation) const {
     const Features features = make_features(recording, identifier_.layout);
     const Eigen::MatrixXd y = measured(recording, identifier_.targets, identifier_.layout.system) -
                               identifier_.base_prediction(recording);
     const Index total = recording.samples();
     const auto held = static_cast<Index>(std::lround(share * static_cast<double>(total)));
-    const auto gap = held > 0 ? static_cast<Index>(std::lround(kValidationGapSeconds / recording.dt)) : 0;
+    const auto gap =
+        held > 0 ? static_cast<Index>(std::lround(kValidationGapSeconds / recording.dt)) : 0;
     std::vector<Index> first, second;
     for (Index row = 0; row < total; ++row) {
       if (!features.valid[static_cast<std::size_t>(row)]) continue;
@@ -63,9 +64,10 @@ class Splitter {
     append(validation, features.x, y, second);
     const Index invalid = features.invalid_count();
     if (invalid > 0 && observer_.note) {
-      observer_.note(recording.name + ": " + std::to_string(invalid) + " of " + std::to_string(total) +
-                     " samples lie near the Euler singularity and are not trained on; the feature set "
-                     "'body' has none");
+      observer_.note(
+          recording.name + ": " + std::to_string(invalid) + " of " + std::to_string(total) +
+          " samples lie near the Euler singularity and are not trained on; the feature set "
+          "'body' has none");
     }
   }
 
@@ -74,7 +76,8 @@ class Splitter {
   const TrainingObserver& observer_;
 };
 
-/// Names the configuration and every number that is learned from, so that a resumed run is the same run.
+/// Names the configuration and every number that is learned from, so that a resumed run is the same
+/// run.
 std::string identity_of(const Json& configuration, const Samples& training,
                         const Samples& validation) {
   std::uint64_t hash = 0;
@@ -89,8 +92,9 @@ std::string identity_of(const Json& configuration, const Samples& training,
   return configuration.dump() + " " + text;
 }
 
-FitSession make_session(RunDirectory& run, const std::string& identity, const Identifier& identifier,
-                        const Json& configuration, const TrainingObserver& observer) {
+FitSession make_session(RunDirectory& run, const std::string& identity,
+                        const Identifier& identifier, const Json& configuration,
+                        const TrainingObserver& observer) {
   const Index epochs = configuration.at("training").value("epochs", Index{0});
   FitSession session;
   session.stop_wanted = observer.stop_wanted;
@@ -121,8 +125,12 @@ class Learner {
   Learner(const TrainingRequest& request, const TrainingObserver& observer,
           const Configuration& configuration, Identifier& identifier, const Samples& training,
           const Samples& validation)
-      : request_(request), observer_(observer), configuration_(configuration),
-        identifier_(identifier), training_(training), validation_(validation) {}
+      : request_(request),
+        observer_(observer),
+        configuration_(configuration),
+        identifier_(identifier),
+        training_(training),
+        validation_(validation) {}
 
   /// Fits a model of this configuration in a run directory of its own. False when stopped.
   bool fit(const Json& json, const std::filesystem::path& folder) {
@@ -143,8 +151,8 @@ class Learner {
     return identifier_.model->fit(training_, validation_, session);
   }
 
-  /// Where the configuration lists `training.candidates`, each is tried for `candidate_epochs` and the one
-  /// with the least validation error is laid on it. Empty when stopped.
+  /// Where the configuration lists `training.candidates`, each is tried for `candidate_epochs` and
+  /// the one with the least validation error is laid on it. Empty when stopped.
   std::optional<Json> choose(Json json, const std::filesystem::path& folder) {
     const Json candidates = json["training"].value("candidates", Json::array());
     if (candidates.empty() || validation_.x.rows() == 0) return json;

@@ -3,8 +3,8 @@
 namespace dcnn {
 namespace {
 
-/// The paper's network (spec 2.4): four modules of 2x2 convolution, batch norm and ReLU with 8, 16, 32 and
-/// 32 filters on the map of Eq. 7, dropout on the flattened maps, a fully connected layer.
+/// The paper's network (spec 2.4): four modules of 2x2 convolution, batch norm and ReLU with 8, 16,
+/// 32 and 32 filters on the map of Eq. 7, dropout on the flattened maps, a fully connected layer.
 Json dcnn_layers(Options options, Index targets, Index features) {
   const auto padding = options.choice("padding", "same", {"same", "valid"});
   const auto filters = options.get("filters", std::vector<Index>{8, 16, 32, 32});
@@ -19,8 +19,11 @@ Json dcnn_layers(Options options, Index targets, Index features) {
   }
   Json layers = Json::array();
   for (const Index count : filters) {
-    layers.push_back({{"kind", "conv2d"}, {"filters", count}, {"window", {2, 2}},
-                      {"padding", padding}, {"init", init}});
+    layers.push_back({{"kind", "conv2d"},
+                      {"filters", count},
+                      {"window", {2, 2}},
+                      {"padding", padding},
+                      {"init", init}});
     layers.push_back({{"kind", "batch_norm"}});
     layers.push_back({{"kind", "relu"}});
   }
@@ -45,8 +48,14 @@ Json fair_candidates() {
 Json dcnn_preset(const std::string& preset, bool axes) {
   Json json = {{"map", {{"sigma_floor", 0.01}}},
                {"model", {{"padding", "same"}, {"dropout", 0.5}, {"init", "glorot"}}},
-               {"training", {{"epochs", 30}, {"batch", 50}, {"lr", 1e-3}, {"drop_factor", 0.1},
-                             {"drop_period", 20}, {"l2", 1e-4}, {"standardise_targets", true}}}};
+               {"training",
+                {{"epochs", 30},
+                 {"batch", 50},
+                 {"lr", 1e-3},
+                 {"drop_factor", 0.1},
+                 {"drop_period", 20},
+                 {"l2", 1e-4},
+                 {"standardise_targets", true}}}};
   Json& training = json["training"];
   if (preset == "quick") training["epochs"] = 5;
   if (preset == "fair") {
@@ -55,8 +64,12 @@ Json dcnn_preset(const std::string& preset, bool axes) {
     training["candidates"] = fair_candidates();
   }
   if (preset == "paper") {
-    training.update({{"epochs", 500}, {"drop_factor", 0.001}, {"drop_period", 300},
-                     {"standardise_targets", false}, {"keep", "last"}, {"validation", 0.0}});
+    training.update({{"epochs", 500},
+                     {"drop_factor", 0.001},
+                     {"drop_period", 300},
+                     {"standardise_targets", false},
+                     {"keep", "last"},
+                     {"validation", 0.0}});
     json["model"]["init"] = "narrow";
     json["map"]["sigma_floor"] = 0.0;
   } else if (axes) {

@@ -36,7 +36,9 @@ Eigen::VectorXd target_spread(const Eigen::MatrixXd& y) {
   return (spread.array() < 1e-12).select(1.0, spread);
 }
 
-Json to_json(const Eigen::VectorXd& v) { return std::vector<double>(v.data(), v.data() + v.size()); }
+Json to_json(const Eigen::VectorXd& v) {
+  return std::vector<double>(v.data(), v.data() + v.size());
+}
 
 Eigen::VectorXd parse_vector(const Json& json, const std::string& where) {
   try {
@@ -55,7 +57,8 @@ TrainingSpec TrainingSpec::parse(Options options) {
   spec.batch = static_cast<Index>(options.number("batch", 50, 1, 1e6));
   spec.l2 = options.number("l2", 1e-4, 0.0, 1e6);
   spec.standardise_targets = options.get("standardise_targets", true);
-  spec.shuffle_every_epoch = options.choice("shuffle", "every-epoch", {"every-epoch", "once"}) != "once";
+  spec.shuffle_every_epoch =
+      options.choice("shuffle", "every-epoch", {"every-epoch", "once"}) != "once";
   spec.full_statistics = options.choice("statistics", "full", {"full", "running"}) == "full";
   spec.ema = options.number("ema", 0.0, 0.0, 0.999999);
   spec.keep_best = options.choice("keep", "best", {"best", "last"}) == "best";
@@ -93,7 +96,8 @@ NetworkModel::NetworkModel(const Container& file, const std::string& where)
   scale_.deviation = parse_vector(scale.value("deviation", Json()), where);
   try {
     Rng rng(0);
-    network_ = std::make_unique<Network>(architecture, Shape{map_.features(), InputMap::kColumns, 1}, rng);
+    network_ =
+        std::make_unique<Network>(architecture, Shape{map_.features(), InputMap::kColumns, 1}, rng);
   } catch (const Error& error) {
     fail(Exit::kModel, where, ": its architecture cannot be rebuilt: ", error.what());
   }

@@ -82,7 +82,8 @@ bool Trainer::run_steps() {
     step();
     ++step_;
     if (session_.step_done) {
-      session_.step_done(epoch_ + 1, step_, steps_per_epoch_, loss_sum_ / static_cast<double>(step_));
+      session_.step_done(epoch_ + 1, step_, steps_per_epoch_,
+                         loss_sum_ / static_cast<double>(step_));
     }
   }
   return true;
@@ -106,8 +107,8 @@ void Trainer::step() {
 }
 
 /// Maps (Eq. 7) of the batch that starts at `first`, with noise on the features before the map.
-Tensor Trainer::gather(const std::vector<std::int64_t>& order, Index first,
-                       std::uint64_t noise_key, const Eigen::VectorXd& noise) const {
+Tensor Trainer::gather(const std::vector<std::int64_t>& order, Index first, std::uint64_t noise_key,
+                       const Eigen::VectorXd& noise) const {
   const Index features = x_.cols(), cells = features * InputMap::kColumns;
   Tensor maps({spec_.batch, features, InputMap::kColumns, 1});
   const bool noisy = !noise.isZero(0.0);
@@ -156,8 +157,9 @@ void Trainer::finish_epoch() {
   save_checkpoint();
 }
 
-/// Batch norm's inference statistics: one pass over the whole clean training set (spec 2.4, D16), in
-/// shuffled batches as in training, since neighbouring rows resemble each other too much to make a batch.
+/// Batch norm's inference statistics: one pass over the whole clean training set (spec 2.4, D16),
+/// in shuffled batches as in training, since neighbouring rows resemble each other too much to make
+/// a batch.
 void Trainer::collect_statistics() {
   NoGradient guard;
   Rng rng({model_.seed_, kCollectOrder});
@@ -197,8 +199,8 @@ void Trainer::restore_best() { assign(model_.network_->state(), best_); }
 
 std::vector<NamedTensor> Trainer::everything() const {
   auto all = model_.network_->state();
-  for (const auto& part : {adam_->state(), average_ ? average_->state() : std::vector<NamedTensor>{},
-                           best_}) {
+  for (const auto& part :
+       {adam_->state(), average_ ? average_->state() : std::vector<NamedTensor>{}, best_}) {
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;
@@ -208,8 +210,10 @@ void Trainer::save_checkpoint() const {
   if (!session_.save_checkpoint) return;
   Container file;
   store_tensors(everything(), "", file);
-  file.tensors.push_back({"position", {3}, std::vector<std::int64_t>{epoch_, step_, adam_->steps()}});
-  // JSON cannot hold infinity, and a container refuses it too: no best epoch yet is an empty tensor.
+  file.tensors.push_back(
+      {"position", {3}, std::vector<std::int64_t>{epoch_, step_, adam_->steps()}});
+  // JSON cannot hold infinity, and a container refuses it too: no best epoch yet is an empty
+  // tensor.
   std::vector<double> sums{loss_sum_};
   if (std::isfinite(best_score_)) sums.push_back(best_score_);
   file.tensors.push_back({"sums", {static_cast<Index>(sums.size())}, sums});
@@ -220,8 +224,8 @@ void Trainer::restore_checkpoint(const Container& file) {
   load_tensors(file, "", everything(), "checkpoint");
   const auto position = stored_values<std::int64_t>(file, "position", "checkpoint");
   const auto sums = stored_values<double>(file, "sums", "checkpoint");
-  require(position.size() == 3 && !sums.empty() && position[0] >= 0 && position[1] >= 0, Exit::kModel,
-          "checkpoint: not one of this training; start without --resume");
+  require(position.size() == 3 && !sums.empty() && position[0] >= 0 && position[1] >= 0,
+          Exit::kModel, "checkpoint: not one of this training; start without --resume");
   epoch_ = position[0];
   step_ = position[1];
   adam_->set_steps(position[2]);

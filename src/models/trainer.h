@@ -1,4 +1,5 @@
-// One training of a NetworkModel: epochs of Adam that can stop anywhere and go on to the same bytes.
+// One training of a NetworkModel: epochs of Adam that can stop anywhere and go on to the same
+// bytes.
 #pragma once
 
 #include <memory>
@@ -41,7 +42,7 @@ class Trainer {
   const Samples& validation_;
   FitSession& session_;
   const TrainingSpec& spec_;
-  RowMajor x_, y_;       // training rows; targets scaled
+  RowMajor x_, y_;  // training rows; targets scaled
   Index steps_per_epoch_;
   std::unique_ptr<Adam> adam_;
   std::unique_ptr<WeightAverage> average_;

@@ -1,4 +1,5 @@
-// The ready configurations on real recordings, which are not part of the repository: skipped without them.
+// The ready configurations on real recordings, which are not part of the repository: skipped
+// without them.
 #include <gtest/gtest.h>
 
 #include "dcnn/core/json.h"

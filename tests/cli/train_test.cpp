@@ -41,10 +41,12 @@ class Tools : public testing::Test {
 
   static std::string at(const std::string& name) { return (*folder_ / name).string(); }
 
-  static std::vector<std::string> training(const std::string& out, std::vector<std::string> more = {}) {
-    std::vector<std::string> arguments{"--train", at("data/train.csv"), "--preset", "quick",
-                                       "--out", at(out), "--quiet"};
-    if (std::find(more.begin(), more.end(), "--epochs") == more.end()) more.insert(more.end(), {"--epochs", "3"});
+  static std::vector<std::string> training(const std::string& out,
+                                           std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{
+        "--train", at("data/train.csv"), "--preset", "quick", "--out", at(out), "--quiet"};
+    if (std::find(more.begin(), more.end(), "--epochs") == more.end())
+      more.insert(more.end(), {"--epochs", "3"});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
@@ -58,7 +60,8 @@ TEST_F(Tools, SimulatedFolderHoldsRecordingsTruthAndSimulator) {
     EXPECT_TRUE(std::filesystem::exists(at(std::string("data/") + name))) << name;
   }
   EXPECT_EQ(read_csv(at("data/train.csv")).values.rows(), 3000);
-  EXPECT_EQ(slurp(at("data/sim.json")).find("coulomb"), std::string::npos) << "sim.json must not tell";
+  EXPECT_EQ(slurp(at("data/sim.json")).find("coulomb"), std::string::npos)
+      << "sim.json must not tell";
   EXPECT_NE(slurp(at("data/truth.json")).find("coulomb_friction"), std::string::npos);
 }
 
@@ -72,8 +75,9 @@ TEST_F(Tools, SameSeedGivesTheSameModelForOneAndTwoThreads) {
 
 TEST_F(Tools, TrainingLearnsAndEvaluationAgreesWithPrediction) {
   ASSERT_EQ(run("train", training("model.dcnn", {"--epochs", "8"})).exit_code, 0);
-  const Result result = run("eval", {at("model.dcnn"), "--data", at("data/test.csv"), "--snr", "clean,20",
-                                     "--runs", "3", "--json", "--quiet", "--out", at("report")});
+  const Result result =
+      run("eval", {at("model.dcnn"), "--data", at("data/test.csv"), "--snr", "clean,20", "--runs",
+                   "3", "--json", "--quiet", "--out", at("report")});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Json json = parse_json(result.out, "eval", Exit::kFailure);
   EXPECT_EQ(json["samples"], 1500);
@@ -85,7 +89,9 @@ TEST_F(Tools, TrainingLearnsAndEvaluationAgreesWithPrediction) {
   EXPECT_GT(json["summary"][1]["rmse_overall_std"].get<double>(), 0.0);
   EXPECT_NE(slurp(at("report/report.html")).find("<svg"), std::string::npos);
 
-  ASSERT_EQ(run("predict", {at("model.dcnn"), "--data", at("data/test.csv"), "--out", at("p.csv")}).exit_code, 0);
+  ASSERT_EQ(run("predict", {at("model.dcnn"), "--data", at("data/test.csv"), "--out", at("p.csv")})
+                .exit_code,
+            0);
   const Table table = read_csv(at("p.csv"));
   const auto column = [&](const std::string& name) {
     const auto found = std::find(table.columns.begin(), table.columns.end(), name);
@@ -135,7 +141,8 @@ TEST_F(Tools, ResumeRefusesAnotherConfiguration) {
 }
 
 TEST_F(Tools, ChoosesAmongCandidatesOnTheValidationRows) {
-  std::ofstream(at("choice.json")) << R"({"preset": "quick", "training": {"candidate_epochs": 8, "candidates":
+  std::ofstream(at("choice.json"))
+      << R"({"preset": "quick", "training": {"candidate_epochs": 8, "candidates":
     [{"training": {"lr": 1e-9}}, {"training": {"lr": 1e-3}}]}})";
   ASSERT_EQ(run("train", training("chosen.dcnn", {"--config", at("choice.json")})).exit_code, 0);
   const Json chosen = read_json(at("chosen.run/configuration.json"), Exit::kFailure);
@@ -146,17 +153,27 @@ TEST_F(Tools, ChoosesAmongCandidatesOnTheValidationRows) {
 
 TEST_F(Tools, LearnsWhatABaseSimulatorLeaves) {
   ASSERT_EQ(run("train", training("rest.dcnn", {"--base", at("data/sim.json")})).exit_code, 0);
-  const Result result = run("eval", {at("rest.dcnn"), "--data", at("data/test.csv"), "--snr", "clean", "--json"});
+  const Result result =
+      run("eval", {at("rest.dcnn"), "--data", at("data/test.csv"), "--snr", "clean", "--json"});
   const Json json = parse_json(result.out, "eval", Exit::kFailure);
-  EXPECT_LT(json["summary"][0]["rmse_overall_mean"].get<double>(), 0.3) << "friction and noise are all that is left";
+  EXPECT_LT(json["summary"][0]["rmse_overall_mean"].get<double>(), 0.3)
+      << "friction and noise are all that is left";
 }
 
 TEST_F(Tools, TheSimulatorPredictsALoggedMotion) {
-  ASSERT_EQ(run("sim", {"--sim", at("data/sim.json"), "--motion", at("data/test.csv"), "--out", at("s.csv")}).exit_code, 0);
-  ASSERT_EQ(run("predict", {at("data/sim.json"), "--data", at("data/test.csv"), "--out", at("q.csv")}).exit_code, 0);
+  ASSERT_EQ(run("sim", {"--sim", at("data/sim.json"), "--motion", at("data/test.csv"), "--out",
+                        at("s.csv")})
+                .exit_code,
+            0);
+  ASSERT_EQ(
+      run("predict", {at("data/sim.json"), "--data", at("data/test.csv"), "--out", at("q.csv")})
+          .exit_code,
+      0);
   const Table simulated = read_csv(at("s.csv")), predicted = read_csv(at("q.csv"));
-  const auto fz = std::find(simulated.columns.begin(), simulated.columns.end(), "fz") - simulated.columns.begin();
-  const auto hat = std::find(predicted.columns.begin(), predicted.columns.end(), "fz_hat") - predicted.columns.begin();
+  const auto fz = std::find(simulated.columns.begin(), simulated.columns.end(), "fz") -
+                  simulated.columns.begin();
+  const auto hat = std::find(predicted.columns.begin(), predicted.columns.end(), "fz_hat") -
+                   predicted.columns.begin();
   EXPECT_EQ(simulated.values.col(fz), predicted.values.col(hat));
 }
 
@@ -179,18 +196,34 @@ TEST_F(Tools, EveryMistakeIsOneLineWithItsExitCode) {
       {"missing recording", "eval", {at("m.dcnn"), "--data", at("none.csv")}, 3, "none.csv"},
       {"bad cell", "eval", {at("m.dcnn"), "--data", at("bad.csv")}, 3, "bad.csv:2"},
       {"not a model", "eval", {at("notes.dcnn"), "--data", at("data/test.csv")}, 4, "notes.dcnn"},
-      {"missing model", "predict", {at("none.dcnn"), "--data", at("data/test.csv"), "--out", at("x.csv")}, 4, "none.dcnn"},
-      {"unknown key", "train", training("x.dcnn", {"--config", at("typo.json")}), 2, "did you mean 'epochs'"},
+      {"missing model",
+       "predict",
+       {at("none.dcnn"), "--data", at("data/test.csv"), "--out", at("x.csv")},
+       4,
+       "none.dcnn"},
+      {"unknown key", "train", training("x.dcnn", {"--config", at("typo.json")}), 2,
+       "did you mean 'epochs'"},
       {"broken JSON", "train", training("x.dcnn", {"--config", at("broken.json")}), 2, "line 1"},
       {"unknown model", "train", training("x.dcnn", {"--model", "dcn"}), 2, "did you mean 'dcnn'"},
-      {"bad level", "eval", {at("m.dcnn"), "--data", at("data/test.csv"), "--snr", "loud"}, 2, "loud"},
-      {"unwritable output", "predict", {at("m.dcnn"), "--data", at("data/test.csv"), "--out", "/proc/none/x.csv"}, 1, "/proc/none"}};
+      {"bad level",
+       "eval",
+       {at("m.dcnn"), "--data", at("data/test.csv"), "--snr", "loud"},
+       2,
+       "loud"},
+      {"unwritable output",
+       "predict",
+       {at("m.dcnn"), "--data", at("data/test.csv"), "--out", "/proc/none/x.csv"},
+       1,
+       "/proc/none"}};
   for (const Mistake& mistake : mistakes) {
     const Result result = run(mistake.verb, mistake.arguments);
     EXPECT_EQ(result.exit_code, mistake.exit_code) << mistake.name << ": " << result.err;
-    EXPECT_NE(result.err.find(mistake.says), std::string::npos) << mistake.name << ": " << result.err;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << mistake.name << ": " << result.err;
-    EXPECT_EQ(result.err.rfind("dcnn-" + mistake.verb + ": ", 0), 0u) << mistake.name << ": " << result.err;
+    EXPECT_NE(result.err.find(mistake.says), std::string::npos)
+        << mistake.name << ": " << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1)
+        << mistake.name << ": " << result.err;
+    EXPECT_EQ(result.err.rfind("dcnn-" + mistake.verb + ": ", 0), 0u)
+        << mistake.name << ": " << result.err;
   }
 }
 

@@ -14,7 +14,8 @@ TEST(WriteFile, ReplacesTheWholeFileAndMakesItsFolder) {
   write_file(path, "second");
   EXPECT_EQ(read_file(path, 100, Exit::kData), "second");
   int entries = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(path.parent_path())) ++entries;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(path.parent_path()))
+    ++entries;
   EXPECT_EQ(entries, 1) << "no temporary file stays";
 }
 
@@ -22,7 +23,8 @@ TEST(WriteFile, FailsWithoutTouchingTheOldFile) {
   const test::TemporaryFolder folder;
   std::filesystem::create_directories(folder / "taken");
   write_file(folder / "taken/x", "old");
-  EXPECT_THROW(write_file(folder / "taken", "new"), Error) << "a folder cannot be replaced by a file";
+  EXPECT_THROW(write_file(folder / "taken", "new"), Error)
+      << "a folder cannot be replaced by a file";
   EXPECT_EQ(read_file(folder / "taken/x", 100, Exit::kData), "old");
 }
 

@@ -32,12 +32,15 @@ TEST(Options, RefusesAnUnknownKeyAndSuggestsTheNearest) {
 TEST(Options, NamesTheWholePathOfANestedKey) {
   Options options(Json{{"map", {{"sigma", "sd"}}}}, "c.json", Exit::kUsage);
   Options map = options.child("map");
-  EXPECT_NE(message_of([&] { map.choice("sigma", "std", {"std", "variance"}); }).find("'map.sigma'"),
+  EXPECT_NE(message_of([&] {
+              map.choice("sigma", "std", {"std", "variance"});
+            }).find("'map.sigma'"),
             std::string::npos);
 }
 
 TEST(Options, ConvertsNothingSilently) {
-  Options options(Json{{"batch", 1.5}, {"on", 1}, {"lr", "fast"}, {"word", 3}}, "c.json", Exit::kUsage);
+  Options options(Json{{"batch", 1.5}, {"on", 1}, {"lr", "fast"}, {"word", 3}}, "c.json",
+                  Exit::kUsage);
   EXPECT_THROW(options.get("batch", 1), Error);
   EXPECT_THROW(options.get("on", true), Error);
   EXPECT_THROW(options.get("lr", 0.1), Error);
@@ -58,7 +61,8 @@ TEST(Json, RefusesDuplicateKeysAndDeepNesting) {
   EXPECT_THROW(parse_json(R"({"a": 1, "a": 2})", "x", Exit::kUsage), Error);
   EXPECT_NO_THROW(parse_json(R"({"a": {"a": 1}, "b": [{"a": 2}]})", "x", Exit::kUsage));
   EXPECT_THROW(parse_json(std::string(100000, '['), "x", Exit::kUsage), Error);
-  EXPECT_THROW(parse_json(std::string(1000, '[') + std::string(1000, ']'), "x", Exit::kUsage), Error);
+  EXPECT_THROW(parse_json(std::string(1000, '[') + std::string(1000, ']'), "x", Exit::kUsage),
+               Error);
 }
 
 TEST(Json, FaultsNameLineAndColumn) {

@@ -77,8 +77,8 @@ TEST(InputMap, ClipHoldsEveryColumnWithinReachOfTheTraining) {
 
 TEST(InputMap, ComesBackExactlyFromJson) {
   for (const bool flag : {false, true}) {
-    const InputMap input_map(random_features(50, 3), {flag, !flag, flag ? 0.0 : 0.3, flag ? 2.0 : 0.0},
-                             {"m", "m", "m"});
+    const InputMap input_map(random_features(50, 3),
+                             {flag, !flag, flag ? 0.0 : 0.3, flag ? 2.0 : 0.0}, {"m", "m", "m"});
     const Json json = parse_json(input_map.to_json().dump(), "m", Exit::kModel);
     const InputMap back = InputMap::parse(json, "m", Exit::kModel);
     EXPECT_EQ(back.mean(), input_map.mean());

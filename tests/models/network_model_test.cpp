@@ -30,7 +30,13 @@ std::unique_ptr<Model> make(const Json& patch = Json::object(), std::uint64_t se
 }
 
 Eigen::VectorXd rmse(const Model& model, const Samples& samples) {
-  return (model.predict(samples.x) - samples.y).array().square().colwise().mean().sqrt().transpose();
+  return (model.predict(samples.x) - samples.y)
+      .array()
+      .square()
+      .colwise()
+      .mean()
+      .sqrt()
+      .transpose();
 }
 
 Container saved(const Model& model) {
@@ -79,7 +85,8 @@ TEST(NetworkModel, OneRowPredictsWhatItPredictsAmongOthers) {
   }
 }
 
-/// Stops a training in the middle of an epoch and goes on in a new object from the checkpoint alone.
+/// Stops a training in the middle of an epoch and goes on in a new object from the checkpoint
+/// alone.
 TEST(NetworkModel, GoesOnFromAnyStepToTheSameWeights) {
   const Samples training = draw_samples(600, 1), validation = draw_samples(200, 2);
   const Json patch = {{"training", {{"ema", 0.99}}}, {"noise", {{"levels_db", {nullptr, 20.0}}}}};

@@ -11,7 +11,8 @@ Tool::Tool(const std::string& name, const std::string& summary, const std::strin
     : name_(name), app_(summary, name) {
   app_.set_version_flag("--version", name + " " DCNN_VERSION);
   app_.footer("\nExamples:\n" + examples +
-              "\nSI units and radians everywhere. Exit codes: 0 done, 1 failure, 2 wrong usage, 3 bad data,\n"
+              "\nSI units and radians everywhere. Exit codes: 0 done, 1 failure, 2 wrong usage, 3 "
+              "bad data,\n"
               "4 bad model, 75 interrupted with the state saved.");
   app_.add_flag("--json", common_.json, "print the result as one JSON document on stdout");
   app_.add_flag("-q,--quiet", common_.quiet, "no progress and no notes");
@@ -72,10 +73,11 @@ ReadFlags::ReadFlags(CLI::App& app) {
   app.add_option("--force-sign", force_sign_, "-1 where the log holds the reaction")
       ->check(CLI::IsMember({1.0, -1.0}))
       ->capture_default_str();
-  resample_ = app.add_option("--resample", resample_hz_,
-                             "put irregular clocks on a regular one [Hz; default: the recording's rate]")
-                  ->expected(0, 1)
-                  ->check(CLI::NonNegativeNumber);
+  resample_ =
+      app.add_option("--resample", resample_hz_,
+                     "put irregular clocks on a regular one [Hz; default: the recording's rate]")
+          ->expected(0, 1)
+          ->check(CLI::NonNegativeNumber);
 }
 
 ReadOptions ReadFlags::options() const {

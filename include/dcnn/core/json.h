@@ -16,7 +16,8 @@ using Json = nlohmann::ordered_json;
 /// trailing text are errors with code `exit`, named by `where` with line and column.
 Json parse_json(std::string_view text, const std::string& where, Exit exit);
 
-/// Reads and parses a file of at most 64 MB; a missing or unreadable file is an error with code `exit`.
+/// Reads and parses a file of at most 64 MB; a missing or unreadable file is an error with code
+/// `exit`.
 Json read_json(const std::filesystem::path& path, Exit exit);
 
 }  // namespace dcnn

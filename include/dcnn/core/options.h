@@ -86,7 +86,7 @@ class Options {
   std::string path(const std::string& key) const;
 
   Json object_;
-  std::string where_;  // the file
+  std::string where_;   // the file
   std::string prefix_;  // the path of this object in it
   Exit exit_;
   std::set<std::string> known_;

@@ -23,7 +23,8 @@ using Shape = std::vector<Index>;
 Index element_count(const Shape& shape);
 std::string to_string(const Shape& shape);  // "(50, 15, 5, 1)"
 
-/// A shared handle to values, their gradient, and the operation they came from. Row-major, 64-byte aligned.
+/// A shared handle to values, their gradient, and the operation they came from. Row-major, 64-byte
+/// aligned.
 class Tensor {
  public:
   Tensor() = default;
@@ -44,7 +45,8 @@ class Tensor {
   Real* gradient_data() const;
   std::span<Real> gradient() const;
   bool has_gradient() const;
-  /// Where a backward pass writes: adds to what is there, or overwrites it all (saves filling with zeros).
+  /// Where a backward pass writes: adds to what is there, or overwrites it all (saves filling with
+  /// zeros).
   struct GradientSlot {
     Real* data;
     bool add;
@@ -65,8 +67,9 @@ class Tensor {
   std::shared_ptr<Node> node_;
 };
 
-/// Says how `out` was made: `backward(out)` adds to the gradients of those inputs that want one, given
-/// out.gradient(). Does nothing where no input wants a gradient or a NoGradient guard is alive.
+/// Says how `out` was made: `backward(out)` adds to the gradients of those inputs that want one,
+/// given out.gradient(). Does nothing where no input wants a gradient or a NoGradient guard is
+/// alive.
 Tensor record(Tensor out, std::vector<Tensor> inputs,
               std::function<void(const Tensor& out)> backward);
 

@@ -15,7 +15,7 @@ namespace dcnn {
 using SnrLevel = std::optional<double>;
 
 struct NoiseSpec {
-  enum class Scope { kFeature, kMatrix };      ///< one power per feature, or one over all entries
+  enum class Scope { kFeature, kMatrix };       ///< one power per feature, or one over all entries
   enum class Power { kVariance, kMeanSquare };  ///< of the training part, or of the array given
   std::vector<SnrLevel> levels{std::nullopt, 40.0, 30.0, 20.0, 10.0};
   Scope scope = Scope::kFeature;
@@ -30,8 +30,8 @@ NoiseSpec parse_noise(Options options);
 Eigen::VectorXd noise_deviation(const NoiseSpec& spec, const InputMap& training,
                                 const Eigen::MatrixXd& x, SnrLevel snr);
 
-/// Adds deviation_j·n to one feature vector; the draw depends on (key, row) alone, so neither order nor
-/// threads matter. `x` holds deviation.size() values `stride` apart.
+/// Adds deviation_j·n to one feature vector; the draw depends on (key, row) alone, so neither order
+/// nor threads matter. `x` holds deviation.size() values `stride` apart.
 void add_noise(double* x, Index stride, const Eigen::VectorXd& deviation, std::uint64_t key,
                Index row);
 

@@ -1,4 +1,5 @@
-// From a preset, a configuration file and flags to one resolved configuration (contract.md section 4).
+// From a preset, a configuration file and flags to one resolved configuration (contract.md section
+// 4).
 #pragma once
 
 #include <filesystem>

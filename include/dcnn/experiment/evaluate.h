@@ -15,9 +15,10 @@ namespace dcnn {
 struct EvaluationRequest {
   std::vector<std::filesystem::path> models, data;
   std::vector<SnrLevel> levels{std::nullopt, 40.0, 30.0, 20.0, 10.0};
-  int runs = 20;                ///< noise draws per level; a clean level has one
+  int runs = 20;  ///< noise draws per level; a clean level has one
   std::uint64_t seed = 1;
-  bool matlab_noise = false;    ///< awgn(X, snr, 'measured'): one power over the whole matrix, with its mean
+  bool matlab_noise =
+      false;  ///< awgn(X, snr, 'measured'): one power over the whole matrix, with its mean
   ReadOptions read;
 };
 
@@ -48,12 +49,14 @@ struct Trace {
 
 struct Evaluation {
   std::vector<std::string> data, notes;
-  Index samples = 0, singular_samples = 0;  ///< rows scored, and those of them near the Euler singularity
+  Index samples = 0,
+        singular_samples = 0;  ///< rows scored, and those of them near the Euler singularity
   Targets targets;
   std::vector<EvaluationRow> rows;
   std::vector<EvaluationSummary> summary;
-  Score unidentified;                       ///< of the prediction zero (NS)
-  std::vector<EvaluationRow> unfiltered;    ///< against the raw targets where the system low-passes them
+  Score unidentified;  ///< of the prediction zero (NS)
+  std::vector<EvaluationRow>
+      unfiltered;  ///< against the raw targets where the system low-passes them
   std::vector<Trace> traces;
 };
 

@@ -17,13 +17,15 @@ struct Series {
 struct Chart {
   std::string title, x_label, y_label;
   std::vector<Series> series;
-  std::vector<std::string> categories;  ///< x = 0, 1, … are these words (SNR levels), empty for numbers
+  std::vector<std::string>
+      categories;  ///< x = 0, 1, … are these words (SNR levels), empty for numbers
   bool log_y = false;
   int width = 720, height = 320;
 };
 
-/// SVG text of a chart: axes with round ticks, legend, colour-blind-safe colours, readable in print.
-/// Long lines are thinned to at most `2 * width` points by minimum and maximum per pixel column.
+/// SVG text of a chart: axes with round ticks, legend, colour-blind-safe colours, readable in
+/// print. Long lines are thinned to at most `2 * width` points by minimum and maximum per pixel
+/// column.
 std::string to_svg(const Chart& chart);
 
 /// An HTML document put together top to bottom.
@@ -31,7 +33,7 @@ class HtmlReport {
  public:
   explicit HtmlReport(std::string title);
   void heading(const std::string& text);
-  void paragraph(const std::string& text);           ///< plain text, escaped
+  void paragraph(const std::string& text);  ///< plain text, escaped
   void preformatted(const std::string& text);
   void table(const std::vector<std::string>& header,
              const std::vector<std::vector<std::string>>& rows);

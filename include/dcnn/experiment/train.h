@@ -13,10 +13,11 @@ namespace dcnn {
 
 struct TrainingRequest {
   ConfigurationFlags configuration;
-  std::vector<std::filesystem::path> training, validation;  ///< validation empty: a tail of each training file
+  std::vector<std::filesystem::path> training,
+      validation;  ///< validation empty: a tail of each training file
   ReadOptions read;
   std::optional<std::filesystem::path> base;  ///< simulator whose remainder is learned
-  std::filesystem::path out;                  ///< model.dcnn; the run directory is model.run beside it
+  std::filesystem::path out;  ///< model.dcnn; the run directory is model.run beside it
   bool resume = false;
 };
 
@@ -37,8 +38,8 @@ struct TrainingOutcome {
   Json summary;           ///< rows, epochs, best epoch, validation RMSE, parameters, files
 };
 
-/// Reads, splits, learns and writes. Rows of a training recording's last `validation` share, after a gap of
-/// 1 s, are for validation only; statistics come from the training rows alone.
+/// Reads, splits, learns and writes. Rows of a training recording's last `validation` share, after
+/// a gap of 1 s, are for validation only; statistics come from the training rows alone.
 TrainingOutcome train(const TrainingRequest& request, const TrainingObserver& observer);
 
 /// The run directory of a model file: its name with the extension .run.

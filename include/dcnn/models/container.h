@@ -27,13 +27,15 @@ struct Container {
   const StoredTensor* find(const std::string& name) const;
 };
 
-/// The bytes of a safetensors file: 8-byte little-endian header length, JSON header padded with the fewest
-/// spaces to 8 bytes, data. `metadata` gains "sha256" over the whole file with its 64 digits set to '0'.
+/// The bytes of a safetensors file: 8-byte little-endian header length, JSON header padded with the
+/// fewest spaces to 8 bytes, data. `metadata` gains "sha256" over the whole file with its 64 digits
+/// set to '0'.
 std::string encode(const Container& container);
 
-/// Any byte string is either decoded correctly or rejected with Error(kModel) naming `where`, before
-/// anything is allocated from its numbers: lengths, depth, key count, duplicate keys, dtype, shapes
-/// (checked products), exact tiling of the buffer, finite values, checksum, canonical padding.
+/// Any byte string is either decoded correctly or rejected with Error(kModel) naming `where`,
+/// before anything is allocated from its numbers: lengths, depth, key count, duplicate keys, dtype,
+/// shapes (checked products), exact tiling of the buffer, finite values, checksum, canonical
+/// padding.
 Container decode(std::string_view bytes, const std::string& where);
 
 void write_container(const std::filesystem::path& path, const Container& container);  // atomic

@@ -12,12 +12,12 @@
 namespace dcnn {
 
 struct Identifier {
-  std::string name;                 ///< the model kind
-  FeatureLayout layout;             ///< how features are made from a recording
+  std::string name;      ///< the model kind
+  FeatureLayout layout;  ///< how features are made from a recording
   Targets targets;
   std::unique_ptr<Model> model;
-  std::optional<Simulator> base;    ///< the model learned what this simulator leaves (wrist only)
-  Json configuration;               ///< resolved, for reports
+  std::optional<Simulator> base;  ///< the model learned what this simulator leaves (wrist only)
+  Json configuration;             ///< resolved, for reports
   std::uint64_t seed = 0;
 
   /// (T, targets) from features of the recording, plus the base simulator's part.
@@ -28,7 +28,8 @@ struct Identifier {
 
 /// The whole identifier as a model file's content.
 Container pack(const Identifier& identifier);
-/// Error(kModel) where the container is not a complete identifier of a known kind and format version.
+/// Error(kModel) where the container is not a complete identifier of a known kind and format
+/// version.
 Identifier unpack(const Container& file, const std::string& where);
 Identifier read_identifier(const std::filesystem::path& path);
 

@@ -24,22 +24,23 @@ struct Samples {
 
 /// What one epoch (or iteration of a fit) came to.
 struct EpochRecord {
-  Index epoch = 0;                ///< from 1
-  double loss = 0.0;              ///< mean training loss
-  double rate = 0.0;              ///< learning rate at its first step
-  SnrLevel snr_db;                ///< noise level drawn for it
+  Index epoch = 0;                      ///< from 1
+  double loss = 0.0;                    ///< mean training loss
+  double rate = 0.0;                    ///< learning rate at its first step
+  SnrLevel snr_db;                      ///< noise level drawn for it
   std::vector<double> validation_rmse;  ///< per target, in its unit; empty without validation rows
   bool best = false;
 };
 
-/// How a fit talks to the world: progress out, a wish to stop in, checkpoints both ways. Every function
-/// may be left empty.
+/// How a fit talks to the world: progress out, a wish to stop in, checkpoints both ways. Every
+/// function may be left empty.
 struct FitSession {
   std::function<bool()> stop_wanted;
   std::function<void(Index epoch, Index step, Index steps, double loss)> step_done;
-  std::function<void(const EpochRecord&)> epoch_done;   ///< the model then predicts with that epoch's weights
+  std::function<void(const EpochRecord&)>
+      epoch_done;  ///< the model then predicts with that epoch's weights
   std::function<void(const Container&)> save_checkpoint;
-  std::optional<Container> checkpoint;                  ///< where to go on from
+  std::optional<Container> checkpoint;  ///< where to go on from
 };
 
 class Model {
@@ -71,7 +72,8 @@ struct Problem {
 struct ModelKind {
   const char* name;
   const char* summary;  ///< one line for --help
-  /// Defaults of a preset (quick|standard|fair|paper): sections of the configuration; `axes` for --system data.
+  /// Defaults of a preset (quick|standard|fair|paper): sections of the configuration; `axes` for
+  /// --system data.
   Json (*preset)(const std::string& preset, bool axes);
   std::unique_ptr<Model> (*make)(const Problem& problem);
   std::unique_ptr<Model> (*load)(const Container& file, const std::string& where);
