@@ -14,12 +14,11 @@ namespace {
 using namespace dcnn;
 
 constexpr const char* kExamples =
-    "  dcnn-train --train log.csv --preset quick --out model.dcnn\n"
-    "  dcnn-train --config configs/embedded.json --train a.csv b.csv --valid c.csv --out "
+    "  dcnn-train --train data/sample/train.csv --preset quick --out model.dcnn\n"
+    "  dcnn-train --config configs/ntnu_wrist.json --train a.csv b.csv --valid c.csv --out "
     "model.dcnn\n"
-    "  dcnn-train --system tool.json --train run1.csv run2.csv --out tool.dcnn\n"
-    "  dcnn-train ... --resume                     # after Ctrl-C or a crash: goes on, same bytes "
-    "in the end\n";
+    "  dcnn-train --system configs/systems/davinci_tool.json --train run_00.csv --out tool.dcnn\n"
+    "  dcnn-train ... --resume        # after Ctrl-C or a crash: goes on, same bytes in the end\n";
 
 std::string epoch_text(const TrainingProgress& p) {
   char text[96];
@@ -92,9 +91,7 @@ int main(int argc, char** argv) {
   for (const ModelKind* kind : model_kinds())
     list += std::string("\n  ") + kind->name + ": " + kind->summary;
   auto& app = tool.app();
-  app.add_option("--train", request.training, "recordings to learn from")
-      ->required()
-      ->check(CLI::ExistingPath);
+  app.add_option("--train", request.training, "recordings to learn from")->required();
   app.add_option("--valid", request.validation,
                  "recordings for validation (default: the last 15 % of each training recording)");
   app.add_option("--config", flags.file, "configuration (JSON)");
