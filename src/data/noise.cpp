@@ -37,6 +37,9 @@ NoiseSpec parse_noise(Options options) {
   if (options.choice("power", "variance", {"variance", "meansquare"}) == "meansquare") {
     spec.power = NoiseSpec::Power::kMeanSquare;
   }
+  if (options.choice("on", "features", {"features", "pose"}) == "pose") {
+    spec.on = NoiseSpec::Signal::kPose;
+  }
   options.finish();
   return spec;
 }

@@ -10,8 +10,9 @@ namespace {
 
 /// Rows of all recordings under one another, as one model sees them.
 struct TestSet {
-  Eigen::MatrixXd x, wanted, unfiltered, base;  // base: the part a simulator predicts
-  Index singular = 0, first_rows = 0;           // first_rows: those of the first recording
+  Stream stream;
+  Eigen::MatrixXd wanted, unfiltered, base;  // base: the part a simulator predicts
+  Index singular = 0, first_rows = 0;        // first_rows: those of the first recording
   Eigen::VectorXd first_t;
 };
 
@@ -26,7 +27,11 @@ TestSet make_test_set(const Identifier& identifier, const std::vector<Recording>
   for (const Recording& recording : recordings) {
     const Features features = make_features(recording, identifier.layout);
     set.singular += features.invalid_count();
-    stack(set.x, features.x);
+    for (const Segment& segment : recording.segments) {
+      const Index before = set.stream.rows();
+      set.stream.segments.push_back({before + segment.begin, before + segment.end});
+    }
+    stack(set.stream.x, features.x);
     const System& system = identifier.layout.system;
     stack(set.wanted, measured(recording, identifier.targets, system));
     stack(set.unfiltered, measured(recording, identifier.targets, system, false));
@@ -118,18 +123,20 @@ Evaluation evaluate(const EvaluationRequest& request,
     check_targets(evaluation, identifier, path.string());
     const TestSet set = make_test_set(identifier, recordings.get(identifier.layout.system));
     evaluation.targets = identifier.targets;
-    evaluation.samples = set.x.rows();
+    evaluation.samples = set.stream.rows();
     evaluation.singular_samples = std::max(evaluation.singular_samples, set.singular);
     evaluation.unidentified = score(Eigen::MatrixXd::Zero(set.wanted.rows(), set.wanted.cols()),
                                     set.wanted, identifier.targets);
     const std::string file = path.filename().string();
     for (const auto& level : request.levels) {
-      const auto deviation = noise_deviation(noise, identifier.model->map(), set.x, level);
+      const auto deviation = noise_deviation(noise, identifier.model->map(), set.stream.x, level);
       std::vector<EvaluationRow> rows;
       for (int run = 0; run < (level ? request.runs : 1); ++run) {
         const auto key = level ? noise_key(request.seed, *level, run) : 0;
         const Eigen::MatrixXd predicted =
-            identifier.model->predict(with_noise(set.x, deviation, key)) + set.base;
+            identifier.model->predict(
+                {with_noise(set.stream.x, deviation, key), set.stream.segments}) +
+            set.base;
         rows.push_back(
             {identifier.name, file, level, run, score(predicted, set.wanted, identifier.targets)});
         if (!level && identifier.layout.system.lowpass_hz > 0.0) {

@@ -27,14 +27,26 @@ std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
   return recordings;
 }
 
-void append(Samples& samples, const Eigen::MatrixXd& x, const Eigen::MatrixXd& y,
-            const std::vector<Index>& rows) {
+/// Adds the given rows; where the recording has a gap, or rows are left out, a new segment begins.
+void append(Samples& samples, const Recording& recording, const Eigen::MatrixXd& x,
+            const Eigen::MatrixXd& y, const std::vector<Index>& rows) {
   const auto old = samples.x.rows(), more = static_cast<Index>(rows.size());
   samples.x.conservativeResize(old + more, x.cols());
   samples.y.conservativeResize(old + more, y.cols());
   for (Index i = 0; i < more; ++i) {
     samples.x.row(old + i) = x.row(rows[static_cast<std::size_t>(i)]);
     samples.y.row(old + i) = y.row(rows[static_cast<std::size_t>(i)]);
+  }
+  std::vector<char> starts(static_cast<std::size_t>(recording.samples()), 0);
+  for (const Segment& segment : recording.segments) {
+    starts[static_cast<std::size_t>(segment.begin)] = 1;
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Index row = old + static_cast<Index>(i);
+    if (i == 0 || rows[i] != rows[i - 1] + 1 || starts[static_cast<std::size_t>(rows[i])]) {
+      samples.segments.push_back({row, row});
+    }
+    samples.segments.back().end = row + 1;
   }
 }
 
@@ -60,8 +72,8 @@ class Splitter {
       if (row >= total - held) second.push_back(row);
       if (row < total - held - gap) first.push_back(row);
     }
-    append(training, features.x, y, first);
-    append(validation, features.x, y, second);
+    append(training, recording, features.x, y, first);
+    append(validation, recording, features.x, y, second);
     const Index invalid = features.invalid_count();
     if (invalid > 0 && observer_.note) {
       observer_.note(
@@ -115,7 +127,7 @@ FitSession make_session(RunDirectory& run, const std::string& identity,
 std::vector<double> rmse_of(const Model& model, const Samples& samples) {
   if (samples.x.rows() == 0) return {};
   const Eigen::VectorXd rmse =
-      (model.predict(samples.x) - samples.y).array().square().colwise().mean().sqrt().transpose();
+      (model.predict(samples) - samples.y).array().square().colwise().mean().sqrt().transpose();
   return {rmse.data(), rmse.data() + rmse.size()};
 }
 
@@ -135,9 +147,8 @@ class Learner {
   /// Fits a model of this configuration in a run directory of its own. False when stopped.
   bool fit(const Json& json, const std::filesystem::path& folder) {
     identifier_.configuration = json;
-    identifier_.model = configuration_.kind->make({training_.x.cols(), training_.y.cols(), json,
-                                                   configuration_.where, configuration_.seed,
-                                                   identifier_.layout.units});
+    identifier_.model = configuration_.kind->make(
+        {identifier_.layout, identifier_.targets, json, configuration_.where, configuration_.seed});
     RunDirectory run(folder);
     const std::string identity = identity_of(json, training_, validation_);
     FitSession session = make_session(run, identity, identifier_, json, observer_);

@@ -81,8 +81,8 @@ Json dcnn_preset(const std::string& preset, bool axes) {
 
 std::unique_ptr<Model> make_dcnn(const Problem& problem) {
   Options options(problem.configuration, problem.where, Exit::kUsage);
-  const Json layers = dcnn_layers(options.child("model"), problem.targets, problem.features);
-  return std::make_unique<NetworkModel>("dcnn", layers, problem);
+  const Json layers = dcnn_layers(options.child("model"), problem.outputs(), problem.features());
+  return std::make_unique<NetworkModel>("dcnn", Json{{"kind", "map"}}, layers, problem);
 }
 
 std::unique_ptr<Model> load_network(const Container& file, const std::string& where) {

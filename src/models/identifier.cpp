@@ -53,7 +53,8 @@ Eigen::MatrixXd Identifier::base_prediction(const Recording& recording) const {
 }
 
 Eigen::MatrixXd Identifier::predict(const Recording& recording) const {
-  return model->predict(make_features(recording, layout).x) + base_prediction(recording);
+  return model->predict({make_features(recording, layout).x, recording.segments}) +
+         base_prediction(recording);
 }
 
 Container pack(const Identifier& identifier) {

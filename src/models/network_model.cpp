@@ -10,7 +10,7 @@
 namespace dcnn {
 namespace {
 
-enum Stream : std::uint64_t { kInitialWeights = 100 };
+enum RandomStream : std::uint64_t { kInitialWeights = 100 };
 
 InputMap::Spec parse_map(Options options) {
   InputMap::Spec spec;
@@ -75,14 +75,16 @@ TrainingSpec TrainingSpec::parse(Options options) {
   return spec;
 }
 
-NetworkModel::NetworkModel(std::string kind, const Json& layers, const Problem& problem)
-    : kind_(std::move(kind)), units_(problem.units), seed_(problem.seed) {
+NetworkModel::NetworkModel(std::string kind, const Json& input, const Json& layers,
+                           const Problem& problem)
+    : kind_(std::move(kind)), units_(problem.layout.units), seed_(problem.seed) {
   Options options(problem.configuration, problem.where, Exit::kUsage);
   map_spec_ = parse_map(options.child("map"));
   training_ = TrainingSpec::parse(options.child("training"));
   noise_ = parse_noise(options.child("noise"));
+  input_ = make_input(input, problem.features(), problem.where, Exit::kUsage);
   Rng rng({seed_, kInitialWeights});
-  network_ = std::make_unique<Network>(layers, Shape{problem.features, InputMap::kColumns, 1}, rng);
+  network_ = std::make_unique<Network>(layers, input_->shape(), rng);
 }
 
 NetworkModel::NetworkModel(const Container& file, const std::string& where)
@@ -94,16 +96,17 @@ NetworkModel::NetworkModel(const Container& file, const std::string& where)
   const Json scale = parse_json(stored_text(file, "target_scale", where), where, Exit::kModel);
   scale_.mean = parse_vector(scale.value("mean", Json()), where);
   scale_.deviation = parse_vector(scale.value("deviation", Json()), where);
+  input_ = make_input(parse_json(stored_text(file, "input", where), where, Exit::kModel),
+                      map_.features(), where, Exit::kModel);
   try {
     Rng rng(0);
-    network_ =
-        std::make_unique<Network>(architecture, Shape{map_.features(), InputMap::kColumns, 1}, rng);
+    network_ = std::make_unique<Network>(architecture, input_->shape(), rng);
   } catch (const Error& error) {
     fail(Exit::kModel, where, ": its architecture cannot be rebuilt: ", error.what());
   }
   load_tensors(file, "network.", network_->state(), where);
   refold();
-  const Eigen::MatrixXd probe = predict(map_.mean().transpose());
+  const Eigen::MatrixXd probe = predict({map_.mean().transpose(), {}});
   require(scale_.mean.size() == probe.cols() && scale_.deviation.size() == probe.cols() &&
               (scale_.deviation.array() > 0.0).all() && probe.allFinite(),
           Exit::kModel, where, ": its output does not fit its targets");
@@ -115,36 +118,41 @@ bool NetworkModel::fit(const Samples& training, const Samples& validation, FitSe
   map_ = InputMap(training.x, map_spec_, units_);
   spread_ = target_spread(training.y);
   scale_ = make_scale(training.y, spread_, training_.standardise_targets);
+  input_->learn(training, map_);
   Trainer trainer(*this, training, validation, session);
   return trainer.run();
 }
 
 void NetworkModel::refold() { folded_ = std::make_unique<Network>(network_->folded()); }
 
-Eigen::MatrixXd NetworkModel::predict(const Eigen::MatrixXd& x) const {
+Eigen::MatrixXd NetworkModel::predict(const Stream& stream) const {
   constexpr Index kBlock = 520;  // 40 pieces of 13: activations stay in the cache
   NoGradient guard;
-  const Index cells = map_.features() * InputMap::kColumns;
-  Eigen::MatrixXd result(x.rows(), scale_.mean.size());
-  for (Index first = 0; first < x.rows(); first += kBlock) {
-    const Index n = std::min(kBlock, x.rows() - first);
-    Tensor maps({n, map_.features(), InputMap::kColumns, 1});
-    Eigen::VectorXd row(map_.features());
+  const PreparedStream prepared = input_->prepare(stream, map_);
+  const Index cells = element_count(input_->shape());
+  Eigen::MatrixXd result(stream.rows(), scale_.mean.size());
+  for (Index first = 0; first < stream.rows(); first += kBlock) {
+    const Index n = std::min(kBlock, stream.rows() - first);
+    Shape shape = input_->shape();
+    shape.insert(shape.begin(), n);
+    Tensor inputs(std::move(shape));
     for (Index i = 0; i < n; ++i) {
-      row = x.row(first + i);
-      map_.write(row.data(), maps.data() + i * cells);
+      input_->write(prepared, map_, first + i, inputs.data() + i * cells);
     }
     Pass pass;
-    const Tensor y = folded_->forward(maps, pass);
-    const Index targets = result.cols();
-    for (Index i = 0; i < n; ++i) {
-      for (Index j = 0; j < targets; ++j) {
-        result(first + i, j) =
-            scale_.mean[j] + scale_.deviation[j] * static_cast<double>(y.data()[i * targets + j]);
-      }
-    }
+    scale_back(folded_->forward(inputs, pass), first, result);
   }
   return result;
+}
+
+void NetworkModel::scale_back(const Tensor& outputs, Index first, Eigen::MatrixXd& result) const {
+  const Index n = outputs.dim(0), targets = result.cols();
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < targets; ++j) {
+      const auto y = static_cast<double>(outputs.data()[i * targets + j]);
+      result(first + i, j) = scale_.mean[j] + scale_.deviation[j] * y;
+    }
+  }
 }
 
 Index NetworkModel::parameter_count() const { return network_->parameter_count(); }
@@ -152,6 +160,7 @@ Index NetworkModel::parameter_count() const { return network_->parameter_count()
 void NetworkModel::save(Container& file) const {
   file.metadata["model"] = kind_;
   file.metadata["architecture"] = network_->layers().dump();
+  file.metadata["input"] = input_->to_json().dump();
   file.metadata["map"] = map_.to_json().dump();
   file.metadata["target_scale"] =
       Json{{"mean", to_json(scale_.mean)}, {"deviation", to_json(scale_.deviation)}}.dump();

@@ -11,7 +11,7 @@ namespace dcnn {
 namespace {
 
 // Streams of random numbers that one seed feeds.
-enum Stream : std::uint64_t { kShuffle = 1, kLevel, kNoise, kDropout, kCollectOrder };
+enum RandomStream : std::uint64_t { kShuffle = 1, kLevel, kNoise, kDropout, kCollectOrder };
 
 std::vector<NamedTensor> copies(const std::vector<NamedTensor>& tensors) {
   std::vector<NamedTensor> result;
@@ -32,11 +32,14 @@ void assign(const std::vector<NamedTensor>& to, const std::vector<NamedTensor>& 
 
 Trainer::Trainer(NetworkModel& model, const Samples& training, const Samples& validation,
                  FitSession& session)
-    : model_(model), validation_(validation), session_(session), spec_(model.training_) {
+    : model_(model),
+      validation_(validation),
+      session_(session),
+      spec_(model.training_),
+      training_(training) {
   const Index rows = training.x.rows();
   require(rows >= spec_.batch, Exit::kData, "only ", rows, " training rows for batches of ",
           spec_.batch, "; give longer recordings or a smaller training.batch");
-  x_ = training.x;
   y_ = (training.y.rowwise() - model.scale_.mean.transpose()).array().rowwise() /
        model.scale_.deviation.transpose().array();
   steps_per_epoch_ = rows / spec_.batch;  // an incomplete last batch is skipped (D37)
@@ -70,10 +73,12 @@ bool Trainer::run() {
 void Trainer::begin_epoch() {
   const auto epoch = static_cast<std::uint64_t>(epoch_);
   Rng shuffle({model_.seed_, kShuffle, spec_.shuffle_every_epoch ? epoch : 0});
-  order_ = permutation(x_.rows(), shuffle);
+  order_ = permutation(training_.rows(), shuffle);
   const auto& levels = model_.noise_.levels;
   snr_ = levels[Rng({model_.seed_, kLevel, epoch}).below(levels.size())];
-  noise_ = noise_deviation(model_.noise_, model_.map_, x_, snr_);
+  noisy_ = model_.input_->prepare(
+      noisy(training_, model_.noise_, model_.map_, snr_, Rng({model_.seed_, kNoise, epoch}).bits()),
+      model_.map_);
 }
 
 bool Trainer::run_steps() {
@@ -93,10 +98,9 @@ void Trainer::step() {
   const auto epoch = static_cast<std::uint64_t>(epoch_), number = static_cast<std::uint64_t>(step_);
   const Index first = step_ * spec_.batch;
   Pass pass{Pass::Mode::kTrain, Rng({model_.seed_, kDropout, epoch, number})};
-  const auto noise_key = Rng({model_.seed_, kNoise, epoch}).bits();
-  const Tensor maps = gather(order_, first, noise_key, noise_);
+  const Tensor inputs = gather(noisy_, order_, first);
   const Tensor loss =
-      half_mean_squared_error(model_.network_->forward(maps, pass), gather_targets(first));
+      half_mean_squared_error(model_.network_->forward(inputs, pass), gather_targets(first));
   const double value = loss.values()[0];
   require(std::isfinite(value), Exit::kFailure, "training diverged in epoch ", epoch_ + 1,
           ": the loss is not finite; lower training.lr");
@@ -106,24 +110,22 @@ void Trainer::step() {
   loss_sum_ += value;
 }
 
-/// Maps (Eq. 7) of the batch that starts at `first`, with noise on the features before the map.
-Tensor Trainer::gather(const std::vector<std::int64_t>& order, Index first, std::uint64_t noise_key,
-                       const Eigen::VectorXd& noise) const {
-  const Index features = x_.cols(), cells = features * InputMap::kColumns;
-  Tensor maps({spec_.batch, features, InputMap::kColumns, 1});
-  const bool noisy = !noise.isZero(0.0);
+/// The network's inputs of the batch that starts at `first`.
+Tensor Trainer::gather(const PreparedStream& stream, const std::vector<std::int64_t>& order,
+                       Index first) const {
+  Shape shape = model_.input_->shape();
+  const Index cells = element_count(shape);
+  shape.insert(shape.begin(), spec_.batch);
+  Tensor inputs(std::move(shape));
   const Index pieces = piece_count(spec_.batch);
   for_each_piece(pieces, [&](Index k) {
-    Eigen::VectorXd x(features);
     for (Index i = piece_begin(spec_.batch, pieces, k); i < piece_begin(spec_.batch, pieces, k + 1);
          ++i) {
-      const Index row = order[static_cast<std::size_t>(first + i)];
-      x = x_.row(row);
-      if (noisy) add_noise(x.data(), 1, noise, noise_key, row);
-      model_.map_.write(x.data(), maps.data() + i * cells);
+      model_.input_->write(stream, model_.map_, order[static_cast<std::size_t>(first + i)],
+                           inputs.data() + i * cells);
     }
   });
-  return maps;
+  return inputs;
 }
 
 Tensor Trainer::gather_targets(Index first) const {
@@ -163,18 +165,18 @@ void Trainer::finish_epoch() {
 void Trainer::collect_statistics() {
   NoGradient guard;
   Rng rng({model_.seed_, kCollectOrder});
-  const auto order = permutation(x_.rows(), rng);
-  const Eigen::VectorXd clean = Eigen::VectorXd::Zero(x_.cols());
+  const auto order = permutation(training_.rows(), rng);
+  const PreparedStream clean = model_.input_->prepare(training_, model_.map_);
   Pass pass{Pass::Mode::kCollect, Rng(0)};
   for (Index k = 0; k < steps_per_epoch_; ++k) {
     pass.batch_number = k;
-    model_.network_->forward(gather(order, k * spec_.batch, 0, clean), pass);
+    model_.network_->forward(gather(clean, order, k * spec_.batch), pass);
   }
 }
 
 std::vector<double> Trainer::validation_rmse() const {
-  if (validation_.x.rows() == 0) return {};
-  const Eigen::MatrixXd error = model_.predict(validation_.x) - validation_.y;
+  if (validation_.rows() == 0) return {};
+  const Eigen::MatrixXd error = model_.predict(validation_) - validation_.y;
   const Eigen::VectorXd rmse = error.array().square().colwise().mean().sqrt().transpose();
   return {rmse.data(), rmse.data() + rmse.size()};
 }

@@ -26,8 +26,8 @@ class Trainer {
   void begin_epoch();
   bool run_steps();
   void step();
-  Tensor gather(const std::vector<std::int64_t>& order, Index first, std::uint64_t noise_key,
-                const Eigen::VectorXd& noise) const;
+  Tensor gather(const PreparedStream& stream, const std::vector<std::int64_t>& order,
+                Index first) const;
   Tensor gather_targets(Index first) const;
   void finish_epoch();
   void collect_statistics();
@@ -42,7 +42,8 @@ class Trainer {
   const Samples& validation_;
   FitSession& session_;
   const TrainingSpec& spec_;
-  RowMajor x_, y_;  // training rows; targets scaled
+  const Samples& training_;
+  RowMajor y_;  // targets, scaled
   Index steps_per_epoch_;
   std::unique_ptr<Adam> adam_;
   std::unique_ptr<WeightAverage> average_;
@@ -54,7 +55,7 @@ class Trainer {
   double loss_sum_ = 0.0;
   std::vector<std::int64_t> order_;  // of this epoch
   SnrLevel snr_;
-  Eigen::VectorXd noise_;
+  PreparedStream noisy_;
 };
 
 }  // namespace dcnn

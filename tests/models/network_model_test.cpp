@@ -9,7 +9,9 @@ namespace {
 
 Samples draw_samples(Index rows, std::uint64_t seed) {
   Rng rng(seed);
-  Samples samples{Eigen::MatrixXd(rows, 15), Eigen::MatrixXd(rows, 3)};
+  Samples samples;
+  samples.x.resize(rows, 15);
+  samples.y.resize(rows, 3);
   for (Index i = 0; i < rows; ++i) {
     for (Index j = 0; j < 15; ++j) samples.x(i, j) = rng.normal();
     samples.y(i, 0) = 2.0 * samples.x(i, 0) + 5.0;
@@ -19,6 +21,17 @@ Samples draw_samples(Index rows, std::uint64_t seed) {
   return samples;
 }
 
+Problem problem(const Json& configuration, std::uint64_t seed) {
+  Problem result;
+  for (int j = 0; j < 15; ++j) result.layout.names.push_back("x" + std::to_string(j));
+  result.layout.units.assign(15, "");
+  result.targets = {{"fx", "fy", "fz"}, {"N", "N", "N"}};
+  result.configuration = configuration;
+  result.where = "test";
+  result.seed = seed;
+  return result;
+}
+
 std::unique_ptr<Model> make(const Json& patch = Json::object(), std::uint64_t seed = 1) {
   Json configuration = model_kind("dcnn", Exit::kUsage).preset("quick", false);
   configuration["training"]["epochs"] = 6;
@@ -26,17 +39,11 @@ std::unique_ptr<Model> make(const Json& patch = Json::object(), std::uint64_t se
   configuration["model"]["padding"] = "valid";
   configuration["noise"] = {{"levels_db", {nullptr}}};
   for (const auto& [section, keys] : patch.items()) configuration[section].update(keys);
-  return model_kind("dcnn", Exit::kUsage).make({15, 3, configuration, "test", seed, {}});
+  return model_kind("dcnn", Exit::kUsage).make(problem(configuration, seed));
 }
 
 Eigen::VectorXd rmse(const Model& model, const Samples& samples) {
-  return (model.predict(samples.x) - samples.y)
-      .array()
-      .square()
-      .colwise()
-      .mean()
-      .sqrt()
-      .transpose();
+  return (model.predict(samples) - samples.y).array().square().colwise().mean().sqrt().transpose();
 }
 
 Container saved(const Model& model) {
@@ -70,7 +77,7 @@ TEST(NetworkModel, LoadedModelPredictsTheSameBits) {
     model->fit(training, {}, session);
     const Container file = decode(encode(saved(*model)), "memory");
     const auto loaded = model_kind("dcnn", Exit::kModel).load(file, "memory");
-    EXPECT_EQ(loaded->predict(training.x), model->predict(training.x));
+    EXPECT_EQ(loaded->predict(training), model->predict(training));
   }
 }
 
@@ -79,9 +86,9 @@ TEST(NetworkModel, OneRowPredictsWhatItPredictsAmongOthers) {
   const auto model = make();
   FitSession session;
   model->fit(training, {}, session);
-  const Eigen::MatrixXd all = model->predict(training.x);
+  const Eigen::MatrixXd all = model->predict(training);
   for (const Index row : {0, 13, 519, 520, 699}) {
-    EXPECT_EQ(model->predict(training.x.row(row)), all.row(row)) << row;
+    EXPECT_EQ(model->predict({training.x.row(row), {}}), all.row(row)) << row;
   }
 }
 
@@ -142,8 +149,10 @@ TEST(NetworkModel, StatisticsComeFromTheTrainingRowsAlone) {
 TEST(NetworkModel, ValidPaddingNeedsRoomAndSaysSo) {
   Json configuration = model_kind("dcnn", Exit::kUsage).preset("quick", false);
   configuration["model"]["padding"] = "valid";
+  Problem small = problem(configuration, 1);
+  small.layout.names.resize(4);
   try {
-    model_kind("dcnn", Exit::kUsage).make({4, 1, configuration, "c.json", 1, {}});
+    model_kind("dcnn", Exit::kUsage).make(small);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.exit(), Exit::kUsage);

@@ -17,12 +17,15 @@ using SnrLevel = std::optional<double>;
 struct NoiseSpec {
   enum class Scope { kFeature, kMatrix };       ///< one power per feature, or one over all entries
   enum class Power { kVariance, kMeanSquare };  ///< of the training part, or of the array given
+  enum class Signal { kFeatures, kPose };       ///< the features, or the pose they are derived from
   std::vector<SnrLevel> levels{std::nullopt, 40.0, 30.0, 20.0, 10.0};
   Scope scope = Scope::kFeature;
   Power power = Power::kVariance;
+  Signal on = Signal::kFeatures;
 };
 
-/// Keys: levels_db (numbers, null is clean), scope (feature|matrix), power (variance|meansquare).
+/// Keys: levels_db (numbers, null is clean), scope (feature|matrix), power
+/// (variance|meansquare), on (features|pose).
 NoiseSpec parse_noise(Options options);
 
 /// Standard deviation of the noise on each feature: sqrt(P_j / 10^(snr/10)); zeros when clean.

@@ -16,10 +16,21 @@
 
 namespace dcnn {
 
-/// Rows to learn from or to score on: features in SI, targets in their units.
-struct Samples {
-  Eigen::MatrixXd x;  ///< (N, F)
+/// Feature vectors in the order of time.
+struct Stream {
+  Eigen::MatrixXd x;  ///< (N, F), SI
+  std::vector<Segment>
+      segments;  ///< stretches without a gap, in order; no window crosses their ends
+
+  Index rows() const { return x.rows(); }
+};
+
+/// A stream to learn from or to score on, with its targets in their units.
+struct Samples : Stream {
   Eigen::MatrixXd y;  ///< (N, targets)
+  /// Features of independent draws of unit noise on the pose, (N, F) each: at a level the noisy
+  /// features are x + 10^(-snr/20)·draw. Empty where noise is white on the features themselves.
+  std::vector<Eigen::MatrixXd> pose_noise;
 };
 
 /// What one epoch (or iteration of a fit) came to.
@@ -43,14 +54,20 @@ struct FitSession {
   std::optional<Container> checkpoint;  ///< where to go on from
 };
 
+/// The training stream with noise of one level: white on the features, or one of the stored draws
+/// of noise on the pose. The draw depends on (key, row) alone.
+Stream noisy(const Samples& samples, const NoiseSpec& spec, const InputMap& map, SnrLevel snr,
+             std::uint64_t key);
+
 class Model {
  public:
   virtual ~Model() = default;
 
   /// Learns. False when the session wanted to stop: the state is in its last checkpoint.
   virtual bool fit(const Samples& training, const Samples& validation, FitSession& session) = 0;
-  /// (N, F) features to (N, targets).
-  virtual Eigen::MatrixXd predict(const Eigen::MatrixXd& x) const = 0;
+  /// (N, targets), one row per row of the stream; the rows before the first one of a segment are
+  /// taken to equal it.
+  virtual Eigen::MatrixXd predict(const Stream& stream) const = 0;
   virtual Index parameter_count() const = 0;
   /// Training statistics of the features: the power that test noise refers to.
   virtual const InputMap& map() const = 0;
@@ -61,11 +78,14 @@ class Model {
 
 /// Size of the problem a model is made for, and everything it may read of the configuration.
 struct Problem {
-  Index features = 0, targets = 0;
+  FeatureLayout layout;  ///< names, units and set of the features, and their clock
+  Targets targets;
   Json configuration;  ///< resolved: map, model, training, noise
   std::string where;   ///< names the configuration in errors
   std::uint64_t seed = 0;
-  std::vector<std::string> units;  ///< of the features; empty where unknown
+
+  Index features() const { return static_cast<Index>(layout.names.size()); }
+  Index outputs() const { return static_cast<Index>(targets.names.size()); }
 };
 
 /// One row of the list of models (models.def).

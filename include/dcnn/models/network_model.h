@@ -1,4 +1,4 @@
-// A convolutional or dense network on the map of Eq. 7, trained with Adam.
+// A network of layers on some view of the features (network_input.h), trained with Adam.
 #pragma once
 
 #include <memory>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dcnn/models/model.h"
+#include "dcnn/models/network_input.h"
 #include "dcnn/nn/network.h"
 
 namespace dcnn {
@@ -31,19 +32,21 @@ struct TrainingSpec {
 
 class NetworkModel : public Model {
  public:
-  /// `layers` as in Network; the input is the (features, 5, 1) map.
-  NetworkModel(std::string kind, const Json& layers, const Problem& problem);
+  /// `layers` as in Network; `input` as in make_input().
+  NetworkModel(std::string kind, const Json& input, const Json& layers, const Problem& problem);
   NetworkModel(const Container& file, const std::string& where);
   ~NetworkModel() override;
 
   bool fit(const Samples& training, const Samples& validation, FitSession& session) override;
-  Eigen::MatrixXd predict(const Eigen::MatrixXd& x) const override;
+  Eigen::MatrixXd predict(const Stream& stream) const override;
   Index parameter_count() const override;
   const InputMap& map() const override { return map_; }
   void save(Container& file) const override;
 
  private:
   friend class Trainer;
+  /// The network's own scale to targets in their units, at rows from `first` on.
+  void scale_back(const Tensor& outputs, Index first, Eigen::MatrixXd& result) const;
   /// Rebuilds the network that predicts, after the weights changed.
   void refold();
 
@@ -52,6 +55,7 @@ class NetworkModel : public Model {
   std::unique_ptr<Network> network_, folded_;
   InputMap::Spec map_spec_;
   InputMap map_;
+  std::unique_ptr<NetworkInput> input_;
   TargetScale scale_;
   Eigen::VectorXd spread_;  // of each training target
   TrainingSpec training_;

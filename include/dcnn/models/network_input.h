@@ -1,0 +1,43 @@
+// What a network sees of a stream: the map of Eq. 7 of one row, a window of rows, columns of
+// filters.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dcnn/core/tensor.h"
+#include "dcnn/models/model.h"
+
+namespace dcnn {
+
+/// A stream as a NetworkInput reads it, made once for all the inputs that share its rows.
+struct PreparedStream {
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values;  ///< (N, any)
+  std::vector<Index> segment_begin;  ///< (N) first row of the segment each row lies in
+};
+
+class NetworkInput {
+ public:
+  virtual ~NetworkInput() = default;
+  /// Of one sample: (H, W, C) or (T, F).
+  virtual Shape shape() const = 0;
+  /// Statistics of its own, from training rows alone; those of the features are in the map.
+  virtual void learn(const Samples& /*training*/, const InputMap& /*map*/) {}
+  virtual PreparedStream prepare(const Stream& stream, const InputMap& map) const = 0;
+  /// Writes the network's input for one row.
+  virtual void write(const PreparedStream& stream, const InputMap& map, Index row,
+                     Real* out) const = 0;
+  /// What make_input() makes it from, statistics included.
+  virtual Json to_json() const = 0;
+};
+
+/// The stream itself, row-major, with the beginnings of its segments.
+PreparedStream prepare_rows(const Stream& stream);
+
+/// {"kind": "map"}: (F, 5, 1), Eq. 7 of the row. {"kind": "window", "length": T}: (T, F), the last
+/// T rows standardised, the segment's first row repeated before it. Another kind is Error(exit).
+std::unique_ptr<NetworkInput> make_input(const Json& json, Index features, const std::string& where,
+                                         Exit exit);
+
+}  // namespace dcnn
