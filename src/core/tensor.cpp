@@ -164,6 +164,11 @@ Tensor record(Tensor out, std::vector<Tensor> inputs,
   return out;
 }
 
+bool recording(std::initializer_list<Tensor> inputs) {
+  return !no_gradient && std::any_of(inputs.begin(), inputs.end(),
+                                     [](const Tensor& input) { return input.wants_gradient(); });
+}
+
 NoGradient::NoGradient() : before_(no_gradient) { no_gradient = true; }
 NoGradient::~NoGradient() { no_gradient = before_; }
 

@@ -16,6 +16,29 @@ std::vector<NamedTensor> trained_only(std::vector<NamedTensor> tensors) {
   return tensors;
 }
 
+/// Four sums hide the latency of addition; double, as squares of large gradients overflow float.
+double norm(std::span<const Real> values) {
+  double sums[4] = {};
+  std::size_t i = 0;
+  for (; i + 4 <= values.size(); i += 4) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto value = static_cast<double>(values[i + k]);
+      sums[k] += value * value;
+    }
+  }
+  for (; i < values.size(); ++i) {
+    sums[0] += static_cast<double>(values[i]) * static_cast<double>(values[i]);
+  }
+  return std::sqrt((sums[0] + sums[1]) + (sums[2] + sums[3]));
+}
+
+/// What makes a gradient no longer than `most` (0: any length); its direction stays.
+double clip_factor(const Tensor& parameter, double most) {
+  if (most == 0) return 1;
+  const double length = norm(parameter.gradient());
+  return length > most ? most / length : 1;
+}
+
 }  // namespace
 
 Adam::Adam(std::vector<NamedTensor> parameters, Settings settings)
@@ -39,7 +62,8 @@ void Adam::step(double rate) {
         .rate = static_cast<Real>(rate / correction1),
         .root_scale = static_cast<Real>(1 / std::sqrt(correction2)),
         .epsilon = static_cast<Real>(settings_.epsilon),
-        .l2 = static_cast<Real>(parameters_[i].role == Role::kWeight ? settings_.l2 : 0.0)};
+        .l2 = static_cast<Real>(parameters_[i].role == Role::kWeight ? settings_.l2 : 0.0),
+        .gradient_scale = static_cast<Real>(clip_factor(parameter, settings_.clip))};
     adam(coefficients, parameter.size(), parameter.gradient_data(), first_[i].data(),
          second_[i].data(), parameter.data());
     parameter.clear_gradient();

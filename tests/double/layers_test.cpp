@@ -29,6 +29,9 @@ std::vector<Case> cases() {
   all.push_back({"batch_norm_of_eight", "batch_norm", "{}", {5, 3, 2, 8}});
   all.push_back({"batch_norm_stored", "batch_norm", "{}", {5, 3, 2, 4}, Pass::Mode::kInfer});
   all.push_back({"linear_of_one_sample", "linear", R"({"outputs": 4})", {1, 9}});
+  all.push_back({"lstm_of_one_step", "lstm", R"({"units": 3})", {5, 1, 4}});
+  all.push_back({"lstm_sequence", "lstm", R"({"units": 4, "sequence": true})", {3, 5, 2}});
+  all.push_back({"lstm_of_many_units", "lstm", R"({"units": 9})", {27, 3, 17}});
   return all;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
@@ -84,5 +85,9 @@ class NoGradient {
  private:
   bool before_;
 };
+
+/// Whether record() would do anything here: an operation that no one will ask for a gradient need
+/// not keep what its backward pass reads.
+bool recording(std::initializer_list<Tensor> inputs);
 
 }  // namespace dcnn

@@ -13,6 +13,7 @@ class Adam {
   struct Settings {
     double beta1 = 0.9, beta2 = 0.999, epsilon = 1e-8;
     double l2 = 1e-4;
+    double clip = 0;  ///< most L2 norm of the loss's gradient by each tensor, 0 for no limit
   };
   Adam(std::vector<NamedTensor> parameters, Settings settings);
 
@@ -31,7 +32,8 @@ class Adam {
   Index steps_ = 0;
 };
 
-/// lr(epoch): constant, piecewise constant (spec 2.4: lr0·factor^floor((e-1)/period)) or cosine to zero.
+/// lr(epoch): constant, piecewise constant (spec 2.4: lr0·factor^floor((e-1)/period)) or cosine to
+/// zero.
 class LearningRate {
  public:
   /// Keys: lr, schedule (constant|piecewise|cosine), drop_factor, drop_period.

@@ -5,20 +5,10 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "nn/kernels/loop-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace dcnn::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Full = hn::ScalableTag<Real>;
-using One = hn::CappedTag<Real, 1>;  // the rest of an array, with the same arithmetic
-
-template <class Loop>
-HWY_INLINE void for_all(Index n, const Loop& loop) {
-  const auto lanes = static_cast<Index>(hn::Lanes(Full()));
-  Index i = 0;
-  for (; i + lanes <= n; i += lanes) loop(Full(), i);
-  for (; i < n; ++i) loop(One(), i);
-}
 
 template <class D, class V>
 HWY_INLINE void put(D d, V value, Tensor::GradientSlot out, Index i) {
@@ -54,7 +44,8 @@ void adam_target(const AdamStep& s, Index n, const Real* gradient, Real* first, 
                  Real* value) {
   for_all(n, [=](auto d, Index i) HWY_ATTR {
     const auto w = hn::LoadU(d, value + i);
-    const auto g = hn::MulAdd(hn::Set(d, s.l2), w, hn::LoadU(d, gradient + i));
+    const auto g = hn::MulAdd(hn::Set(d, s.l2), w,
+                              hn::Mul(hn::Set(d, s.gradient_scale), hn::LoadU(d, gradient + i)));
     const auto m = hn::MulAdd(hn::Set(d, s.beta1), hn::LoadU(d, first + i),
                               hn::Mul(hn::Set(d, 1 - s.beta1), g));
     const auto v = hn::MulAdd(hn::Set(d, s.beta2), hn::LoadU(d, second + i),

@@ -20,6 +20,7 @@ struct AdamStep {
   Real rate;        // rate / (1 - beta1^t)
   Real root_scale;  // 1 / sqrt(1 - beta2^t)
   Real epsilon, l2;
+  Real gradient_scale;  // 1, or less where the gradient is clipped
 };
 void adam(const AdamStep& step, Index n, const Real* gradient, Real* first, Real* second,
           Real* value);
