@@ -1,4 +1,4 @@
-// One epoch of the DCNN as the paper trains it: what both benchmarks time.
+// One epoch of the networks as the paper trains them: what both benchmarks time.
 #pragma once
 
 #include <string>
@@ -9,17 +9,23 @@
 
 namespace dcnn {
 
-constexpr Index kSamples = 41729, kBatch = 50;  // spec 2.4: 834 iterations, the rest is skipped
+constexpr Index kSamples =
+    41729;  // spec 2.4: 834 iterations of the paper's batch of 50, the rest is skipped
 
-/// Multiply-adds of the products of one prediction (spec 2.0).
-inline double products(const std::string& padding) { return padding == "same" ? 508800 : 117024; }
-/// And of one training sample: forward, weight gradient and, but for the first layer, input
-/// gradient.
-inline double training_products(const std::string& padding) {
-  return 3 * products(padding) - (padding == "same" ? 15 * 5 : 14 * 4) * 4 * 8;
-}
+/// A network at the size of the paper's data.
+struct Task {
+  std::string name;
+  Json layers;
+  Shape input;  // of one sample
+  Index batch;
+  double products;           // multiply-adds of one prediction
+  double training_products;  // and of one training sample
+  double clip = 0;
 
-inline Json dcnn_layers(const std::string& padding) {
+  Index batches() const { return kSamples / batch; }
+};
+
+inline Task dcnn_task(const std::string& padding) {
   Json layers = Json::array();
   for (const int count : {8, 16, 32, 32}) {
     layers.push_back({{"kind", "conv2d"}, {"filters", count}, {"padding", padding}});
@@ -29,44 +35,68 @@ inline Json dcnn_layers(const std::string& padding) {
   layers.push_back({{"kind", "dropout"}, {"rate", 0.5}});
   layers.push_back({{"kind", "flatten"}});
   layers.push_back({{"kind", "linear"}, {"outputs", 3}});
-  return layers;
+  const bool same = padding == "same";
+  const double products = same ? 508800 : 117024;  // spec 2.0
+  // Forward, weight gradient and, but for the first layer, input gradient.
+  const double training = 3 * products - (same ? 15 * 5 : 14 * 4) * 4 * 8;
+  return {"dcnn " + padding, layers, {15, 5, 1}, 50, products, training};
 }
 
-/// A network, its optimiser and random data of the paper's size.
+constexpr Index kLstmUnits = 150;
+
+/// Spec 2.5 on windows of `steps` rows.
+inline Task lstm_task(Index steps) {
+  const Json layers = {{{"kind", "lstm"}, {"units", kLstmUnits}},
+                       {{"kind", "dropout"}, {"rate", 0.5}},
+                       {{"kind", "linear"}, {"outputs", 3}}};
+  const double t = static_cast<double>(steps);
+  const double input = t * 15 * 600, recurrent = (t - 1) * 150 * 600, output = 3 * 150;
+  return {
+      "lstm T=" + std::to_string(steps),      layers, {steps, 15}, 200, input + recurrent + output,
+      2 * input + 3 * recurrent + 3 * output, 1};
+}
+
+/// A network, its optimiser and random data of the task's size.
 class Training {
  public:
-  explicit Training(const std::string& padding)
-      : network(dcnn_layers(padding), {15, 5, 1}, rng_), adam_(network.state(), {}) {
+  explicit Training(const Task& task)
+      : network(task.layers, task.input, rng_),
+        batch_(task.batch),
+        adam_(network.state(), {.clip = task.clip}) {
+    Shape shape = task.input;
+    shape.insert(shape.begin(), kSamples);
+    x = Tensor(shape);
     for (Real& value : x.values()) value = static_cast<Real>(rng_.normal());
     for (Real& value : wanted.values()) value = static_cast<Real>(rng_.normal());
   }
 
   void epoch() {
-    for (Index first = 0; first + kBatch <= kSamples; first += kBatch) {
+    for (Index first = 0; first + batch_ <= kSamples; first += batch_) {
       Pass pass{.mode = Pass::Mode::kTrain, .rng = Rng({1, static_cast<std::uint64_t>(first)})};
-      const Tensor batch = rows(x, first, {kBatch, 15, 5, 1});
       const Tensor loss =
-          half_mean_squared_error(network.forward(batch, pass), rows(wanted, first, {kBatch, 3}));
+          half_mean_squared_error(network.forward(rows(x, first), pass), rows(wanted, first));
       loss.backward();
       adam_.step(1e-3);
     }
   }
 
  private:
-  static Tensor rows(const Tensor& from, Index first, const Shape& shape) {
-    const Index width = element_count(shape) / shape[0];
-    const auto begin = static_cast<std::size_t>(first * width);
-    return Tensor::from(shape,
-                        from.values().subspan(begin, static_cast<std::size_t>(kBatch * width)));
+  Tensor rows(const Tensor& from, Index first) const {
+    Shape shape = from.shape();
+    shape[0] = batch_;
+    const Index width = from.size() / kSamples;
+    return Tensor::from(shape, from.values().subspan(static_cast<std::size_t>(first * width),
+                                                     static_cast<std::size_t>(batch_ * width)));
   }
 
   Rng rng_{1};
 
  public:
   Network network;
-  Tensor x{{kSamples, 15, 5, 1}}, wanted{{kSamples, 3}};
+  Tensor x, wanted{{kSamples, 3}};
 
  private:
+  Index batch_;
   Adam adam_;
 };
 

@@ -18,27 +18,36 @@ void count_products(benchmark::State& state, double per_iteration) {
   state.counters["share_of_peak"] = benchmark::Counter(total / peak(), benchmark::Counter::kIsRate);
 }
 
-void epoch(benchmark::State& state, const std::string& padding) {
-  Training training(padding);
+void epoch(benchmark::State& state, const Task& task) {
+  Training training(task);
   for (auto _ : state) training.epoch();
-  count_products(state,
-                 training_products(padding) * static_cast<double>(kSamples / kBatch * kBatch));
+  count_products(state, task.training_products * static_cast<double>(task.batches() * task.batch));
 }
 
-void prediction(benchmark::State& state, const std::string& padding) {
-  const Training training(padding);
+void prediction(benchmark::State& state, const Task& task) {
+  const Training training(task);
   const Network network = training.network.folded();
-  const Tensor x({1, 15, 5, 1});
+  Shape shape = task.input;
+  shape.insert(shape.begin(), 1);
+  const Tensor x(shape);
   const NoGradient guard;
   Pass pass;
   for (auto _ : state) benchmark::DoNotOptimize(network.forward(x, pass).data());
-  count_products(state, products(padding));
+  count_products(state, task.products);
 }
 
-BENCHMARK_CAPTURE(epoch, valid, "valid")->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(epoch, same, "same")->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(prediction, valid, "valid")->Unit(benchmark::kMicrosecond)->UseRealTime();
-BENCHMARK_CAPTURE(prediction, same, "same")->Unit(benchmark::kMicrosecond)->UseRealTime();
+BENCHMARK_CAPTURE(epoch, valid, dcnn_task("valid"))->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(epoch, same, dcnn_task("same"))->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(epoch, lstm, lstm_task(1))->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(epoch, lstm_10, lstm_task(10))->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(epoch, lstm_25, lstm_task(25))->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(prediction, valid, dcnn_task("valid"))
+    ->Unit(benchmark::kMicrosecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(prediction, same, dcnn_task("same"))
+    ->Unit(benchmark::kMicrosecond)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(prediction, lstm_25, lstm_task(25))->Unit(benchmark::kMicrosecond)->UseRealTime();
 
 }  // namespace
 }  // namespace dcnn

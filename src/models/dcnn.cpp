@@ -85,14 +85,10 @@ std::unique_ptr<Model> make_dcnn(const Problem& problem) {
   return std::make_unique<NetworkModel>("dcnn", Json{{"kind", "map"}}, layers, problem);
 }
 
-std::unique_ptr<Model> load_network(const Container& file, const std::string& where) {
-  return std::make_unique<NetworkModel>(file, where);
-}
-
 }  // namespace
 
 extern const ModelKind dcnn_model;
 const ModelKind dcnn_model{"dcnn", "the paper's deep convolutional network (four 2x2 modules)",
-                           dcnn_preset, make_dcnn, load_network};
+                           dcnn_preset, make_dcnn, NetworkModel::load};
 
 }  // namespace dcnn

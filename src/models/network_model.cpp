@@ -61,6 +61,9 @@ TrainingSpec TrainingSpec::parse(Options options) {
       options.choice("shuffle", "every-epoch", {"every-epoch", "once"}) != "once";
   spec.full_statistics = options.choice("statistics", "full", {"full", "running"}) == "full";
   spec.ema = options.number("ema", 0.0, 0.0, 0.999999);
+  spec.clip = options.number("clip", 0.0, 0.0, 1e6);
+  spec.stride = options.get<Index>("stride", 1);
+  if (spec.stride < 1) options.reject("stride", "must be at least 1, not ", spec.stride);
   spec.keep_best = options.choice("keep", "best", {"best", "last"}) == "best";
   for (const char* key : {"lr", "schedule", "drop_factor", "drop_period"}) {
     if (const Json value = options.raw(key); !value.is_null()) spec.rate[key] = value;
@@ -113,6 +116,10 @@ NetworkModel::NetworkModel(const Container& file, const std::string& where)
 }
 
 NetworkModel::~NetworkModel() = default;
+
+std::unique_ptr<Model> NetworkModel::load(const Container& file, const std::string& where) {
+  return std::make_unique<NetworkModel>(file, where);
+}
 
 bool NetworkModel::fit(const Samples& training, const Samples& validation, FitSession& session) {
   map_ = InputMap(training.x, map_spec_, units_);

@@ -37,9 +37,10 @@ Trainer::Trainer(NetworkModel& model, const Samples& training, const Samples& va
       session_(session),
       spec_(model.training_),
       training_(training) {
-  const Index rows = training.x.rows();
-  require(rows >= spec_.batch, Exit::kData, "only ", rows, " training rows for batches of ",
-          spec_.batch, "; give longer recordings or a smaller training.batch");
+  const Index rows = training.rows() / spec_.stride;
+  require(rows >= spec_.batch, Exit::kData, "only ", rows,
+          " training rows an epoch for batches of ", spec_.batch,
+          "; give longer recordings or a smaller training.batch or training.stride");
   y_ = (training.y.rowwise() - model.scale_.mean.transpose()).array().rowwise() /
        model.scale_.deviation.transpose().array();
   steps_per_epoch_ = rows / spec_.batch;  // an incomplete last batch is skipped (D37)
@@ -47,10 +48,13 @@ Trainer::Trainer(NetworkModel& model, const Samples& training, const Samples& va
   const auto& state = model.network_->state();
   Adam::Settings adam;
   adam.l2 = spec_.l2;
+  adam.clip = spec_.clip;
   adam_ = std::make_unique<Adam>(state, adam);
   if (spec_.ema > 0.0) average_ = std::make_unique<WeightAverage>(state, spec_.ema);
   Options rate(spec_.rate, "training", Exit::kUsage);
   rate_ = std::make_unique<LearningRate>(rate, spec_.epochs, steps_per_epoch_);
+  has_statistics_ = std::ranges::any_of(
+      state, [](const NamedTensor& t) { return t.role == NamedTensor::Role::kStatistic; });
   best_ = copies(state);
   if (session.checkpoint) restore_checkpoint(*session.checkpoint);
 }
@@ -69,11 +73,23 @@ bool Trainer::run() {
   return true;
 }
 
+/// Every stride-th row, from a first one that moves on with the epochs: neighbours resemble each
+/// other, and after `stride` epochs all rows have been seen.
+std::vector<std::int64_t> Trainer::epoch_rows() const {
+  std::vector<std::int64_t> rows;
+  for (Index row = epoch_ % spec_.stride; row < training_.rows(); row += spec_.stride) {
+    rows.push_back(row);
+  }
+  return rows;
+}
+
 /// Draws the epoch's order and noise level; the same after a resume in its middle.
 void Trainer::begin_epoch() {
   const auto epoch = static_cast<std::uint64_t>(epoch_);
   Rng shuffle({model_.seed_, kShuffle, spec_.shuffle_every_epoch ? epoch : 0});
-  order_ = permutation(training_.rows(), shuffle);
+  const auto rows = epoch_rows();
+  order_ = permutation(static_cast<Index>(rows.size()), shuffle);
+  for (std::int64_t& index : order_) index = rows[static_cast<std::size_t>(index)];
   const auto& levels = model_.noise_.levels;
   snr_ = levels[Rng({model_.seed_, kLevel, epoch}).below(levels.size())];
   noisy_ = model_.input_->prepare(
@@ -147,7 +163,7 @@ void Trainer::finish_epoch() {
   record.rate = rate_->at(epoch_, 0);
   record.snr_db = snr_;
   if (average_) average_->swap();
-  if (spec_.full_statistics) collect_statistics();
+  if (spec_.full_statistics && has_statistics_) collect_statistics();
   model_.refold();
   record.validation_rmse = validation_rmse();
   keep_if_best(record);
@@ -168,7 +184,7 @@ void Trainer::collect_statistics() {
   const auto order = permutation(training_.rows(), rng);
   const PreparedStream clean = model_.input_->prepare(training_, model_.map_);
   Pass pass{Pass::Mode::kCollect, Rng(0)};
-  for (Index k = 0; k < steps_per_epoch_; ++k) {
+  for (Index k = 0; k < training_.rows() / spec_.batch; ++k) {
     pass.batch_number = k;
     model_.network_->forward(gather(clean, order, k * spec_.batch), pass);
   }

@@ -24,6 +24,7 @@ class Trainer {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   void begin_epoch();
+  std::vector<std::int64_t> epoch_rows() const;
   bool run_steps();
   void step();
   Tensor gather(const PreparedStream& stream, const std::vector<std::int64_t>& order,
@@ -45,6 +46,7 @@ class Trainer {
   const Samples& training_;
   RowMajor y_;  // targets, scaled
   Index steps_per_epoch_;
+  bool has_statistics_;  // of batch norm, to be collected after every epoch
   std::unique_ptr<Adam> adam_;
   std::unique_ptr<WeightAverage> average_;
   std::unique_ptr<LearningRate> rate_;

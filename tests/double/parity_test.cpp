@@ -1,4 +1,6 @@
 // The network against two independent programs: a scalar one of this repository, and PyTorch.
+#include "double/parity.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,8 +13,6 @@
 namespace dcnn {
 namespace {
 
-using Values = std::vector<Real>;
-
 Json layers(const std::string& padding, const std::vector<int>& filters, int outputs) {
   Json list = Json::array();
   for (const int count : filters) {
@@ -23,23 +23,6 @@ Json layers(const std::string& padding, const std::vector<int>& filters, int out
   list.push_back({{"kind", "flatten"}});
   list.push_back({{"kind", "linear"}, {"outputs", outputs}});
   return list;
-}
-
-Tensor scaled(const Tensor& x, Real factor) {
-  Tensor y({1});
-  y.data()[0] = factor * x.data()[0];
-  return record(y, {x},
-                [x, factor](const Tensor& out) { x.gradient()[0] += factor * out.gradient()[0]; });
-}
-
-/// |got - wanted| <= tolerance·max(1, |wanted|).
-void expect_near(std::span<const Real> got, const Values& wanted, double tolerance,
-                 const std::string& what) {
-  ASSERT_EQ(got.size(), wanted.size()) << what;
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    EXPECT_NEAR(got[i], wanted[i], tolerance * std::max(1.0, std::abs(wanted[i])))
-        << what << " " << i;
-  }
 }
 
 std::vector<NamedTensor> trained(const Network& network) {

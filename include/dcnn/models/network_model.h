@@ -24,8 +24,10 @@ struct TrainingSpec {
   bool shuffle_every_epoch = true;
   bool full_statistics = true;  ///< batch norm: pass over the training set, else running averages
   double ema = 0.0;             ///< decay of the weight average, 0 for none
-  bool keep_best = true;        ///< the epoch with the least validation RMSE, else the last one
-  Json rate;                    ///< lr, schedule, drop_factor, drop_period
+  double clip = 0.0;      ///< most L2 norm of each parameter tensor's gradient, 0 for no limit
+  Index stride = 1;       ///< an epoch sees every stride-th row, each epoch the next ones
+  bool keep_best = true;  ///< the epoch with the least validation RMSE, else the last one
+  Json rate;              ///< lr, schedule, drop_factor, drop_period
 
   static TrainingSpec parse(Options options);
 };
@@ -36,6 +38,8 @@ class NetworkModel : public Model {
   NetworkModel(std::string kind, const Json& input, const Json& layers, const Problem& problem);
   NetworkModel(const Container& file, const std::string& where);
   ~NetworkModel() override;
+  /// What every list of kinds (ModelKind::load) needs for a network.
+  static std::unique_ptr<Model> load(const Container& file, const std::string& where);
 
   bool fit(const Samples& training, const Samples& validation, FitSession& session) override;
   Eigen::MatrixXd predict(const Stream& stream) const override;
