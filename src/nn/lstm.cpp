@@ -58,18 +58,18 @@ class Lstm final : public Layer {
   /// weights.
   struct Sums {
     PieceSums input, recurrent;
-    Sums(Index groups, const Weights& w)
-        : input(groups, w.input.size()), recurrent(groups, w.recurrent.size()) {}
+    Sums(const LstmShape& s, Index groups, const Weights& w)
+        : input(groups, w.input.size()), recurrent(s.steps > 1 ? groups : 0, w.recurrent.size()) {}
   };
 
   static void backward(const LstmShape& s, const Tensor& x, const Weights& w, const Tensor& memory,
                        const Real* dy) {
     const Index pieces = piece_count(x.dim(0)), groups = std::min<Index>(pieces, 4);
     const Index kept = LstmTrace::kept_steps(s, true);
-    Sums sums(groups, w);
+    Sums sums(s, groups, w);
     PieceSums dbias(x.dim(0), s.gates());
     Panels recurrent(s.gates(), s.units), input(s.gates(), s.inputs);
-    recurrent.set(0, s.gates(), w.recurrent.data(), 1, s.gates());
+    if (s.steps > 1) recurrent.set(0, s.gates(), w.recurrent.data(), 1, s.gates());
     const Tensor::GradientSlot dx = x.wants_gradient() ? x.gradient_slot() : Tensor::GradientSlot{};
     if (dx.data) input.set(0, s.gates(), w.input.data(), 1, s.gates());
     for_each_piece(groups, [&](Index group) {
@@ -79,7 +79,8 @@ class Lstm final : public Layer {
         const LstmTrace trace(s, piece_begin(x.dim(0), pieces, k + 1) - begin, kept,
                               memory.data() + begin * LstmTrace::size(s, kept));
         run_lstm_back(trace, recurrent, dy + begin * s.outputs());
-        add_weight_gradients(trace, sums.input.of(group), sums.recurrent.of(group));
+        add_weight_gradients(trace, sums.input.of(group),
+                             s.steps > 1 ? sums.recurrent.of(group) : nullptr);
         channel_sums(trace.gates, s.steps * trace.samples, s.gates(), dbias.of(k));
         if (dx.data) {
           put_input_gradient(trace, input, {dx.data + begin * s.steps * s.inputs, dx.add});
@@ -87,7 +88,11 @@ class Lstm final : public Layer {
       }
     });
     sum_pieces(sums.input, w.input);
-    sum_pieces(sums.recurrent, w.recurrent);
+    if (s.steps > 1) {
+      sum_pieces(sums.recurrent, w.recurrent);
+    } else {
+      w.recurrent.gradient_data();  // zeros, where nothing was before
+    }
     sum_pieces(dbias, w.bias);
   }
 

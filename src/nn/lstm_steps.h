@@ -56,7 +56,7 @@ void run_lstm(const LstmTrace& trace, const Panels& weights, const Real* bias, c
 void run_lstm_back(const LstmTrace& trace, const Panels& recurrent, const Real* dy);
 
 /// After run_lstm_back(): adds xᵀ·(gradients of the gates' arguments) to `input` (F, 4H), and the
-/// same with h of the step before to `recurrent` (H, 4H).
+/// same with h of the step before to `recurrent` (H, 4H), which one step alone does not touch.
 void add_weight_gradients(const LstmTrace& trace, Real* input, Real* recurrent);
 
 /// After run_lstm_back(): writes or adds dLoss/dx (samples, T, F). `input` is (4H, F), the
