@@ -73,23 +73,14 @@ bool Trainer::run() {
   return true;
 }
 
-/// Every stride-th row, from a first one that moves on with the epochs: neighbours resemble each
-/// other, and after `stride` epochs all rows have been seen.
-std::vector<std::int64_t> Trainer::epoch_rows() const {
-  std::vector<std::int64_t> rows;
-  for (Index row = epoch_ % spec_.stride; row < training_.rows(); row += spec_.stride) {
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-/// Draws the epoch's order and noise level; the same after a resume in its middle.
+/// Draws the epoch's order and noise level; the same after a resume in its middle. Every stride-th
+/// row takes part, from a first one that moves on with the epochs: neighbours resemble each other.
 void Trainer::begin_epoch() {
   const auto epoch = static_cast<std::uint64_t>(epoch_);
   Rng shuffle({model_.seed_, kShuffle, spec_.shuffle_every_epoch ? epoch : 0});
-  const auto rows = epoch_rows();
-  order_ = permutation(static_cast<Index>(rows.size()), shuffle);
-  for (std::int64_t& index : order_) index = rows[static_cast<std::size_t>(index)];
+  const Index start = epoch_ % spec_.stride;
+  order_ = permutation((training_.rows() - start + spec_.stride - 1) / spec_.stride, shuffle);
+  for (std::int64_t& row : order_) row = start + spec_.stride * row;
   const auto& levels = model_.noise_.levels;
   snr_ = levels[Rng({model_.seed_, kLevel, epoch}).below(levels.size())];
   noisy_ = model_.input_->prepare(

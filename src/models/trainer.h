@@ -24,7 +24,6 @@ class Trainer {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   void begin_epoch();
-  std::vector<std::int64_t> epoch_rows() const;
   bool run_steps();
   void step();
   Tensor gather(const PreparedStream& stream, const std::vector<std::int64_t>& order,
