@@ -107,7 +107,7 @@ std::string identity_of(const Json& configuration, const Samples& training,
 FitSession make_session(RunDirectory& run, const std::string& identity,
                         const Identifier& identifier, const Json& configuration,
                         const TrainingObserver& observer) {
-  const Index epochs = configuration.at("training").value("epochs", Index{0});
+  const Index epochs = configuration.at("training").value("epochs", Index{1});
   FitSession session;
   session.stop_wanted = observer.stop_wanted;
   session.step_done = [&observer, epochs](Index epoch, Index step, Index steps, double loss) {
@@ -147,8 +147,9 @@ class Learner {
   /// Fits a model of this configuration in a run directory of its own. False when stopped.
   bool fit(const Json& json, const std::filesystem::path& folder) {
     identifier_.configuration = json;
-    identifier_.model = configuration_.kind->make(
-        {identifier_.layout, identifier_.targets, json, configuration_.where, configuration_.seed});
+    identifier_.model = configuration_.kind->make({identifier_.layout, identifier_.targets, json,
+                                                   configuration_.where, configuration_.seed,
+                                                   identifier_.base.has_value()});
     RunDirectory run(folder);
     const std::string identity = identity_of(json, training_, validation_);
     FitSession session = make_session(run, identity, identifier_, json, observer_);
@@ -244,12 +245,17 @@ TrainingOutcome train(const TrainingRequest& request, const TrainingObserver& ob
   const auto chosen = learner.choose(configuration.json, folder);
   TrainingOutcome outcome;
   outcome.finished = chosen && learner.fit(*chosen, folder);
+  const auto notes = outcome.finished ? identifier.model->notes() : std::vector<std::string>{};
+  for (const auto& note : notes) {
+    if (observer.note) observer.note(note);
+  }
   outcome.summary = {{"model", identifier.name},
                      {"parameters", identifier.model->parameter_count()},
                      {"training_rows", training.x.rows()},
                      {"validation_rows", validation.x.rows()},
                      {"targets", identifier.targets.names},
                      {"units", identifier.targets.units},
+                     {"notes", notes},
                      {"run_directory", folder.string()}};
   if (outcome.finished) {
     outcome.summary["validation_rmse"] = rmse_of(*identifier.model, validation);

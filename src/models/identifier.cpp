@@ -92,7 +92,11 @@ Identifier unpack(const Container& file, const std::string& where) {
   }
   identifier.model = model_kind(identifier.name, Exit::kModel).load(file, where);
   require(identifier.model->map().features() == static_cast<Index>(identifier.layout.names.size()),
-          Exit::kModel, where, ": its network has another number of rows than its features");
+          Exit::kModel, where, ": its model has another number of rows than its features");
+  const Eigen::MatrixXd probe =
+      identifier.model->predict({identifier.model->map().mean().transpose(), {}});
+  require(probe.cols() == static_cast<Index>(identifier.targets.names.size()), Exit::kModel, where,
+          ": its model has another number of outputs than its targets");
   return identifier;
 }
 

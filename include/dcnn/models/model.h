@@ -71,6 +71,8 @@ class Model {
   virtual Index parameter_count() const = 0;
   /// Training statistics of the features: the power that test noise refers to.
   virtual const InputMap& map() const = 0;
+  /// What the user should know of the last fit, one line each.
+  virtual std::vector<std::string> notes() const { return {}; }
 
   /// Metadata and tensors by which load() of the same kind makes an equal model.
   virtual void save(Container& file) const = 0;
@@ -83,6 +85,7 @@ struct Problem {
   Json configuration;  ///< resolved: map, model, training, noise
   std::string where;   ///< names the configuration in errors
   std::uint64_t seed = 0;
+  bool is_remainder = false;  ///< the targets are what a simulator leaves
 
   Index features() const { return static_cast<Index>(layout.names.size()); }
   Index outputs() const { return static_cast<Index>(targets.names.size()); }

@@ -1,0 +1,101 @@
+#include "models/least_squares.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+
+namespace dcnn {
+namespace {
+
+constexpr double kRank = 1e-11;    // relative size of a singular value that is rounding
+constexpr double kLargest = 10.0;  // one term may be this many times the target: terms cancel
+
+}  // namespace
+
+LeastSquares::LeastSquares(Index columns, Index targets)
+    : columns_(columns), triangle_(Eigen::MatrixXd::Zero(columns + targets, columns + targets)) {}
+
+void LeastSquares::add(const Eigen::MatrixXd& a, const Eigen::MatrixXd& y) {
+  assert(a.cols() == columns_ && a.rows() == y.rows());
+  const Index width = triangle_.cols();
+  Eigen::MatrixXd stacked(width + a.rows(), width);
+  stacked.topRows(width) = triangle_;
+  stacked.bottomRows(a.rows()) << a, y;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(std::move(stacked));
+  triangle_ = qr.matrixQR().topRows(width).triangularView<Eigen::Upper>();
+  rows_ += a.rows();
+}
+
+Eigen::MatrixXd LeastSquares::factor() const { return triangle_.topLeftCorner(columns_, columns_); }
+
+Eigen::MatrixXd LeastSquares::projected() const {
+  return triangle_.topRightCorner(columns_, triangle_.cols() - columns_);
+}
+
+Eigen::VectorXd LeastSquares::residual_deviation() const {
+  const Index targets = triangle_.cols() - columns_;
+  const auto freedom = static_cast<double>(std::max<Index>(1, rows_ - columns_));
+  return triangle_.bottomRightCorner(targets, targets).colwise().norm().transpose() /
+         std::sqrt(freedom);
+}
+
+Eigen::VectorXd LeastSquares::target_rms() const {
+  return triangle_.rightCols(triangle_.cols() - columns_).colwise().norm().transpose() /
+         std::sqrt(static_cast<double>(std::max<Index>(1, rows_)));
+}
+
+Eigen::VectorXd LeastSquares::column_rms() const {
+  return triangle_.leftCols(columns_).colwise().norm().transpose() /
+         std::sqrt(static_cast<double>(std::max<Index>(1, rows_)));
+}
+
+Eigen::VectorXd solve(const DenseProblem& problem) {
+  const Eigen::VectorXd inverse_size =
+      problem.size.unaryExpr([](double s) { return s > 0.0 ? 1.0 / s : 1.0; });
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(problem.a * inverse_size.asDiagonal(),
+                                           Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::VectorXd& d = svd.singularValues();
+  double ridge = problem.ridge;
+  if (problem.largest > 0.0) ridge += std::pow(problem.noise / problem.largest, 2);
+  Eigen::VectorXd filter = d;
+  for (double& value : filter) {
+    value = value > kRank * d[0] ? value / (value * value + ridge) : 0.0;
+  }
+  const Eigen::VectorXd along = svd.matrixU().transpose() * problem.y;
+  return inverse_size.asDiagonal() * (svd.matrixV() * filter.cwiseProduct(along));
+}
+
+Eigen::VectorXd group_sizes(const Eigen::VectorXd& rms, const std::vector<Index>& groups) {
+  std::map<Index, std::pair<double, double>> sums;  // of squares, and how many
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    auto& [square, count] = sums[groups[k]];
+    square += std::pow(rms[static_cast<Index>(k)], 2);
+    count += 1.0;
+  }
+  Eigen::VectorXd sizes(rms.size());
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const auto& [square, count] = sums[groups[k]];
+    sizes[static_cast<Index>(k)] = std::sqrt(square / count);
+  }
+  return sizes;
+}
+
+Eigen::MatrixXd solve(const LeastSquares& sums, const std::vector<Index>& groups, double ridge) {
+  const Eigen::MatrixXd projected = sums.projected();
+  const Eigen::VectorXd noise = sums.residual_deviation(), rms = sums.target_rms();
+  DenseProblem problem;
+  problem.a = sums.factor();
+  problem.size = group_sizes(sums.column_rms(), groups);
+  problem.ridge = ridge * static_cast<double>(sums.rows());
+  Eigen::MatrixXd weights(projected.rows(), projected.cols());
+  for (Index j = 0; j < projected.cols(); ++j) {
+    problem.y = projected.col(j);
+    problem.noise = noise[j];
+    problem.largest = kLargest * rms[j];
+    weights.col(j) = solve(problem);
+  }
+  return weights;
+}
+
+}  // namespace dcnn

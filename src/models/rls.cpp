@@ -1,0 +1,61 @@
+#include "models/linear_model.h"
+#include "models/recursive_least_squares.h"
+
+namespace dcnn {
+namespace {
+
+const LinearModel::Form kRegression{"regression", Terms::kRigid};
+
+/// The terms of the rigid tool learned online, sample by sample (the scheme of arXiv 2604.23696):
+/// one pass over the training rows in time. What it predicts on other recordings is the state at
+/// the end of training, frozen, so that it is scored as the others are.
+class Rls : public LinearModel {
+ public:
+  Rls(const Problem& problem, double forgetting)
+      : LinearModel("rls", kRegression, problem), forgetting_(forgetting) {}
+
+ protected:
+  void learn(const Samples& training) override {
+    constexpr double kRidge = 1e-6;  // rows of unit size; thousands are remembered
+    const Eigen::VectorXd size =
+        group_sizes(sums_of(training).column_rms(), regressors().groups()).unaryExpr([](double s) {
+          return s > 0.0 ? s : 1.0;
+        });
+    RecursiveLeastSquares filter(regressors().count(), training.y.cols(), forgetting_, kRidge);
+    for (Index i = 0; i < training.rows(); ++i) {
+      const Eigen::VectorXd terms = regressors().of(training.x.row(i)).transpose();
+      filter.update(terms.cwiseQuotient(size), training.y.row(i).transpose());
+    }
+    set_weights(size.cwiseInverse().asDiagonal() * filter.solve());
+  }
+
+ private:
+  double forgetting_;
+};
+
+Json preset(const std::string& name, bool /*axes*/) {
+  Json json = closed_form_preset(name);
+  json["model"] = {{"forgetting", 0.9999}};
+  return json;
+}
+
+std::unique_ptr<Model> make(const Problem& problem) {
+  Options options(problem.configuration, problem.where, Exit::kUsage);
+  Options model = options.child("model");
+  const double forgetting = model.number("forgetting", 0.9999, 0.9, 1.0);
+  model.raw("name");
+  model.finish();
+  return std::make_unique<Rls>(problem, forgetting);
+}
+
+std::unique_ptr<Model> load(const Container& file, const std::string& where) {
+  return std::make_unique<LinearModel>(file, std::vector{kRegression}, where);
+}
+
+}  // namespace
+
+extern const ModelKind rls_model;
+const ModelKind rls_model{"rls", "the rigid tool's terms by recursive least squares, online",
+                          preset, make, load};
+
+}  // namespace dcnn
