@@ -67,13 +67,13 @@ JointProblem joint_problem(const LeastSquares& sums, const WristColumns& columns
   for (Index j = 0; j < 6; ++j) {
     problem.y.segment(j * terms, terms) = projected.col(j) / deviation[j];
   }
-  // No part is much larger than the targets: the Bayesian ridge of least_squares.h.
   const VectorXd rms = problem.a.colwise().norm().transpose() /
                        std::sqrt(static_cast<double>(std::max<Index>(1, sums.rows())));
   const VectorXd size = group_sizes(rms, {kKinds.begin(), kKinds.end()});
-  const double largest = kLargest * sums.target_rms().cwiseQuotient(deviation).maxCoeff();
+  // In units of the scatter the targets' sizes differ; the least certain one sets the ridge.
+  const double known = std::sqrt(known_before(sums).maxCoeff());
   for (Index k = 0; k < kCount; ++k) {
-    problem.a(rows + k, k) = size[k] > 0.0 && largest > 0.0 ? size[k] / largest : 1.0;
+    problem.a(rows + k, k) = size[k] > 0.0 ? size[k] * known : 1.0;
   }
   return problem;
 }

@@ -43,18 +43,22 @@ struct DenseProblem {
   double ridge = 0.0;    ///< added to the square of every scaled singular value
 };
 
-/// w by singular values in units of `size`. Each direction is weighed by what the rows tell about
-/// it against what is known before: |w·size| is of the order of `largest` (a ridge of
-/// noise^2/largest^2, the Bayesian one for Gaussian errors). Where the data are exact this is plain
-/// least squares; where a direction was hardly excited, as in a planar motion, its weight stays
-/// small instead of being noise divided by nearly zero. Directions below 1e-11 of the largest are
-/// left out.
+/// w by singular values in units of `size`, each square raised by the ridge. Directions below 1e-11
+/// of the largest are left out.
 Eigen::VectorXd solve(const DenseProblem& problem);
 
 /// All targets of a problem rolled into its triangle. `groups`: columns of one kind share the
 /// number, and so the size: a component that hardly moved is small beside its sisters, not of its
-/// own size. `ridge`: on R^T·R/rows.
+/// own size. Each direction is weighed by what the rows tell about it against what is known before,
+/// that no term is much larger than the target: where the data are exact this is plain least
+/// squares; where a direction was hardly excited, as in a planar motion, its weight stays small
+/// instead of being noise divided by nearly zero. `ridge` is added on R^T·R/rows.
 Eigen::MatrixXd solve(const LeastSquares& sums, const std::vector<Index>& groups, double ridge);
+
+/// The ridge that solve() uses for each target, on R^T·R in units of the groups' sizes:
+/// (noise/largest)^2·c, the Bayesian one for Gaussian errors of which c neighbours are alike and
+/// weights of the order of `largest`, ten times the target's root mean square.
+Eigen::VectorXd known_before(const LeastSquares& sums);
 
 /// Root of the mean square within the group of each column.
 Eigen::VectorXd group_sizes(const Eigen::VectorXd& rms, const std::vector<Index>& groups);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "models/linear_model.h"
 #include "models/recursive_least_squares.h"
 
@@ -16,12 +18,14 @@ class Rls : public LinearModel {
 
  protected:
   void learn(const Samples& training) override {
-    constexpr double kRidge = 1e-6;  // rows of unit size; thousands are remembered
+    constexpr double kLeastRidge = 1e-12;
+    const LeastSquares sums = sums_of(training);
     const Eigen::VectorXd size =
-        group_sizes(sums_of(training).column_rms(), regressors().groups()).unaryExpr([](double s) {
+        group_sizes(sums.column_rms(), regressors().groups()).unaryExpr([](double s) {
           return s > 0.0 ? s : 1.0;
         });
-    RecursiveLeastSquares filter(regressors().count(), training.y.cols(), forgetting_, kRidge);
+    const double ridge = std::max(kLeastRidge, known_before(sums).mean());
+    RecursiveLeastSquares filter(regressors().count(), training.y.cols(), forgetting_, ridge);
     for (Index i = 0; i < training.rows(); ++i) {
       const Eigen::VectorXd terms = regressors().of(training.x.row(i)).transpose();
       filter.update(terms.cwiseQuotient(size), training.y.row(i).transpose());
