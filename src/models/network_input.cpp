@@ -65,6 +65,7 @@ PreparedStream prepare_rows(const Stream& stream) {
 std::unique_ptr<NetworkInput> make_input(const Json& json, Index features, const std::string& where,
                                          Exit exit) {
   Options options(json, where, exit);
+  if (!options.has("kind")) options.reject("kind", "is missing");
   const auto kind = options.choice("kind", "map", {"map", "window"});
   std::unique_ptr<NetworkInput> input;
   if (kind == "map") input = std::make_unique<MapInput>(features);

@@ -86,9 +86,10 @@ NetworkModel::NetworkModel(const Container& file, const std::string& where)
       parse_json(stored_text(file, "architecture", where), where, Exit::kModel);
   map_ = InputMap::parse(parse_json(stored_text(file, "map", where), where, Exit::kModel), where,
                          Exit::kModel);
-  const Json scale = parse_json(stored_text(file, "target_scale", where), where, Exit::kModel);
-  scale_.mean = parse_vector(scale.value("mean", Json()), where);
-  scale_.deviation = parse_vector(scale.value("deviation", Json()), where);
+  Options scale(parse_json(stored_text(file, "target_scale", where), where, Exit::kModel), where,
+                Exit::kModel);
+  scale_.mean = parse_vector(scale.raw("mean"), where);
+  scale_.deviation = parse_vector(scale.raw("deviation"), where);
   input_ = make_input(parse_json(stored_text(file, "input", where), where, Exit::kModel),
                       map_.features(), where, Exit::kModel);
   try {

@@ -99,9 +99,10 @@ TEST(Rigid, InertialFormRecoversMassCentreAndInertia) {
     const Container file = saved(*model);
     EXPECT_EQ(file.metadata.at("constraint_active"), "false");
     const auto p = tensor(file, "inertial");
+    const Eigen::Matrix3d I = *tool.inertia;
     InertialParameters wanted;
-    wanted << tool.mass, tool.mass * tool.com, tool.inertia->diagonal(), Eigen::Vector3d::Zero(),
-        tool.bias, tool.bias_torque;
+    wanted << tool.mass, tool.mass * tool.com, I.diagonal(), I(0, 1), I(0, 2), I(1, 2), tool.bias,
+        tool.bias_torque;
     for (std::size_t k = 0; k < p.size(); ++k) {
       EXPECT_NEAR(p[k], wanted[static_cast<Index>(k)], 1e-9) << set << " parameter " << k;
     }
@@ -164,7 +165,7 @@ TEST(Rigid, NoPossibleBodyFitsBetterThanTheConstrainedOne) {
         I(0, 2), I(1, 2);
     for (const double step : {1e-3, 1e-2, 1e-1}) {
       const InertialParameters between = (1.0 - step) * fit.parameters + step * other;
-      EXPECT_GT(cost(between), least * (1.0 - 1e-5)) << "trial " << trial;
+      EXPECT_GT(cost(between), least * (1.0 - 3e-4)) << "trial " << trial;
     }
   }
 }
@@ -181,31 +182,38 @@ TEST(Rigid, InertialFormNeedsTorquesAndSaysSo) {
   }
 }
 
-TEST(Rigid, AMotionInOnePlaneDoesNotSpoilAnotherOne) {
-  Task task = task_of("rigid", exact_recording(swinging_tool(), "multisine", 3000, 3), "body");
-  const Samples whole = task.samples;
-  const auto exact = fitted("rigid", task);
-  for (const Index column : {1, 6, 7, 12, 13}) task.samples.x.col(column) *= 1e-5;  // u_y, w, dw
-  task.samples.y = exact->predict(task.samples);
-  Rng rng(5);
-  for (double& value : task.samples.y.reshaped()) value += 0.05 * rng.normal();
-  // It cannot know the weight along an axis that it has not seen, but it invents nothing: noise
-  // over nearly no motion is some 100 N by plain least squares.
+TEST(ClosedForm, AMotionInOnePlaneDoesNotSpoilAnotherOne) {
   for (const char* kind : {"rigid", "rls"}) {
-    EXPECT_LT(largest_error(*fitted(kind, task), whole), 9.0) << kind;
+    Task task = task_of(kind, exact_recording(swinging_tool(), "multisine", 3000, 3), "body");
+    const Samples whole = task.samples;
+    const auto exact = fitted(kind, task);
+    for (const Index column : {1, 6, 7, 12, 13}) task.samples.x.col(column) *= 1e-5;  // u_y, w, dw
+    const Eigen::MatrixXd in_plane = exact->predict(task.samples);
+    Rng rng(5);
+    task.samples.y = in_plane;
+    for (double& value : task.samples.y.reshaped()) value += 0.05 * rng.normal();
+    // It cannot know what acts outside the plane, but what it invents is no larger than the force.
+    const auto regressors = make_regressors(task.problem.layout, Terms::kRigid);
+    const Eigen::MatrixXd plain =
+        regressors->of(task.samples.x).householderQr().solve(task.samples.y);
+    const auto largest = [&](const Eigen::MatrixXd& force) {
+      return (force - in_plane).cwiseAbs().maxCoeff();
+    };
+    EXPECT_LT(largest(fitted(kind, task)->predict(whole)), 7.4) << kind;
+    EXPECT_GT(largest(regressors->of(whole.x) * plain), 100.0);
   }
 }
 
 TEST(Rls, WeighsTheNewestMost) {
-  const ToolModel tool = swinging_tool();
-  Task task = task_of("rls", exact_recording(tool, "multisine", 6000, 3), "body",
-                      {{"model", {{"forgetting", 0.99}}}});
-  const Samples before = task.samples;
+  const Recording recording = exact_recording(swinging_tool(), "multisine", 6000, 3);
+  Task task = task_of("rls", recording, "body", {{"model", {{"forgetting", 0.998}}}});
+  Samples newest;
+  newest.x = task.samples.x.bottomRows(500);
+  newest.y = task.samples.y.bottomRows(500);
   task.samples.y.topRows(3000).array() += 5.0;  // another bias in the first half
-  EXPECT_LT(
-      largest_error(*fitted("rls", task),
-                    {{before.x.bottomRows(3000), {{0, 3000}}}, before.y.bottomRows(3000), {}}),
-      1e-3);
+  const Task batch{task_of("rigid", recording, "body").problem, task.samples};
+  EXPECT_GT(largest_error(*fitted("rigid", batch), newest), 2.0);
+  EXPECT_LT(largest_error(*fitted("rls", task), newest), 0.2);
 }
 
 TEST(Axes, EveryTargetSeesEveryAxis) {

@@ -14,7 +14,10 @@ inline ToolModel swinging_tool() {
   ToolModel tool;
   tool.mass = 0.75;
   tool.com = {0.01, -0.02, 0.16};
-  tool.inertia = Eigen::Vector3d(0.021, 0.02, 0.004).asDiagonal();
+  const Eigen::Matrix3d about_com = Eigen::Vector3d(0.0015, 0.0014, 0.0005).asDiagonal();
+  const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
+  tool.inertia =
+      about_com + tool.mass * (tool.com.squaredNorm() * one - tool.com * tool.com.transpose());
   tool.sensor_rotation_rpy = {0.1, -0.2, 0.3};
   tool.bias = {0.6, -0.4, 1.1};
   tool.bias_torque = {0.02, 0.01, -0.03};
