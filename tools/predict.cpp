@@ -14,8 +14,9 @@ constexpr const char* kExamples =
     "simulator\n";
 
 Recording predict_with_model(const std::filesystem::path& model, const std::filesystem::path& data,
-                             const ReadOptions& read) {
+                             ReadOptions read) {
   const Identifier identifier = read_identifier(model);
+  read.static_list = identifier.layout.dt == 0.0;  // it was learned from poses at rest
   Recording recording = read_recording(data, read, identifier.layout.system);
   const Eigen::MatrixXd predicted = identifier.predict(recording);
   for (std::size_t j = 0; j < identifier.targets.names.size(); ++j) {

@@ -44,17 +44,19 @@ TestSet make_test_set(const Identifier& identifier, const std::vector<Recording>
   return set;
 }
 
-/// Reads each file once per system description.
+/// Reads each file once per system description; without time where the features need none.
 class RecordingCache {
  public:
   RecordingCache(const EvaluationRequest& request, Evaluation& evaluation)
       : request_(request), evaluation_(evaluation) {}
 
-  const std::vector<Recording>& get(const System& system) {
-    auto [entry, is_new] = cache_.try_emplace(system.json.dump());
+  const std::vector<Recording>& get(const FeatureLayout& layout) {
+    ReadOptions read = request_.read;
+    read.static_list = layout.dt == 0.0;
+    auto [entry, is_new] = cache_.try_emplace({layout.system.json.dump(), read.static_list});
     if (is_new) {
       for (const auto& path : request_.data) {
-        entry->second.push_back(read_recording(path, request_.read, system));
+        entry->second.push_back(read_recording(path, read, layout.system));
         for (const auto& note : entry->second.back().notes) {
           evaluation_.notes.push_back(entry->second.back().name + ": " + note);
         }
@@ -66,7 +68,7 @@ class RecordingCache {
  private:
   const EvaluationRequest& request_;
   Evaluation& evaluation_;
-  std::map<std::string, std::vector<Recording>> cache_;
+  std::map<std::pair<std::string, bool>, std::vector<Recording>> cache_;
 };
 
 std::uint64_t noise_key(std::uint64_t seed, double level, int run) {
@@ -121,7 +123,7 @@ Evaluation evaluate(const EvaluationRequest& request,
   for (const auto& path : request.models) {
     const Identifier identifier = read_identifier(path);
     check_targets(evaluation, identifier, path.string());
-    const TestSet set = make_test_set(identifier, recordings.get(identifier.layout.system));
+    const TestSet set = make_test_set(identifier, recordings.get(identifier.layout));
     evaluation.targets = identifier.targets;
     evaluation.samples = set.stream.rows();
     evaluation.singular_samples = std::max(evaluation.singular_samples, set.singular);

@@ -15,11 +15,13 @@ namespace {
 constexpr double kValidationGapSeconds = 1.0;
 
 std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
-                                const TrainingRequest& request, const System& system,
+                                const TrainingRequest& request, const Configuration& configuration,
                                 const TrainingObserver& observer) {
+  ReadOptions read = request.read;
+  read.static_list = configuration.kind->takes_static_lists;
   std::vector<Recording> recordings;
   for (const auto& path : paths) {
-    recordings.push_back(read_recording(path, request.read, system));
+    recordings.push_back(read_recording(path, read, configuration.system));
     for (const auto& note : recordings.back().notes) {
       if (observer.note) observer.note(recordings.back().name + ": " + note);
     }
@@ -64,8 +66,9 @@ class Splitter {
                               identifier_.base_prediction(recording);
     const Index total = recording.samples();
     const auto held = static_cast<Index>(std::lround(share * static_cast<double>(total)));
-    const auto gap =
-        held > 0 ? static_cast<Index>(std::lround(kValidationGapSeconds / recording.dt)) : 0;
+    const auto gap = held > 0 && recording.dt > 0.0
+                         ? static_cast<Index>(std::lround(kValidationGapSeconds / recording.dt))
+                         : 0;
     std::vector<Index> first, second;
     for (Index row = 0; row < total; ++row) {
       if (!features.valid[static_cast<std::size_t>(row)]) continue;
@@ -219,8 +222,8 @@ std::filesystem::path run_directory(const std::filesystem::path& model) {
 
 TrainingOutcome train(const TrainingRequest& request, const TrainingObserver& observer) {
   const Configuration configuration = resolve(request.configuration);
-  const auto recordings = read_all(request.training, request, configuration.system, observer);
-  const auto held_out = read_all(request.validation, request, configuration.system, observer);
+  const auto recordings = read_all(request.training, request, configuration, observer);
+  const auto held_out = read_all(request.validation, request, configuration, observer);
 
   Identifier identifier;
   identifier.name = configuration.kind->name;

@@ -28,7 +28,7 @@ std::unique_ptr<Model> load(const Container& file, const std::string& where) {
 }  // namespace
 
 extern const ModelKind cf_model;
-const ModelKind cf_model{"cf", "curve fitting: the force as a function of the orientation", preset,
-                         make, load};
+const ModelKind cf_model{
+    "cf", "curve fitting: the force as a function of the orientation", preset, make, load, true};
 
 }  // namespace dcnn

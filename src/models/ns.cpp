@@ -49,6 +49,6 @@ std::unique_ptr<Model> load(const Container& file, const std::string& where) {
 }  // namespace
 
 extern const ModelKind ns_model;
-const ModelKind ns_model{"ns", "no identification: predicts zero", preset, make, load};
+const ModelKind ns_model{"ns", "no identification: predicts zero", preset, make, load, true};
 
 }  // namespace dcnn

@@ -117,6 +117,7 @@ std::unique_ptr<Model> load(const Container& file, const std::string& where) {
 
 extern const ModelKind rigid_model;
 const ModelKind rigid_model{"rigid", "the rigid tool: regression on its terms, or its parameters",
-                            preset, make, load};
+                            preset,  make,
+                            load,    true};
 
 }  // namespace dcnn

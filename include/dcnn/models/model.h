@@ -100,6 +100,7 @@ struct ModelKind {
   Json (*preset)(const std::string& preset, bool axes);
   std::unique_ptr<Model> (*make)(const Problem& problem);
   std::unique_ptr<Model> (*load)(const Container& file, const std::string& where);
+  bool takes_static_lists = false;  ///< the orientation alone, without time, is enough
 };
 std::vector<const ModelKind*> model_kinds();
 /// By name; an unknown name is an Error(exit) with a suggestion.
