@@ -50,6 +50,16 @@ Eigen::VectorXd floored(const Eigen::VectorXd& deviation, double share,
 
 }  // namespace
 
+InputMap::Spec parse_input_map(Options options) {
+  InputMap::Spec spec;
+  spec.variance = options.choice("sigma", "std", {"std", "variance"}) == "variance";
+  spec.zerocenter = options.get("zerocenter", true);
+  spec.sigma_floor = options.number("sigma_floor", 0.0, 0.0, 1.0);
+  spec.clip = options.number("clip", 0.0, 0.0, 1e6);
+  options.finish();
+  return spec;
+}
+
 InputMap::InputMap(const Eigen::MatrixXd& training, Spec spec,
                    const std::vector<std::string>& units)
     : spec_(spec) {

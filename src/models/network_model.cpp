@@ -12,16 +12,6 @@ namespace {
 
 enum RandomStream : std::uint64_t { kInitialWeights = 100 };
 
-InputMap::Spec parse_map(Options options) {
-  InputMap::Spec spec;
-  spec.variance = options.choice("sigma", "std", {"std", "variance"}) == "variance";
-  spec.zerocenter = options.get("zerocenter", true);
-  spec.sigma_floor = options.number("sigma_floor", 0.0, 0.0, 1.0);
-  spec.clip = options.number("clip", 0.0, 0.0, 1e6);
-  options.finish();
-  return spec;
-}
-
 TargetScale make_scale(const Eigen::MatrixXd& y, const Eigen::VectorXd& spread, bool standardise) {
   if (standardise) return {y.colwise().mean(), spread};
   return {Eigen::VectorXd::Zero(y.cols()), Eigen::VectorXd::Ones(y.cols())};
@@ -79,7 +69,7 @@ NetworkModel::NetworkModel(std::string kind, const Json& input, const Json& laye
                            const Problem& problem)
     : kind_(std::move(kind)), units_(problem.layout.units), seed_(problem.seed) {
   Options options(problem.configuration, problem.where, Exit::kUsage);
-  map_spec_ = parse_map(options.child("map"));
+  map_spec_ = parse_input_map(options.child("map"));
   training_ = TrainingSpec::parse(options.child("training"));
   noise_ = parse_noise(options.child("noise"));
   input_ = make_input(input, problem.features(), problem.where, Exit::kUsage);

@@ -15,8 +15,9 @@ class InputMap {
  public:
   static constexpr Index kColumns = 5;
   struct Spec {
-    bool variance = false;    ///< divide by the variance, as the paper says, not the standard deviation
-    bool zerocenter = true;   ///< subtract the per-cell mean over the training part
+    bool variance =
+        false;  ///< divide by the variance, as the paper says, not the standard deviation
+    bool zerocenter = true;  ///< subtract the per-cell mean over the training part
     /// Least deviation to divide by, as a share of the largest among features of the same unit: a
     /// component that hardly moved beside its sisters holds noise, and its z-score would explode on
     /// the first recording in which it does move. 0 is the paper.
@@ -25,8 +26,8 @@ class InputMap {
   };
 
   InputMap() = default;
-  /// Statistics of the training features (T, F), N - 1 in the denominator; sd below 1e-12 counts as 1.
-  /// `units` (F) says which features are of one kind; an empty unit stands alone.
+  /// Statistics of the training features (T, F), N - 1 in the denominator; sd below 1e-12 counts
+  /// as 1. `units` (F) says which features are of one kind; an empty unit stands alone.
   InputMap(const Eigen::MatrixXd& training, Spec spec, const std::vector<std::string>& units = {});
 
   Index features() const { return mean_.size(); }
@@ -52,5 +53,8 @@ class InputMap {
   Eigen::VectorXd centre_;  // (F·5), zeros without zerocenter
   Spec spec_;
 };
+
+/// Keys: sigma (std|variance), zerocenter, sigma_floor, clip.
+InputMap::Spec parse_input_map(Options options);
 
 }  // namespace dcnn
