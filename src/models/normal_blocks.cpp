@@ -26,23 +26,36 @@ void add_product(const RowMatrix& a, const RowMatrix& b, double* sums) {
                                    .columns = b.cols()});
 }
 
-/// to += the products x_i·x_j with i <= j of every row, for rows of x from `first` on.
-void add_pairs(const RowMatrix& x, Index first, Index count, RowMatrix& to) {
+/// to = (or +=) factor·values.
+template <class Values>
+void put(const Values& values, double factor, bool add, double* to) {
+  Eigen::Map<Eigen::RowVectorXd> target(to, values.size());
+  if (add) {
+    target += factor * values;
+  } else {
+    target = factor * values;
+  }
+}
+
+/// to = (or +=) the products x_i·x_j, i <= j, of every row, for x from `first` on.
+void pair_products(const RowMatrix& x, Index first, Index count, bool add, RowMatrix& to) {
   for (Index row = 0; row < x.rows(); ++row) {
     const auto values = x.row(row).segment(first, count);
-    for (Index i = 0, p = 0; i < count; p += count - i, ++i) {
-      to.row(row).segment(p, count - i) += values[i] * values.tail(count - i);
+    double* products = to.row(row).data();
+    for (Index i = 0; i < count; products += count - i, ++i) {
+      put(values.tail(count - i), values[i], add, products);
     }
   }
 }
 
-/// to += the products x_i·y_j of every row, for stretches of x and y.
-void add_products(const RowMatrix& x, Index x_first, Index x_count, const RowMatrix& y,
-                  Index y_first, Index y_count, RowMatrix& to) {
+/// to = (or +=) the products x_i·y_j of every row, for stretches of x and y.
+void all_products(const RowMatrix& x, Index x_first, Index x_count, const RowMatrix& y,
+                  Index y_first, Index y_count, bool add, RowMatrix& to) {
   for (Index row = 0; row < x.rows(); ++row) {
     const auto values = y.row(row).segment(y_first, y_count);
-    for (Index i = 0; i < x_count; ++i) {
-      to.row(row).segment(i * y_count, y_count) += x(row, x_first + i) * values;
+    double* products = to.row(row).data();
+    for (Index i = 0; i < x_count; ++i, products += y_count) {
+      put(values, x(row, x_first + i), add, products);
     }
   }
 }
@@ -67,8 +80,7 @@ NormalBlocks::NormalBlocks(const ShallowNetwork& network, Eigen::VectorXd scale)
 
 NormalBlocks::Block NormalBlocks::make_block(std::size_t first, std::size_t second) const {
   const auto &l = network_.layers()[first], &m = network_.layers()[second];
-  const Index signals =
-      first == second ? pairs(1 + l.width) : (1 + l.width) * (1 + m.width);
+  const Index signals = first == second ? pairs(1 + l.width) : (1 + l.width) * (1 + m.width);
   Index deltas = l.units * m.units;
   if (first == second) deltas = is_output(first) ? 1 : pairs(l.units);
   if (first != second && is_output(second) && is_last_hidden(first)) deltas = l.units;
@@ -97,14 +109,15 @@ NormalBlocks::Rows NormalBlocks::prepare(const Eigen::VectorXd& weights,
     for (std::size_t m = l + 1; m < layers.size(); ++m) {
       const Index seen = layer.place - layers[m].first;
       if (seen < 0 || seen >= layers[m].width) continue;
-      const auto between = ShallowNetwork::weights_of(layers[m], weights).middleRows(1 + seen, units);
+      const auto between =
+          ShallowNetwork::weights_of(layers[m], weights).middleRows(1 + seen, units);
       for (Index k = 0; k < outputs; ++k) {
         auto delta = rows.deltas[l].middleCols(k * units, units);
         if (is_output(m)) {
           delta.rowwise() += scale_[k] * between.col(k).transpose();
         } else {
-          delta += rows.deltas[m].middleCols(k * layers[m].units, layers[m].units) *
-                   between.transpose();
+          delta +=
+              rows.deltas[m].middleCols(k * layers[m].units, layers[m].units) * between.transpose();
         }
       }
     }
@@ -126,17 +139,18 @@ RowMatrix NormalBlocks::delta_products(const Block& block, const Rows& rows) con
     for (Index k = 0; k < outputs; ++k) products.middleCols(k * units, units) *= scale_[k];
     return products;
   }
-  RowMatrix products = RowMatrix::Zero(n, block.deltas);
+  RowMatrix products(n, block.deltas);
   if (l == m && is_last_hidden(l)) {
-    add_pairs(rows.slopes[l], 0, units, products);
+    pair_products(rows.slopes[l], 0, units, false, products);
     return products;
   }
   const Index others = network_.layers()[m].units;
   for (Index k = 0; k < outputs; ++k) {
     if (l == m) {
-      add_pairs(rows.deltas[l], k * units, units, products);
+      pair_products(rows.deltas[l], k * units, units, k > 0, products);
     } else {
-      add_products(rows.deltas[l], k * units, units, rows.deltas[m], k * others, others, products);
+      all_products(rows.deltas[l], k * units, units, rows.deltas[m], k * others, others, k > 0,
+                   products);
     }
   }
   return products;
@@ -144,11 +158,11 @@ RowMatrix NormalBlocks::delta_products(const Block& block, const Rows& rows) con
 
 RowMatrix NormalBlocks::signal_products(const Block& block, const Rows& rows) const {
   const RowMatrix &a = rows.signals[block.first], &b = rows.signals[block.second];
-  RowMatrix products = RowMatrix::Zero(a.rows(), block.signals);
+  RowMatrix products(a.rows(), block.signals);
   if (block.first == block.second) {
-    add_pairs(a, 0, a.cols(), products);
+    pair_products(a, 0, a.cols(), false, products);
   } else {
-    add_products(a, 0, a.cols(), b, 0, b.cols(), products);
+    all_products(a, 0, a.cols(), b, 0, b.cols(), false, products);
   }
   return products;
 }
@@ -198,7 +212,8 @@ std::vector<NormalBlocks::Term> NormalBlocks::terms(const Block& block,
   } else if (is_output(block.second)) {
     for (Index k = 0; k < m; ++k) {
       for (Index i = 0; i < l; ++i) {
-        list.push_back(last ? Term{i, k, i, scale_[k] * drawn_out(i, k)} : Term{i, k, product++, 1.0});
+        list.push_back(last ? Term{i, k, i, scale_[k] * drawn_out(i, k)}
+                            : Term{i, k, product++, 1.0});
       }
     }
   } else {

@@ -12,9 +12,9 @@ namespace dcnn {
 /// A row of J is, for a weight from signal a to unit i of layer l, delta^l_ki·s^l_a, so the part of
 /// J^T J between layers l and m is sum over rows of (sum over k of delta^l_ki·delta^m_kj)·(s^l_a·
 /// s^m_b): a product of two matrices with a row per sample, products of deltas and products of
-/// signals, of which equal ones (i and j, or a and b, exchanged) are formed once. Where a delta is a
-/// weight times what does not depend on k, the weight is drawn out of the sum. For one hidden layer of
-/// 20 units, 15 inputs and 3 outputs that is a sixth of the multiplications of J^T J.
+/// signals, of which equal ones (i and j, or a and b, exchanged) are formed once. Where a delta is
+/// a weight times what does not depend on k, the weight is drawn out of the sum. For one hidden
+/// layer of 20 units, 15 inputs and 3 outputs that is a sixth of the multiplications of J^T J.
 class NormalBlocks {
  public:
   NormalBlocks(const ShallowNetwork& network, Eigen::VectorXd scale);
@@ -36,7 +36,8 @@ class NormalBlocks {
     Index deltas, signals;      // products: columns of the two factors
     Index offset;               // among the sums
   };
-  struct Term {  // units i of the first layer and j of the second have factor·(this product of deltas)
+  struct Term {  // units i of the first layer and j of the second have factor·(this product of
+                 // deltas)
     Index i, j, product;
     double factor;
   };

@@ -10,8 +10,7 @@ namespace {
 
 bool is_angle(const std::string& name) {
   static const std::vector<std::string> kOrientation{"alpha", "beta", "gamma", "ux", "uy", "uz"};
-  return std::ranges::find(kOrientation, name) != kOrientation.end() ||
-         name.ends_with("_position");
+  return std::ranges::find(kOrientation, name) != kOrientation.end() || name.ends_with("_position");
 }
 
 std::vector<Index> angles(const Options& model, const FeatureLayout& layout) {
@@ -146,8 +145,10 @@ RowMatrix ShallowInput::read(const Stream& stream, const InputMap& map,
 void ShallowInput::save(Container& file) const {
   file.metadata["input"] = (input_ ? input_->to_json() : Json()).dump();
   file.tensors.push_back({"input_columns", {count()}, columns_});
-  file.tensors.push_back({"input_least", {count()}, std::vector<double>(least_.begin(), least_.end())});
-  file.tensors.push_back({"input_most", {count()}, std::vector<double>(most_.begin(), most_.end())});
+  file.tensors.push_back(
+      {"input_least", {count()}, std::vector<double>(least_.begin(), least_.end())});
+  file.tensors.push_back(
+      {"input_most", {count()}, std::vector<double>(most_.begin(), most_.end())});
 }
 
 }  // namespace dcnn

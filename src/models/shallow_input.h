@@ -9,8 +9,8 @@
 
 namespace dcnn {
 
-/// Columns of the features or of any NetworkInput; those that are constant over the training rows are
-/// left out, the others mapped to [-1, 1] by their least and greatest training values.
+/// Columns of the features or of any NetworkInput; those that are constant over the training rows
+/// are left out, the others mapped to [-1, 1] by their least and greatest training values.
 class ShallowInput {
  public:
   /// `model.inputs`: "all", "angles" (the orientation, or the axes' positions: the earlier works,

@@ -78,9 +78,9 @@ ShallowModel::ShallowModel(std::string kind, bool cascade, const Problem& proble
     : kind_(std::move(kind)),
       units_(problem.layout.units),
       input_(model, problem.layout, problem.where),
-      network_(make_network({input_.count(), model.get<std::vector<Index>>("hidden"),
-                             problem.outputs(), cascade},
-                            problem.where, Exit::kUsage)),
+      network_(make_network(
+          {input_.count(), model.get<std::vector<Index>>("hidden"), problem.outputs(), cascade},
+          problem.where, Exit::kUsage)),
       seed_(problem.seed) {
   model.raw("name");
   model.finish();
@@ -140,9 +140,7 @@ ShallowModel::Division ShallowModel::divide(Index rows) const {
   Rng rng({seed_, kDivision});
   if (training_.random) order = permutation(used, rng);
   for (Index& row : order) row *= training_.stride;
-  const auto share = [used](double part) {
-    return std::lround(part * static_cast<double>(used));
-  };
+  const auto share = [used](double part) { return std::lround(part * static_cast<double>(used)); };
   const auto first = order.begin() + share(kTrainingShare);
   const auto second = first + share(kValidationShare);
   Division division{{order.begin(), first}, {first, second}};
@@ -160,8 +158,7 @@ bool ShallowModel::fit(const Samples& training, const Samples& validation, FitSe
   network_ = ShallowNetwork(shape);
 
   const Samples noisy = augmented(training, noise_, map_, Rng({seed_, kNoise}).bits());
-  const RowMatrix targets =
-      (noisy.y.rowwise() - middle_).array().rowwise() / half_range_.array();
+  const RowMatrix targets = (noisy.y.rowwise() - middle_).array().rowwise() / half_range_.array();
   const auto residuals = [&](const std::vector<Index>& rows) {
     return ShallowResiduals(network_, input_.read(noisy, map_, rows), targets(rows, Eigen::all),
                             error_scale_);

@@ -13,9 +13,9 @@ namespace dcnn {
 /// Keys of `training`.
 struct ShallowTraining {
   LevenbergMarquardt::Settings optimiser;
-  Index stride = 1;           ///< every so manyth row is used
-  bool random = true;         ///< 70/15/15 % drawn at random (the toolbox), else contiguous blocks
-  bool standardise = false;   ///< errors in units of each target's spread, else in its own unit
+  Index stride = 1;          ///< every so manyth row is used
+  bool random = true;        ///< 70/15/15 % drawn at random (the toolbox), else contiguous blocks
+  bool standardise = false;  ///< errors in units of each target's spread, else in its own unit
 
   static ShallowTraining parse(Options options);
 };

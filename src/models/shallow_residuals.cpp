@@ -8,7 +8,7 @@ namespace dcnn {
 namespace {
 
 constexpr Index kPieces = 8;
-constexpr Index kChunk = 128;  // rows whose products stay in the cache
+constexpr Index kChunk = 64;  // rows whose products stay in the cache
 
 }  // namespace
 

@@ -7,13 +7,9 @@
 namespace dcnn {
 namespace {
 
-const std::vector<ShallowNetwork::Shape> kShapes{{4, {5}, 3, false},
-                                                 {4, {5}, 3, true},
-                                                 {3, {4, 3}, 2, false},
-                                                 {3, {4, 3}, 2, true},
-                                                 {2, {3, 1, 2}, 3, false},
-                                                 {2, {3, 1, 2}, 3, true},
-                                                 {1, {1}, 1, false}};
+const std::vector<ShallowNetwork::Shape> kShapes{
+    {4, {5}, 3, false},       {4, {5}, 3, true},       {3, {4, 3}, 2, false}, {3, {4, 3}, 2, true},
+    {2, {3, 1, 2}, 3, false}, {2, {3, 1, 2}, 3, true}, {1, {1}, 1, false}};
 
 RowMatrix draw(Index rows, Index columns, std::uint64_t seed) {
   Rng rng(seed);

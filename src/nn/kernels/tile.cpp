@@ -124,6 +124,8 @@ namespace dcnn {
 HWY_EXPORT(product_f32);
 HWY_EXPORT(product_f64);
 void tile_product(const TileProduct<float>& product) { HWY_DYNAMIC_DISPATCH(product_f32)(product); }
-void tile_product(const TileProduct<double>& product) { HWY_DYNAMIC_DISPATCH(product_f64)(product); }
+void tile_product(const TileProduct<double>& product) {
+  HWY_DYNAMIC_DISPATCH(product_f64)(product);
+}
 }  // namespace dcnn
 #endif

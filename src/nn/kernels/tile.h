@@ -1,5 +1,5 @@
-// The one multiply-add loop behind convolution, its gradients, the fully connected layer's gradients
-// and, in double, the sums of Levenberg and Marquardt.
+// The one multiply-add loop behind convolution, its gradients, the fully connected layer's
+// gradients and, in double, the sums of Levenberg and Marquardt.
 #pragma once
 
 #include <span>
@@ -26,8 +26,8 @@ struct TileProduct {
   std::span<const Run> runs;
   T* out;
   Index out_row;
-  const T* start;    // null: zero; `out` itself: add to it
-  Index start_row;    // 0: one row for all (a bias)
+  const T* start;   // null: zero; `out` itself: add to it
+  Index start_row;  // 0: one row for all (a bias)
   Index rows, columns;
 };
 
