@@ -2,63 +2,10 @@
 
 #include <utility>
 
-#include "nn/kernels/tile.h"
-
 namespace dcnn {
 namespace {
 
 Index pairs(Index n) { return n * (n + 1) / 2; }
-
-/// sums (a.cols, b.cols) += a^T·b.
-void add_product(const RowMatrix& a, const RowMatrix& b, double* sums) {
-  const Run run{0, 0, a.rows()};
-  tile_product(TileProduct<double>{.a = a.data(),
-                                   .a_row = 1,
-                                   .a_step = a.cols(),
-                                   .b = b.data(),
-                                   .b_step = b.cols(),
-                                   .runs = {&run, 1},
-                                   .out = sums,
-                                   .out_row = b.cols(),
-                                   .start = sums,
-                                   .start_row = b.cols(),
-                                   .rows = a.cols(),
-                                   .columns = b.cols()});
-}
-
-/// to = (or +=) factor·values.
-template <class Values>
-void put(const Values& values, double factor, bool add, double* to) {
-  Eigen::Map<Eigen::RowVectorXd> target(to, values.size());
-  if (add) {
-    target += factor * values;
-  } else {
-    target = factor * values;
-  }
-}
-
-/// to = (or +=) the products x_i·x_j, i <= j, of every row, for x from `first` on.
-void pair_products(const RowMatrix& x, Index first, Index count, bool add, RowMatrix& to) {
-  for (Index row = 0; row < x.rows(); ++row) {
-    const auto values = x.row(row).segment(first, count);
-    double* products = to.row(row).data();
-    for (Index i = 0; i < count; products += count - i, ++i) {
-      put(values.tail(count - i), values[i], add, products);
-    }
-  }
-}
-
-/// to = (or +=) the products x_i·y_j of every row, for stretches of x and y.
-void all_products(const RowMatrix& x, Index x_first, Index x_count, const RowMatrix& y,
-                  Index y_first, Index y_count, bool add, RowMatrix& to) {
-  for (Index row = 0; row < x.rows(); ++row) {
-    const auto values = y.row(row).segment(y_first, y_count);
-    double* products = to.row(row).data();
-    for (Index i = 0; i < x_count; ++i, products += y_count) {
-      put(values, x(row, x_first + i), add, products);
-    }
-  }
-}
 
 }  // namespace
 
@@ -91,7 +38,6 @@ NormalBlocks::Rows NormalBlocks::prepare(const Eigen::VectorXd& weights,
                                          const RowMatrix& signals) const {
   const auto& layers = network_.layers();
   const auto hidden = static_cast<std::size_t>(network_.hidden_layers());
-  const Index outputs = scale_.size();
   Rows rows;
   rows.slopes.resize(hidden);
   rows.deltas.resize(hidden);
@@ -101,31 +47,36 @@ NormalBlocks::Rows NormalBlocks::prepare(const Eigen::VectorXd& weights,
     rows.signals.back().rightCols(layer.width) = signals.middleCols(layer.first, layer.width);
   }
   for (std::size_t l = hidden; l-- > 0;) {
-    const auto& layer = layers[l];
-    const Index units = layer.units;
-    rows.slopes[l] = 1.0 - signals.middleCols(layer.place, units).array().square();
-    rows.deltas[l] = RowMatrix::Zero(signals.rows(), outputs * units);
-    // Back from every layer that sees this one; the output layer's own delta is its scale.
-    for (std::size_t m = l + 1; m < layers.size(); ++m) {
-      const Index seen = layer.place - layers[m].first;
-      if (seen < 0 || seen >= layers[m].width) continue;
-      const auto between =
-          ShallowNetwork::weights_of(layers[m], weights).middleRows(1 + seen, units);
-      for (Index k = 0; k < outputs; ++k) {
-        auto delta = rows.deltas[l].middleCols(k * units, units);
-        if (is_output(m)) {
-          delta.rowwise() += scale_[k] * between.col(k).transpose();
-        } else {
-          delta +=
-              rows.deltas[m].middleCols(k * layers[m].units, layers[m].units) * between.transpose();
-        }
-      }
-    }
-    for (Index k = 0; k < outputs; ++k) {
-      rows.deltas[l].middleCols(k * units, units).array() *= rows.slopes[l].array();
-    }
+    rows.slopes[l] = 1.0 - signals.middleCols(layers[l].place, layers[l].units).array().square();
+    rows.deltas[l] = deltas(l, weights, rows);
   }
   return rows;
+}
+
+/// Back from every layer that sees layer l; the output layer's own delta is its scale.
+RowMatrix NormalBlocks::deltas(std::size_t l, const Eigen::VectorXd& weights,
+                               const Rows& rows) const {
+  const auto& layers = network_.layers();
+  const Index units = layers[l].units, outputs = scale_.size();
+  RowMatrix result = RowMatrix::Zero(rows.slopes[l].rows(), outputs * units);
+  for (std::size_t m = l + 1; m < layers.size(); ++m) {
+    const Index seen = layers[l].place - layers[m].first;
+    if (seen < 0 || seen >= layers[m].width) continue;
+    const auto between = ShallowNetwork::weights_of(layers[m], weights).middleRows(1 + seen, units);
+    for (Index k = 0; k < outputs; ++k) {
+      auto delta = result.middleCols(k * units, units);
+      if (is_output(m)) {
+        delta.rowwise() += scale_[k] * between.col(k).transpose();
+      } else {
+        const auto later = rows.deltas[m].middleCols(k * layers[m].units, layers[m].units);
+        delta += later * between.transpose();
+      }
+    }
+  }
+  for (Index k = 0; k < outputs; ++k) {
+    result.middleCols(k * units, units).array() *= rows.slopes[l].array();
+  }
+  return result;
 }
 
 RowMatrix NormalBlocks::delta_products(const Block& block, const Rows& rows) const {

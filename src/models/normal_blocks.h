@@ -47,6 +47,7 @@ class NormalBlocks {
   bool is_last_hidden(std::size_t layer) const { return layer + 2 == network_.layers().size(); }
   Block make_block(std::size_t first, std::size_t second) const;
   Rows prepare(const Eigen::VectorXd& weights, const RowMatrix& signals) const;
+  RowMatrix deltas(std::size_t layer, const Eigen::VectorXd& weights, const Rows& rows) const;
   RowMatrix delta_products(const Block& block, const Rows& rows) const;
   RowMatrix signal_products(const Block& block, const Rows& rows) const;
   void add_gradient(const Rows& rows, const RowMatrix& errors, double* sums) const;

@@ -4,12 +4,10 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "dcnn/core/parallel.h"
 #include "dcnn/core/random.h"
+#include "models/row_products.h"
 
 namespace dcnn {
-
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// The function alone; its weights are one vector that the caller holds. All signals of one sample
 /// lie in one row: the inputs, then the units of each hidden layer.
