@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "models/augmented.h"
-#include "models/shallow_residuals.h"
 #include "models/tensor_io.h"
 
 namespace dcnn {
@@ -61,7 +60,7 @@ ShallowTraining ShallowTraining::parse(Options options) {
   ShallowTraining spec;
   spec.optimiser.epochs = static_cast<Index>(options.number("epochs", 200, 1, 1e6));
   spec.stride = static_cast<Index>(options.number("stride", 1, 1, 1e6));
-  spec.random = options.choice("division", "random", {"random", "blocks"}) == "random";
+  spec.division = options.choice("division", "random", {"random", "blocks", "held-out"});
   spec.standardise = options.get("standardise_targets", false);
   for (const char* key : {"validation", "candidates", "candidate_epochs"}) {
     options.raw(key);  // read by the experiment
@@ -132,14 +131,15 @@ void ShallowModel::learn_scales(const Samples& training) {
   error_scale_.array() /= (spread.array() < 1e-12).select(1.0, spread.array());
 }
 
-ShallowModel::Division ShallowModel::divide(Index rows) const {
-  const Index used = (rows + training_.stride - 1) / training_.stride;
+ShallowModel::Division ShallowModel::divide(const Samples& training) const {
+  const Index used = (training.rows() + training_.stride - 1) / training_.stride;
   require(used >= kLeastRows, Exit::kData, "only ", used,
           " training rows; give longer recordings or a smaller training.stride");
   std::vector<Index> order = all_rows(used);
   Rng rng({seed_, kDivision});
-  if (training_.random) order = permutation(used, rng);
+  if (training_.division == "random") order = permutation(used, rng);
   for (Index& row : order) row *= training_.stride;
+  if (training_.division == "held-out") return {order, {}};
   const auto share = [used](double part) { return std::lround(part * static_cast<double>(used)); };
   const auto first = order.begin() + share(kTrainingShare);
   const auto second = first + share(kValidationShare);
@@ -147,6 +147,13 @@ ShallowModel::Division ShallowModel::divide(Index rows) const {
   std::ranges::sort(division.training);
   std::ranges::sort(division.validation);
   return division;
+}
+
+ShallowResiduals ShallowModel::residuals(const Samples& samples,
+                                         const std::vector<Index>& rows) const {
+  const RowMatrix targets =
+      (samples.y(rows, Eigen::all).rowwise() - middle_).array().rowwise() / half_range_.array();
+  return {network_, input_.read(samples, map_, rows), targets, error_scale_};
 }
 
 bool ShallowModel::fit(const Samples& training, const Samples& validation, FitSession& session) {
@@ -158,14 +165,14 @@ bool ShallowModel::fit(const Samples& training, const Samples& validation, FitSe
   network_ = ShallowNetwork(shape);
 
   const Samples noisy = augmented(training, noise_, map_, Rng({seed_, kNoise}).bits());
-  const RowMatrix targets = (noisy.y.rowwise() - middle_).array().rowwise() / half_range_.array();
-  const auto residuals = [&](const std::vector<Index>& rows) {
-    return ShallowResiduals(network_, input_.read(noisy, map_, rows), targets(rows, Eigen::all),
-                            error_scale_);
-  };
-  const Division division = divide(training.rows());
-  const ShallowResiduals to_fit = residuals(division.training);
-  const ShallowResiduals to_stop = residuals(division.validation);
+  const Division division = divide(noisy);
+  const ShallowResiduals to_fit = residuals(noisy, division.training);
+  const bool held_out = training_.division == "held-out";
+  require(
+      !held_out || validation.rows() > 0, Exit::kUsage,
+      "training.division 'held-out' needs validation rows; give training.validation or --valid");
+  const ShallowResiduals to_stop = held_out ? residuals(validation, all_rows(validation.rows()))
+                                            : residuals(noisy, division.validation);
   Rng rng({seed_, kInitialWeights});
   LevenbergMarquardt optimiser(to_fit, &to_stop, training_.optimiser,
                                network_.initial_weights(rng));

@@ -7,14 +7,18 @@
 #include "models/levenberg_marquardt.h"
 #include "models/shallow_input.h"
 #include "models/shallow_network.h"
+#include "models/shallow_residuals.h"
 
 namespace dcnn {
 
 /// Keys of `training`.
 struct ShallowTraining {
   LevenbergMarquardt::Settings optimiser;
-  Index stride = 1;          ///< every so manyth row is used
-  bool random = true;        ///< 70/15/15 % drawn at random (the toolbox), else contiguous blocks
+  Index stride = 1;  ///< every so manyth row is used
+  /// random, blocks: 70 % of the rows to train on, 15 % to stop by, 15 % unused, drawn at random
+  /// (the toolbox) or contiguous. held-out: all of them to train on, the run's validation rows to
+  /// stop by, as the networks trained by Adam.
+  std::string division = "random";
   bool standardise = false;  ///< errors in units of each target's spread, else in its own unit
 
   static ShallowTraining parse(Options options);
@@ -38,7 +42,8 @@ class ShallowModel : public Model {
     std::vector<Index> training, validation;
   };
   void learn_scales(const Samples& training);
-  Division divide(Index rows) const;
+  Division divide(const Samples& training) const;
+  ShallowResiduals residuals(const Samples& samples, const std::vector<Index>& rows) const;
   bool run(LevenbergMarquardt& optimiser, const Samples& validation, FitSession& session);
   EpochRecord record(const LevenbergMarquardt& optimiser, double mu,
                      const Samples& validation) const;

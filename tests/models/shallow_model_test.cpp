@@ -199,6 +199,36 @@ TEST(ShallowModel, UnusedRowsAreNotLookedAt) {
                bytes_of(*fitted("ffnn-m", changed, blocks)));
 }
 
+/// As the networks of Adam: all training rows, and the run's own validation rows to stop by.
+TEST(ShallowModel, HeldOutRowsMayDecideTheStop) {
+  Samples training = draw_samples(200, 1), validation = draw_samples(60, 2);
+  const Json held_out = {{"training", {{"division", "held-out"}, {"epochs", 40}}}};
+  const auto trained = [&](const Samples& rows) {
+    const auto model = make("ffnn-m", held_out);
+    FitSession session;
+    std::vector<double> least;
+    session.epoch_done = [&](const EpochRecord& record) {
+      const auto mean_square = [](const std::vector<double>& rmse) {
+        double sum = 0.0;
+        for (const double value : rmse) sum += value * value;
+        return sum;
+      };
+      if (least.empty() || mean_square(record.validation_rmse) < mean_square(least)) {
+        least = record.validation_rmse;
+        EXPECT_TRUE(record.best) << record.epoch;
+      }
+    };
+    EXPECT_TRUE(model->fit(rows, validation, session));
+    return bytes_of(*model);
+  };
+  const std::string before = trained(training);
+  training.y.row(199).setZero();
+  EXPECT_FALSE(before == trained(training)) << "the last row is trained on";
+  EXPECT_NE(error_of(Exit::kUsage, [&] { fitted("ffnn-m", training, held_out); })
+                .find("training.validation"),
+            std::string::npos);
+}
+
 TEST(ShallowModel, StrideTakesEverySoManythRow) {
   const Samples training = draw_samples(400, 1);
   Samples changed = training;
