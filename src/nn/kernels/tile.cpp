@@ -19,12 +19,13 @@ constexpr std::size_t kMaxWideRows = HWY_TARGET <= HWY_AVX3 ? kMaxRows : 6;
 
 template <class D, std::size_t kRows, std::size_t kVectors>
 struct Sums {
+  using T = hn::TFromD<D>;
   using V = hn::Vec<D>;
   static constexpr std::size_t kLanes = hn::MaxLanes(D());
   V sum[kRows * kVectors];
 
   template <std::size_t... I>
-  HWY_INLINE void load(const Real* start, Index row, std::index_sequence<I...>) {
+  HWY_INLINE void load(const T* start, Index row, std::index_sequence<I...>) {
     ((sum[I] = hn::LoadU(D(), start + static_cast<Index>(I / kVectors) * row +
                                   static_cast<Index>(I % kVectors * kLanes))),
      ...);
@@ -34,7 +35,7 @@ struct Sums {
     ((sum[I] = hn::Zero(D())), ...);
   }
   template <std::size_t... I>
-  HWY_INLINE void store(Real* out, Index row, std::index_sequence<I...>) const {
+  HWY_INLINE void store(T* out, Index row, std::index_sequence<I...>) const {
     (hn::StoreU(
          sum[I], D(),
          out + static_cast<Index>(I / kVectors) * row + static_cast<Index>(I % kVectors * kLanes)),
@@ -46,7 +47,7 @@ struct Sums {
     if constexpr (kVectors == 2) sum[R * 2 + 1] = hn::MulAdd(a, b1, sum[R * 2 + 1]);
   }
   template <std::size_t... R>
-  HWY_INLINE void add(const Real* HWY_RESTRICT a, Index row, const Real* HWY_RESTRICT b,
+  HWY_INLINE void add(const T* HWY_RESTRICT a, Index row, const T* HWY_RESTRICT b,
                       std::index_sequence<R...>) {
     const V b0 = hn::LoadU(D(), b);
     V b1 = b0;
@@ -56,7 +57,7 @@ struct Sums {
 };
 
 template <class D, std::size_t kRows, std::size_t kVectors>
-void tile(const TileProduct& p, Index row, Index column) {
+void tile(const TileProduct<hn::TFromD<D>>& p, Index row, Index column) {
   constexpr auto kAll = std::make_index_sequence<kRows * kVectors>();
   constexpr auto kEachRow = std::make_index_sequence<kRows>();
   Sums<D, kRows, kVectors> sums;
@@ -67,8 +68,8 @@ void tile(const TileProduct& p, Index row, Index column) {
   }
   const Index a_row = p.a_row, a_step = p.a_step, b_step = p.b_step;
   for (const Run& run : p.runs) {
-    const Real* a = p.a + run.a + row * a_row;
-    const Real* b = p.b + run.b + column;
+    const auto* a = p.a + run.a + row * a_row;
+    const auto* b = p.b + run.b + column;
     for (Index k = 0; k < run.length; ++k, a += a_step, b += b_step) {
       sums.add(a, a_row, b, kEachRow);
     }
@@ -78,8 +79,8 @@ void tile(const TileProduct& p, Index row, Index column) {
 
 /// All rows of a block of columns, in blocks of nearly equal height.
 template <class D, std::size_t kVectors, std::size_t... R>
-void rows_of_tiles(const TileProduct& p, Index column, std::index_sequence<R...>) {
-  using Function = void (*)(const TileProduct&, Index, Index);
+void rows_of_tiles(const TileProduct<hn::TFromD<D>>& p, Index column, std::index_sequence<R...>) {
+  using Function = void (*)(const TileProduct<hn::TFromD<D>>&, Index, Index);
   static constexpr std::array<Function, sizeof...(R)> kTiles{tile<D, R + 1, kVectors>...};
   constexpr auto kMost = static_cast<Index>(sizeof...(R));
   const Index blocks = (p.rows + kMost - 1) / kMost;
@@ -90,9 +91,9 @@ void rows_of_tiles(const TileProduct& p, Index column, std::index_sequence<R...>
 }
 
 /// What is left of the columns, in vectors of half the length, and half again.
-template <std::size_t kWidth>
-void narrow_tiles(const TileProduct& p, Index column) {
-  using D = hn::CappedTag<Real, kWidth>;
+template <std::size_t kWidth, class T>
+void narrow_tiles(const TileProduct<T>& p, Index column) {
+  using D = hn::CappedTag<T, kWidth>;
   if (p.columns - column >= static_cast<Index>(kWidth)) {
     rows_of_tiles<D, 1>(p, column, std::make_index_sequence<kMaxRows>());
     column += static_cast<Index>(kWidth);
@@ -100,8 +101,9 @@ void narrow_tiles(const TileProduct& p, Index column) {
   if constexpr (kWidth > 1) narrow_tiles<kWidth / 2>(p, column);
 }
 
-void tile_product_target(const TileProduct& p) {
-  using D = hn::ScalableTag<Real>;
+template <class T>
+void tile_product_of(const TileProduct<T>& p) {
+  using D = hn::ScalableTag<T>;
   constexpr std::size_t kLanes = hn::MaxLanes(D());
   constexpr auto kWide = static_cast<Index>(2 * kLanes);
   Index column = 0;
@@ -111,14 +113,19 @@ void tile_product_target(const TileProduct& p) {
   narrow_tiles<kLanes>(p, column);
 }
 
+void product_f32(const TileProduct<float>& p) { tile_product_of(p); }
+void product_f64(const TileProduct<double>& p) { tile_product_of(p); }
+
 }  // namespace dcnn::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace dcnn {
-HWY_EXPORT(tile_product_target);
-void tile_product(const TileProduct& product) {
-  HWY_DYNAMIC_DISPATCH(tile_product_target)(product);
+HWY_EXPORT(product_f32);
+HWY_EXPORT(product_f64);
+void tile_product(const TileProduct<float>& product) { HWY_DYNAMIC_DISPATCH(product_f32)(product); }
+void tile_product(const TileProduct<double>& product) {
+  HWY_DYNAMIC_DISPATCH(product_f64)(product);
 }
 }  // namespace dcnn
 #endif

@@ -1,5 +1,5 @@
-// The one multiply-add loop behind convolution, its gradients and the fully connected layer's
-// gradients.
+// The one multiply-add loop behind convolution, its gradients, the fully connected layer's
+// gradients and, in double, the sums of Levenberg and Marquardt.
 #pragma once
 
 #include <span>
@@ -17,19 +17,21 @@ struct Run {
 ///             a[run.a + k·a_step + r·a_row] · b[run.b + k·b_step + c].
 /// The order of every sum is that of the runs: it depends on neither `rows`, `columns` nor the
 /// tiling.
+template <class T>
 struct TileProduct {
-  const Real* a;
+  const T* a;
   Index a_row, a_step;
-  const Real* b;
+  const T* b;
   Index b_step;
   std::span<const Run> runs;
-  Real* out;
+  T* out;
   Index out_row;
-  const Real* start;  // null: zero; `out` itself: add to it
-  Index start_row;    // 0: one row for all (a bias)
+  const T* start;   // null: zero; `out` itself: add to it
+  Index start_row;  // 0: one row for all (a bias)
   Index rows, columns;
 };
 
-void tile_product(const TileProduct& product);
+void tile_product(const TileProduct<float>& product);
+void tile_product(const TileProduct<double>& product);
 
 }  // namespace dcnn
