@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 
 #include "data/feature_blocks.h"
 #include "dcnn/data/rotation.h"
@@ -77,19 +76,6 @@ void turn_rows(MatrixXd& rows, const MatrixOf& matrix_of) {
   for (Index i = 0; i < rows.rows(); ++i) {
     rows.row(i) = (matrix_of(i) * rows.row(i).transpose()).eval();
   }
-}
-
-/// Each segment begins within pi of the training recordings' mean (spec 1.2).
-MatrixXd aligned_euler(const Recording& recording, const Vector3d& circular_mean) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  MatrixXd euler = euler_angles(recording);
-  for (const Segment& segment : recording.segments) {
-    for (Index k = 0; k < 3; ++k) {
-      auto angle = euler.col(k).segment(segment.begin, segment.size());
-      angle.array() -= kTurn * std::round((angle[0] - circular_mean[k]) / kTurn);
-    }
-  }
-  return euler;
 }
 
 /// The paper's set: Euler angles and their rates, linear rates in B.
@@ -198,10 +184,14 @@ std::vector<Block> feature_blocks(const FeatureSpec& spec, const System& system)
   }
 }
 
+bool is_logged(const Block& block, const Recording& recording) {
+  return block.quantity != Quantity::kOrientation &&
+         recording.has_all(rate_columns(block.quantity));
+}
+
 bool is_available(const Block& block, const Recording& recording, const System& system) {
   if (system.kind == System::Kind::kAxes) return is_axis_available(block, recording, system);
-  if (block.quantity == Quantity::kOrientation) return true;
-  if (recording.has_all(rate_columns(block.quantity))) return true;
+  if (block.quantity == Quantity::kOrientation || is_logged(block, recording)) return true;
   const bool linear =
       block.quantity == Quantity::kVelocity || block.quantity == Quantity::kAcceleration;
   return recording.dt > 0.0 && (!linear || recording.has_all(kPosition));
