@@ -119,13 +119,6 @@ Motion pose_motion(const Recording& recording, const FeatureLayout& layout,
   return motion;
 }
 
-/// omega = 2 vec(conj(q)·rate)/|q|^2 in E for rate = dq/dt, and alpha for its derivative: the
-/// product of dq/dt with itself has no vector part. No Euler angle anywhere, so no singularity.
-Vector3d angular_rate(const Eigen::Vector4d& q, const Eigen::Vector4d& rate) {
-  const Vector3d v = q.tail<3>(), r = rate.tail<3>();
-  return 2.0 / q.squaredNorm() * (q[0] * r - rate[0] * v - v.cross(r));
-}
-
 MatrixXd angular_rates(const MatrixXd& q, const MatrixXd& rate, const Matrix3d& R_SE) {
   MatrixXd out(q.rows(), 3);
   for (Index i = 0; i < q.rows(); ++i) {
@@ -164,6 +157,11 @@ Motion body_motion(const Recording& recording, const FeatureLayout& layout,
 }
 
 }  // namespace
+
+Vector3d angular_rate(const Eigen::Vector4d& q, const Eigen::Vector4d& rate) {
+  const Vector3d v = q.tail<3>(), r = rate.tail<3>();
+  return 2.0 / q.squaredNorm() * (q[0] * r - rate[0] * v - v.cross(r));
+}
 
 std::vector<Block> feature_blocks(const FeatureSpec& spec, const System& system) {
   switch (spec.set) {
