@@ -24,9 +24,8 @@ TEST(Bench, TimesEveryLengthFromFeaturesAndFromThePose) {
                 .exit_code,
             0);
   const auto out = folder / "timing";
-  const auto result =
-      test::run("bench", {model, "--data", sample + "test.csv", "--lengths", "100,1000",
-                          "--repetitions", "2", "--json", "--out", out.string()});
+  const auto result = test::run("bench", {model, "--data", sample + "test.csv", "--lengths", "5,10",
+                                          "--repetitions", "2", "--json", "--out", out.string()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Json json = parse_json(result.out, "bench", Exit::kFailure);
   EXPECT_EQ(json["threads"], 1);
