@@ -13,6 +13,7 @@ using namespace dcnn;
 constexpr const char* kExamples =
     "  dcnn-eval model.dcnn --data test.csv\n"
     "  dcnn-eval a.dcnn b.dcnn --data test.csv --snr clean,40,30,20,10 --runs 20 --out report\n"
+    "  dcnn-eval model.dcnn --data test.csv --noise-on pose\n"
     "  dcnn-eval model.dcnn --data test.csv --snr clean --json | jq .summary\n";
 
 std::vector<SnrLevel> parse_levels(const std::string& text) {
@@ -48,7 +49,7 @@ int main(int argc, char** argv) {
             "Scores trained models on recordings: RMSE per axis over levels of input noise.",
             kExamples);
   EvaluationRequest request;
-  std::string levels = "clean,40,30,20,10", noise_mode = "feature";
+  std::string levels = "clean,40,30,20,10", noise_mode = "feature", noise_on = "features";
   std::filesystem::path out;
   auto& app = tool.app();
   app.add_option("models", request.models, "model files")->required();
@@ -62,12 +63,17 @@ int main(int argc, char** argv) {
                  "power of the noise: per feature, or as MATLAB's awgn 'measured'")
       ->check(CLI::IsMember({"feature", "matlab"}))
       ->capture_default_str();
+  app.add_option("--noise-on", noise_on,
+                 "what the noise is added to: the features, or the pose they are derived from")
+      ->check(CLI::IsMember({"features", "pose"}))
+      ->capture_default_str();
   app.add_option("--out", out, "folder for report.html and evaluation.json");
   const ReadFlags read(app);
 
   return tool.run(argc, argv, [&] {
     request.levels = parse_levels(levels);
     request.matlab_noise = noise_mode == "matlab";
+    if (noise_on == "pose") request.noise_on = NoiseSpec::Signal::kPose;
     request.seed = tool.common().seed.value_or(1);
     request.read = read.options();
     Progress bar(tool.common().quiet);

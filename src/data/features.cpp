@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "data/feature_blocks.h"
-#include "dcnn/data/rotation.h"
+#include "dcnn/data/pose_noise.h"
 
 namespace dcnn {
 namespace {
@@ -30,6 +30,18 @@ Eigen::Vector3d vector_of(Options& options, const std::string& key) {
   return vector;
 }
 
+/// Six numbers, or none in the files of earlier versions and of systems without a pose.
+Eigen::VectorXd parse_pose_deviation(Options& options) {
+  const auto numbers = options.get<std::vector<double>>("pose_deviation", {});
+  const Eigen::Map<const Eigen::VectorXd> deviation(numbers.data(),
+                                                    static_cast<Index>(numbers.size()));
+  if ((numbers.size() != 0 && numbers.size() != 6) || !deviation.allFinite() ||
+      (deviation.array() < 0.0).any()) {
+    options.reject("pose_deviation", "must be a list of 6 finite numbers from 0");
+  }
+  return deviation;
+}
+
 Json list_of(const Eigen::Vector3d& v) { return Json::array({v[0], v[1], v[2]}); }
 
 Json to_json(const FeatureSpec& spec) {
@@ -38,37 +50,10 @@ Json to_json(const FeatureSpec& spec) {
           {"sensor_rotation_rpy", list_of(spec.sensor_rotation_rpy)}};
 }
 
-Eigen::Vector3d circular_mean(const std::vector<Recording>& recordings) {
-  Eigen::RowVector3d sine = Eigen::RowVector3d::Zero(), cosine = sine;
-  for (const Recording& recording : recordings) {
-    const Eigen::ArrayXXd euler = euler_angles(recording).array();
-    sine += euler.sin().colwise().sum().matrix();
-    cosine += euler.cos().colwise().sum().matrix();
-  }
-  const auto angle = [](double y, double x) { return std::atan2(y, x); };
-  return sine.binaryExpr(cosine, angle).transpose();
-}
-
 void check_rate(const Recording& recording, double dt) {
   require(std::abs(recording.dt - dt) <= kRateTolerance * dt, Exit::kData, recording.name,
           ": rate of ", 1.0 / recording.dt, " Hz instead of ", 1.0 / dt,
           " Hz as in training; use --resample ", 1.0 / dt);
-}
-
-/// The blocks whose rows the layout has; a row that no block makes is an error.
-std::vector<Block> used_blocks(const FeatureLayout& layout, const std::string& where, Exit exit) {
-  std::vector<Block> used;
-  std::vector<std::string> names;
-  for (const Block& block : feature_blocks(layout.spec, layout.system)) {
-    const auto& all = layout.names;
-    if (std::find(all.begin(), all.end(), block.names[0]) == all.end()) continue;
-    used.push_back(block);
-    names.insert(names.end(), block.names.begin(), block.names.end());
-  }
-  require(!names.empty() && names == layout.names, exit, where, ": the feature names ",
-          joined(layout.names), " do not belong to the set '",
-          kSets[static_cast<std::size_t>(layout.spec.set)], "'");
-  return used;
 }
 
 void add_block(FeatureLayout& layout, const Block& block, const std::vector<Recording>& training) {
@@ -86,6 +71,21 @@ void add_block(FeatureLayout& layout, const Block& block, const std::vector<Reco
 
 }  // namespace
 
+std::vector<Block> used_blocks(const FeatureLayout& layout, const std::string& where, Exit exit) {
+  std::vector<Block> used;
+  std::vector<std::string> names;
+  for (const Block& block : feature_blocks(layout.spec, layout.system)) {
+    const auto& all = layout.names;
+    if (std::find(all.begin(), all.end(), block.names[0]) == all.end()) continue;
+    used.push_back(block);
+    names.insert(names.end(), block.names.begin(), block.names.end());
+  }
+  require(!names.empty() && names == layout.names, exit, where, ": the feature names ",
+          joined(layout.names), " do not belong to the set '",
+          kSets[static_cast<std::size_t>(layout.spec.set)], "'");
+  return used;
+}
+
 FeatureSpec parse_features(Options options, const System& system) {
   const bool axes = system.kind == System::Kind::kAxes;
   FeatureSpec spec;
@@ -102,13 +102,16 @@ FeatureSpec parse_features(Options options, const System& system) {
 }
 
 Json to_json(const FeatureLayout& layout) {
-  return {{"features", to_json(layout.spec)},
-          {"system", layout.system.json},
-          {"names", layout.names},
-          {"units", layout.units},
-          {"dt_s", layout.dt},
-          {"circular_mean", list_of(layout.circular_mean)},
-          {"notes", layout.notes}};
+  Json json = {{"features", to_json(layout.spec)},
+               {"system", layout.system.json},
+               {"names", layout.names},
+               {"units", layout.units},
+               {"dt_s", layout.dt},
+               {"circular_mean", list_of(layout.circular_mean)},
+               {"notes", layout.notes}};
+  const Eigen::VectorXd& d = layout.pose_deviation;
+  if (d.size() > 0) json["pose_deviation"] = std::vector<double>(d.data(), d.data() + d.size());
+  return json;
 }
 
 FeatureLayout parse_layout(const Json& json, const std::string& where, Exit exit) {
@@ -125,6 +128,7 @@ FeatureLayout parse_layout(const Json& json, const std::string& where, Exit exit
   layout.dt = options.number("dt_s", 0.0, 0.0, 1e6);
   layout.circular_mean = vector_of(options, "circular_mean");
   layout.notes = options.get<std::vector<std::string>>("notes", {});
+  layout.pose_deviation = parse_pose_deviation(options);
   options.finish();
   require(layout.names.size() == layout.units.size(), exit, where,
           ": there must be one unit per feature name");
@@ -148,6 +152,7 @@ FeatureLayout make_layout(const std::vector<Recording>& training, const FeatureS
   require(!layout.names.empty(), Exit::kData, training[0].name,
           ": holds no signal that a feature could be made of; log positions or velocities");
   if (layout.spec.set == Set::kPose) layout.circular_mean = circular_mean(training);
+  if (layout.spec.set != Set::kAxes) layout.pose_deviation = pose_deviation(training);
   return layout;
 }
 

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 
 #include "data/feature_blocks.h"
 #include "dcnn/data/rotation.h"
@@ -79,19 +78,6 @@ void turn_rows(MatrixXd& rows, const MatrixOf& matrix_of) {
   }
 }
 
-/// Each segment begins within pi of the training recordings' mean (spec 1.2).
-MatrixXd aligned_euler(const Recording& recording, const Vector3d& circular_mean) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  MatrixXd euler = euler_angles(recording);
-  for (const Segment& segment : recording.segments) {
-    for (Index k = 0; k < 3; ++k) {
-      auto angle = euler.col(k).segment(segment.begin, segment.size());
-      angle.array() -= kTurn * std::round((angle[0] - circular_mean[k]) / kTurn);
-    }
-  }
-  return euler;
-}
-
 /// The paper's set: Euler angles and their rates, linear rates in B.
 Motion pose_motion(const Recording& recording, const FeatureLayout& layout,
                    const std::vector<Block>& blocks) {
@@ -133,13 +119,6 @@ Motion pose_motion(const Recording& recording, const FeatureLayout& layout,
   return motion;
 }
 
-/// omega = 2 vec(conj(q)·rate)/|q|^2 in E for rate = dq/dt, and alpha for its derivative: the
-/// product of dq/dt with itself has no vector part. No Euler angle anywhere, so no singularity.
-Vector3d angular_rate(const Eigen::Vector4d& q, const Eigen::Vector4d& rate) {
-  const Vector3d v = q.tail<3>(), r = rate.tail<3>();
-  return 2.0 / q.squaredNorm() * (q[0] * r - rate[0] * v - v.cross(r));
-}
-
 MatrixXd angular_rates(const MatrixXd& q, const MatrixXd& rate, const Matrix3d& R_SE) {
   MatrixXd out(q.rows(), 3);
   for (Index i = 0; i < q.rows(); ++i) {
@@ -179,6 +158,11 @@ Motion body_motion(const Recording& recording, const FeatureLayout& layout,
 
 }  // namespace
 
+Vector3d angular_rate(const Eigen::Vector4d& q, const Eigen::Vector4d& rate) {
+  const Vector3d v = q.tail<3>(), r = rate.tail<3>();
+  return 2.0 / q.squaredNorm() * (q[0] * r - rate[0] * v - v.cross(r));
+}
+
 std::vector<Block> feature_blocks(const FeatureSpec& spec, const System& system) {
   switch (spec.set) {
     case FeatureSpec::Set::kPose:
@@ -198,10 +182,14 @@ std::vector<Block> feature_blocks(const FeatureSpec& spec, const System& system)
   }
 }
 
+bool is_logged(const Block& block, const Recording& recording) {
+  return block.quantity != Quantity::kOrientation &&
+         recording.has_all(rate_columns(block.quantity));
+}
+
 bool is_available(const Block& block, const Recording& recording, const System& system) {
   if (system.kind == System::Kind::kAxes) return is_axis_available(block, recording, system);
-  if (block.quantity == Quantity::kOrientation) return true;
-  if (recording.has_all(rate_columns(block.quantity))) return true;
+  if (block.quantity == Quantity::kOrientation || is_logged(block, recording)) return true;
   const bool linear =
       block.quantity == Quantity::kVelocity || block.quantity == Quantity::kAcceleration;
   return recording.dt > 0.0 && (!linear || recording.has_all(kPosition));

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <map>
 #include <utility>
+
+#include "dcnn/data/pose_noise.h"
 
 namespace dcnn {
 namespace {
@@ -84,6 +87,47 @@ NoiseSpec test_noise(const EvaluationRequest& request) {
   return spec;
 }
 
+std::string describe(const EvaluationRequest& request) {
+  if (request.noise_on == NoiseSpec::Signal::kPose) {
+    return "pose before differentiation, variance of each coordinate over the training rows";
+  }
+  return request.matlab_noise ? "features, mean square over the whole matrix (awgn 'measured')"
+                              : "features, variance of each over the training rows";
+}
+
+/// Noise on the pose of every recording, carried to the features: by the sum of draws that training
+/// uses where features are linear in the pose, else by making them anew.
+Eigen::MatrixXd with_noisy_pose(const TestSet& set, const Identifier& identifier,
+                                const std::vector<Recording>& recordings, double snr,
+                                std::uint64_t key) {
+  const double scale = std::pow(10.0, -snr / 20.0);
+  const bool linear = identifier.layout.spec.set == FeatureSpec::Set::kPose;
+  Eigen::MatrixXd noise;
+  for (std::size_t k = 0; k < recordings.size(); ++k) {
+    const auto own = Rng({key, k}).bits();
+    stack(noise, linear
+                     ? (scale * pose_noise(recordings[k], identifier.layout, own)).eval()
+                     : make_features(with_pose_noise(recordings[k], identifier.layout, scale, own),
+                                     identifier.layout)
+                           .x);
+  }
+  return linear ? (set.stream.x + noise).eval() : noise;
+}
+
+Eigen::MatrixXd noisy_features(const EvaluationRequest& request, const TestSet& set,
+                               const Identifier& identifier,
+                               const std::vector<Recording>& recordings, const SnrLevel& level,
+                               int run) {
+  if (!level) return set.stream.x;
+  const auto key = noise_key(request.seed, *level, run);
+  if (request.noise_on == NoiseSpec::Signal::kPose) {
+    return with_noisy_pose(set, identifier, recordings, *level, key);
+  }
+  const auto deviation =
+      noise_deviation(test_noise(request), identifier.model->map(), set.stream.x, level);
+  return with_noise(set.stream.x, deviation, key);
+}
+
 EvaluationSummary summarise(const std::vector<EvaluationRow>& rows) {
   EvaluationSummary s{
       rows[0].model, rows[0].file, rows[0].snr_db, static_cast<int>(rows.size()), {}, {}, {},
@@ -116,14 +160,18 @@ Evaluation evaluate(const EvaluationRequest& request,
                     const std::function<void(int, int)>& progress) {
   Evaluation evaluation;
   RecordingCache recordings(request, evaluation);
-  const NoiseSpec noise = test_noise(request);
+  require(request.noise_on == NoiseSpec::Signal::kFeatures || !request.matlab_noise, Exit::kUsage,
+          "--noise-mode matlab is a power of noise on the features; leave it out with noise on the "
+          "pose");
+  evaluation.noise = describe(request);
   int per_model = 0, done = 0;
   for (const auto& level : request.levels) per_model += level ? request.runs : 1;
 
   for (const auto& path : request.models) {
     const Identifier identifier = read_identifier(path);
     check_targets(evaluation, identifier, path.string());
-    const TestSet set = make_test_set(identifier, recordings.get(identifier.layout));
+    const auto& data = recordings.get(identifier.layout);
+    const TestSet set = make_test_set(identifier, data);
     evaluation.targets = identifier.targets;
     evaluation.samples = set.stream.rows();
     evaluation.singular_samples = std::max(evaluation.singular_samples, set.singular);
@@ -131,13 +179,11 @@ Evaluation evaluate(const EvaluationRequest& request,
                                     set.wanted, identifier.targets);
     const std::string file = path.filename().string();
     for (const auto& level : request.levels) {
-      const auto deviation = noise_deviation(noise, identifier.model->map(), set.stream.x, level);
       std::vector<EvaluationRow> rows;
       for (int run = 0; run < (level ? request.runs : 1); ++run) {
-        const auto key = level ? noise_key(request.seed, *level, run) : 0;
         const Eigen::MatrixXd predicted =
             identifier.model->predict(
-                {with_noise(set.stream.x, deviation, key), set.stream.segments}) +
+                {noisy_features(request, set, identifier, data, level, run), set.stream.segments}) +
             set.base;
         rows.push_back(
             {identifier.name, file, level, run, score(predicted, set.wanted, identifier.targets)});

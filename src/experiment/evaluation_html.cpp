@@ -158,8 +158,7 @@ void add_settings(HtmlReport& page, const Evaluation& evaluation,
       {"of them near the Euler singularity", std::to_string(evaluation.singular_samples)},
       {"noise seed", std::to_string(request.seed)},
       {"noise draws per level", std::to_string(request.runs)},
-      {"noise power", request.matlab_noise ? "mean square over the whole matrix (awgn 'measured')"
-                                           : "variance of each feature over the training rows"}};
+      {"noise on", evaluation.noise}};
   for (const auto& path : request.models) {
     const Identifier identifier = read_identifier(path);
     rows.push_back({path.filename().string(),

@@ -66,6 +66,7 @@ Json to_json(const Evaluation& evaluation) {
                {"targets", evaluation.targets.names},
                {"units", evaluation.targets.units},
                {"samples_near_singularity", evaluation.singular_samples},
+               {"noise", evaluation.noise},
                {"notes", evaluation.notes},
                {"rows", Json::array()},
                {"summary", Json::array()}};

@@ -8,11 +8,10 @@
 
 #include "dcnn/core/file.h"
 #include "experiment/run_directory.h"
+#include "experiment/splitter.h"
 
 namespace dcnn {
 namespace {
-
-constexpr double kValidationGapSeconds = 1.0;
 
 std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
                                 const TrainingRequest& request, const Configuration& configuration,
@@ -28,68 +27,6 @@ std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
   }
   return recordings;
 }
-
-/// Adds the given rows; where the recording has a gap, or rows are left out, a new segment begins.
-void append(Samples& samples, const Recording& recording, const Eigen::MatrixXd& x,
-            const Eigen::MatrixXd& y, const std::vector<Index>& rows) {
-  const auto old = samples.x.rows(), more = static_cast<Index>(rows.size());
-  samples.x.conservativeResize(old + more, x.cols());
-  samples.y.conservativeResize(old + more, y.cols());
-  for (Index i = 0; i < more; ++i) {
-    samples.x.row(old + i) = x.row(rows[static_cast<std::size_t>(i)]);
-    samples.y.row(old + i) = y.row(rows[static_cast<std::size_t>(i)]);
-  }
-  std::vector<char> starts(static_cast<std::size_t>(recording.samples()), 0);
-  for (const Segment& segment : recording.segments) {
-    starts[static_cast<std::size_t>(segment.begin)] = 1;
-  }
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Index row = old + static_cast<Index>(i);
-    if (i == 0 || rows[i] != rows[i - 1] + 1 || starts[static_cast<std::size_t>(rows[i])]) {
-      samples.segments.push_back({row, row});
-    }
-    samples.segments.back().end = row + 1;
-  }
-}
-
-/// Features and targets of recordings, split by time.
-class Splitter {
- public:
-  Splitter(const Identifier& identifier, const TrainingObserver& observer)
-      : identifier_(identifier), observer_(observer) {}
-
-  /// The last `share` of the recording's rows go to `validation`, those before them by 1 s or more
-  /// to `training`; rows near the Euler singularity to neither.
-  void add(const Recording& recording, double share, Samples& training, Samples& validation) const {
-    const Features features = make_features(recording, identifier_.layout);
-    const Eigen::MatrixXd y = measured(recording, identifier_.targets, identifier_.layout.system) -
-                              identifier_.base_prediction(recording);
-    const Index total = recording.samples();
-    const auto held = static_cast<Index>(std::lround(share * static_cast<double>(total)));
-    const auto gap = held > 0 && recording.dt > 0.0
-                         ? static_cast<Index>(std::lround(kValidationGapSeconds / recording.dt))
-                         : 0;
-    std::vector<Index> first, second;
-    for (Index row = 0; row < total; ++row) {
-      if (!features.valid[static_cast<std::size_t>(row)]) continue;
-      if (row >= total - held) second.push_back(row);
-      if (row < total - held - gap) first.push_back(row);
-    }
-    append(training, recording, features.x, y, first);
-    append(validation, recording, features.x, y, second);
-    const Index invalid = features.invalid_count();
-    if (invalid > 0 && observer_.note) {
-      observer_.note(
-          recording.name + ": " + std::to_string(invalid) + " of " + std::to_string(total) +
-          " samples lie near the Euler singularity and are not trained on; the feature set "
-          "'body' has none");
-    }
-  }
-
- private:
-  const Identifier& identifier_;
-  const TrainingObserver& observer_;
-};
 
 /// Names the configuration and every number that is learned from, so that a resumed run is the same
 /// run.
@@ -236,10 +173,10 @@ TrainingOutcome train(const TrainingRequest& request, const TrainingObserver& ob
   }
 
   Samples training, validation;
-  const Splitter splitter(identifier, observer);
+  const Splitter splitter(identifier, observer, wants_pose_noise(configuration.json));
   const double share = held_out.empty() ? configuration.validation : 0.0;
   for (const auto& recording : recordings) splitter.add(recording, share, training, validation);
-  for (const auto& recording : held_out) splitter.add(recording, 0.0, validation, validation);
+  for (const auto& recording : held_out) splitter.add_whole(recording, validation);
   require(training.x.rows() > 0, Exit::kData, recordings.front().name,
           ": no sample is left to train on; choose the feature set 'body' or longer recordings");
 

@@ -11,7 +11,7 @@ Json preset_of(const std::string& preset, bool axes, std::vector<Index> hidden) 
   Json training = {
       {"epochs", 200}, {"stride", 1}, {"division", "random"}, {"standardise_targets", axes}};
   if (preset == "quick") training.update({{"epochs", 30}, {"stride", 8}});
-  if (preset == "fair") training.update({{"epochs", 1000}, {"division", "blocks"}});
+  if (preset == "fair") training.update({{"epochs", 1000}, {"division", "held-out"}});
   if (preset == "paper") training.update({{"epochs", 1000}, {"validation", 0.0}});
   return {{"model", {{"hidden", std::move(hidden)}, {"inputs", "all"}}},
           {"training", std::move(training)}};

@@ -101,6 +101,28 @@ TEST_F(Tools, TrainingLearnsAndEvaluationAgreesWithPrediction) {
   EXPECT_NEAR(rmse, json["rows"][0]["rmse"][0].get<double>(), 1e-9);
 }
 
+TEST_F(Tools, NoiseOnThePoseIsLearnedAndScored) {
+  std::ofstream(at("pose.json")) << R"({"noise": {"on": "pose"}})";
+  Result result = run("train", training("pose.dcnn", {"--config", at("pose.json")}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<std::string> arguments{
+      at("pose.dcnn"), "--data", at("data/test.csv"), "--snr", "20", "--runs", "2", "--json"};
+  auto on_pose = arguments;
+  on_pose.insert(on_pose.end(), {"--noise-on", "pose"});
+  const Json features = parse_json(run("eval", arguments).out, "eval", Exit::kFailure);
+  result = run("eval", on_pose);
+  const Json pose = parse_json(result.out, "eval", Exit::kFailure);
+  EXPECT_EQ(run("eval", on_pose).out, result.out);
+  EXPECT_NE(pose["rows"][0]["rmse"], features["rows"][0]["rmse"]);
+  EXPECT_NE(pose["rows"][0]["rmse"], pose["rows"][1]["rmse"]);
+  EXPECT_EQ(pose["noise"].get<std::string>().find("pose"), 0U);
+
+  std::ofstream(at("body.json")) << R"({"noise": {"on": "pose"}, "features": {"set": "body"}})";
+  result = run("train", training("body_pose.dcnn", {"--config", at("body.json")}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("noise.on 'features'"), std::string::npos) << result.err;
+}
+
 TEST_F(Tools, ResumedAfterInterruptEndsWithTheBytesOfAnUninterruptedRun) {
   ASSERT_EQ(run("train", training("whole.dcnn", {"--epochs", "12"})).exit_code, 0);
   const Process process("train", training("cut.dcnn", {"--epochs", "12"}));

@@ -19,6 +19,8 @@ struct EvaluationRequest {
   std::uint64_t seed = 1;
   bool matlab_noise =
       false;  ///< awgn(X, snr, 'measured'): one power over the whole matrix, with its mean
+  /// kPose: on the pose before it is differentiated; the part of a base simulator stays clean.
+  NoiseSpec::Signal noise_on = NoiseSpec::Signal::kFeatures;
   ReadOptions read;
 };
 
@@ -49,6 +51,7 @@ struct Trace {
 
 struct Evaluation {
   std::vector<std::string> data, notes;
+  std::string noise;  ///< what the noise was added to, and its power
   Index samples = 0,
         singular_samples = 0;  ///< rows scored, and those of them near the Euler singularity
   Targets targets;
