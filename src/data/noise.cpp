@@ -40,6 +40,8 @@ NoiseSpec parse_noise(Options options) {
   if (options.choice("on", "features", {"features", "pose"}) == "pose") {
     spec.on = NoiseSpec::Signal::kPose;
   }
+  spec.block_rows = options.get<Index>("block_rows", 0);
+  if (spec.block_rows < 0) options.reject("block_rows", "must not be negative");
   options.finish();
   return spec;
 }

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "dcnn/data/line_filter.h"
 #include "models/least_squares.h"
 #include "models/tensor_io.h"
 
@@ -13,6 +14,7 @@ namespace {
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr double kGravity = 9.81;     // m/s^2
+constexpr Index kLongestFilter = 1 << 16;
 constexpr Index kRowsAtATime = 2048;  // terms in memory that does not grow with the recording
 
 LinearModel::Form find_form(const Container& file, const std::vector<LinearModel::Form>& forms,
@@ -68,15 +70,25 @@ LinearModel::LinearModel(const Container& file, const std::vector<Form>& forms,
   require(shape.size() == 2 && shape[0] == regressors_->count() && shape[1] >= 1, Exit::kModel,
           where, ": its weights do not fit its terms");
   weights_ = Eigen::Map<const RowMajor>(values.data(), shape[0], shape[1]);
+  if (!file.find("filter")) return;
+  const auto& filter = stored_values<std::int64_t>(file, "filter", where);
+  require(filter.size() == 1 && filter[0] > 1 && filter[0] <= kLongestFilter, Exit::kModel, where,
+          ": its time filter is malformed");
+  filter_ = filter[0];
 }
 
 Eigen::MatrixXd LinearModel::predict(const Stream& stream) const {
   Eigen::MatrixXd result(stream.rows(), weights_.cols());
-  for_terms(*regressors_, stream.x, [&](Index first, const Eigen::MatrixXd& terms) {
+  for_terms(*regressors_, filtered(stream), [&](Index first, const Eigen::MatrixXd& terms) {
     // One row at a time in the same order whatever the number of rows: the same bits.
     result.middleRows(first, terms.rows()) = terms.lazyProduct(weights_);
   });
   return result;
+}
+
+Eigen::MatrixXd LinearModel::filtered(const Stream& stream) const {
+  if (filter_ <= 1) return stream.x;
+  return line_filtered(stream.x, stream.segment_begins(), filter_);
 }
 
 void LinearModel::learn(const Samples& training) {
@@ -85,7 +97,7 @@ void LinearModel::learn(const Samples& training) {
 
 LeastSquares LinearModel::sums_of(const Samples& training) const {
   LeastSquares sums(regressors_->count(), training.y.cols());
-  for_terms(*regressors_, training.x, [&](Index first, const Eigen::MatrixXd& terms) {
+  for_terms(*regressors_, filtered(training), [&](Index first, const Eigen::MatrixXd& terms) {
     sums.add(terms, training.y.middleRows(first, terms.rows()));
   });
   return sums;
@@ -95,6 +107,7 @@ void LinearModel::save(Container& file) const {
   ClosedFormModel::save(file);
   file.metadata["form"] = form_.name;
   file.metadata["features"] = to_json(layout_).dump();
+  if (filter_ > 1) file.tensors.push_back({"filter", {1}, std::vector<std::int64_t>{filter_}});
   const RowMajor rows = weights_;
   file.tensors.push_back({"weights",
                           {weights_.rows(), weights_.cols()},

@@ -50,6 +50,10 @@ class LinearModel : public ClosedFormModel {
   /// `forms`: those of the kind, one of which the file must name.
   LinearModel(const Container& file, const std::vector<Form>& forms, const std::string& where);
 
+  /// From here on the features pass a causal line filter over so many samples (line_filter.h)
+  /// before anything is made from them: the time filter that DCNN-T has, for the same comparison.
+  void filter_over(Index samples) { filter_ = samples; }
+
   Eigen::MatrixXd predict(const Stream& stream) const override;
   Index parameter_count() const override { return weights_.size(); }
   void save(Container& file) const override;
@@ -71,11 +75,13 @@ class LinearModel : public ClosedFormModel {
  private:
   /// kg, whatever the sensor's mounting; 0 where the terms or the motion do not tell it.
   double gravity_mass() const;
+  Eigen::MatrixXd filtered(const Stream& stream) const;
 
   Form form_;
   FeatureLayout layout_;
   std::unique_ptr<Regressors> regressors_;
   Eigen::MatrixXd weights_;  // (terms, targets)
+  Index filter_ = 1;         // samples; 1 is none
   bool is_force_ = false;    // the targets begin with the whole force on the sensor
 };
 

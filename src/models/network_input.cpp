@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "models/sensor_columns.h"
+
 namespace dcnn {
 namespace {
 
@@ -51,27 +53,48 @@ class WindowInput : public NetworkInput {
   Index features_, length_;
 };
 
+const std::vector<std::string> kKinds{"map", "window", "body", "lines"};
+
+bool is_sensor(const std::string& kind) { return kind == "body" || kind == "lines"; }
+
+/// The kinds without statistics of their own.
+std::unique_ptr<NetworkInput> simple(const std::string& kind, Options& options, Index features) {
+  if (kind == "map") return std::make_unique<MapInput>(features);
+  const auto length = static_cast<Index>(options.number("length", 1, 1, kLongestWindow));
+  return std::make_unique<WindowInput>(features, length);
+}
+
 }  // namespace
 
 PreparedStream prepare_rows(const Stream& stream) {
-  PreparedStream prepared{stream.x, std::vector<Index>(static_cast<std::size_t>(stream.rows()), 0)};
-  for (const Segment& segment : stream.segments) {
-    std::fill(prepared.segment_begin.begin() + segment.begin,
-              prepared.segment_begin.begin() + segment.end, segment.begin);
-  }
-  return prepared;
+  return {stream.x, stream.segment_begins()};
 }
 
-std::unique_ptr<NetworkInput> make_input(const Json& json, Index features, const std::string& where,
-                                         Exit exit) {
-  Options options(json, where, exit);
+std::unique_ptr<NetworkInput> make_input(const Json& json, const FeatureLayout& layout,
+                                         const std::string& where) {
+  Options options(json, where, Exit::kUsage);
   if (!options.has("kind")) options.reject("kind", "is missing");
-  const auto kind = options.choice("kind", "map", {"map", "window"});
+  const auto kind = options.choice("kind", "map", kKinds);
   std::unique_ptr<NetworkInput> input;
-  if (kind == "map") input = std::make_unique<MapInput>(features);
-  if (kind == "window") {
-    const auto length = static_cast<Index>(options.number("length", 1, 1, kLongestWindow));
-    input = std::make_unique<WindowInput>(features, length);
+  if (is_sensor(kind)) {
+    input = std::make_unique<SensorColumns>(kind, options, layout);
+  } else {
+    input = simple(kind, options, static_cast<Index>(layout.names.size()));
+  }
+  options.finish();
+  return input;
+}
+
+std::unique_ptr<NetworkInput> stored_input(const Json& json, Index features,
+                                           const std::string& where) {
+  Options options(json, where, Exit::kModel);
+  if (!options.has("kind")) options.reject("kind", "is missing");
+  const auto kind = options.choice("kind", "map", kKinds);
+  std::unique_ptr<NetworkInput> input;
+  if (is_sensor(kind)) {
+    input = std::make_unique<SensorColumns>(kind, options, features, where);
+  } else {
+    input = simple(kind, options, features);
   }
   options.finish();
   return input;

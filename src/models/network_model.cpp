@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "dcnn/nn/optimizer.h"
+#include "models/linear_skip.h"
 #include "models/tensor_io.h"
 #include "models/trainer.h"
 
@@ -69,13 +70,15 @@ TrainingSpec TrainingSpec::parse(Options options) {
 }
 
 NetworkModel::NetworkModel(std::string kind, const Json& input, const Json& layers,
-                           const Problem& problem)
+                           const Problem& problem, bool skip)
     : kind_(std::move(kind)), units_(problem.layout.units), seed_(problem.seed) {
   Options options(problem.configuration, problem.where, Exit::kUsage);
   map_spec_ = parse_input_map(options.child("map"));
   training_ = TrainingSpec::parse(options.child("training"));
   noise_ = parse_noise(options.child("noise"));
-  input_ = make_input(input, problem.features(), problem.where, Exit::kUsage);
+  input_ = make_input(input, problem.layout, problem.where);
+  if (skip) skip_ = std::make_unique<LinearSkip>();
+  if (layers.empty()) return;
   Rng rng({seed_, kInitialWeights});
   network_ = std::make_unique<Network>(layers, input_->shape(), rng);
 }
@@ -90,8 +93,25 @@ NetworkModel::NetworkModel(const Container& file, const std::string& where)
                 Exit::kModel);
   scale_.mean = parse_vector(scale.raw("mean"), where);
   scale_.deviation = parse_vector(scale.raw("deviation"), where);
-  input_ = make_input(parse_json(stored_text(file, "input", where), where, Exit::kModel),
-                      map_.features(), where, Exit::kModel);
+  input_ = stored_input(parse_json(stored_text(file, "input", where), where, Exit::kModel),
+                        map_.features(), where);
+  require(scale_.mean.size() > 0 && scale_.mean.size() == scale_.deviation.size(), Exit::kModel,
+          where, ": its output does not fit its targets");
+  if (LinearSkip::is_in(file)) {
+    skip_ = std::make_unique<LinearSkip>(
+        LinearSkip::load(file, element_count(input_->shape()), where));
+    require(skip_->targets() == scale_.mean.size(), Exit::kModel, where,
+            ": its linear part does not fit its targets");
+  }
+  if (!skip_ || !architecture.empty()) load_network(architecture, file, where);
+  const Eigen::MatrixXd probe = predict({map_.mean().transpose(), {}});
+  require(scale_.mean.size() == probe.cols() && scale_.deviation.size() == probe.cols() &&
+              (scale_.deviation.array() > 0.0).all() && probe.allFinite(),
+          Exit::kModel, where, ": its output does not fit its targets");
+}
+
+void NetworkModel::load_network(const Json& architecture, const Container& file,
+                                const std::string& where) {
   try {
     Rng rng(0);
     network_ = std::make_unique<Network>(architecture, input_->shape(), rng);
@@ -100,10 +120,6 @@ NetworkModel::NetworkModel(const Container& file, const std::string& where)
   }
   load_tensors(file, "network.", network_->state(), where);
   refold();
-  const Eigen::MatrixXd probe = predict({map_.mean().transpose(), {}});
-  require(scale_.mean.size() == probe.cols() && scale_.deviation.size() == probe.cols() &&
-              (scale_.deviation.array() > 0.0).all() && probe.allFinite(),
-          Exit::kModel, where, ": its output does not fit its targets");
 }
 
 NetworkModel::~NetworkModel() = default;
@@ -117,8 +133,15 @@ bool NetworkModel::fit(const Samples& training, const Samples& validation, FitSe
   spread_ = target_spread(training.y);
   scale_ = make_scale(training.y, spread_, training_.standardise_targets);
   input_->learn(training, map_);
+  if (skip_) fit_skip(training);
+  if (!network_) return true;
   Trainer trainer(*this, training, validation, session);
   return trainer.run();
+}
+
+void NetworkModel::fit_skip(const Samples& training) {
+  *skip_ = LinearSkip::fit(training, noise_, map_, *input_, seed_);
+  scale_ = {Eigen::VectorXd::Zero(training.y.cols()), skip_->residual()};
 }
 
 void NetworkModel::refold() { folded_ = std::make_unique<Network>(network_->folded()); }
@@ -137,32 +160,41 @@ Eigen::MatrixXd NetworkModel::predict(const Stream& stream) const {
     for (Index i = 0; i < n; ++i) {
       input_->write(prepared, map_, first + i, inputs.data() + i * cells);
     }
-    Pass pass;
-    scale_back(folded_->forward(inputs, pass), first, result);
+    result.middleRows(first, n) = outputs(inputs);
   }
   return result;
 }
 
-void NetworkModel::scale_back(const Tensor& outputs, Index first, Eigen::MatrixXd& result) const {
-  const Index n = outputs.dim(0), targets = result.cols();
+Eigen::MatrixXd NetworkModel::outputs(const Tensor& inputs) const {
+  const Index n = inputs.dim(0), targets = scale_.mean.size();
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, targets);
+  if (skip_) result = skip_->of(inputs);
+  if (!folded_) return result;
+  Pass pass;
+  const Tensor network = folded_->forward(inputs, pass);
+  require(network.dim(1) == targets, Exit::kModel, "the network's outputs do not fit its targets");
   for (Index i = 0; i < n; ++i) {
     for (Index j = 0; j < targets; ++j) {
-      const auto y = static_cast<double>(outputs.data()[i * targets + j]);
-      result(first + i, j) = scale_.mean[j] + scale_.deviation[j] * y;
+      const auto y = static_cast<double>(network.data()[i * targets + j]);
+      result(i, j) += scale_.mean[j] + scale_.deviation[j] * y;
     }
   }
+  return result;
 }
 
-Index NetworkModel::parameter_count() const { return network_->parameter_count(); }
+Index NetworkModel::parameter_count() const {
+  return (network_ ? network_->parameter_count() : 0) + (skip_ ? skip_->parameter_count() : 0);
+}
 
 void NetworkModel::save(Container& file) const {
   file.metadata["model"] = kind_;
-  file.metadata["architecture"] = network_->layers().dump();
+  file.metadata["architecture"] = (network_ ? network_->layers() : Json::array()).dump();
   file.metadata["input"] = input_->to_json().dump();
   file.metadata["map"] = map_.to_json().dump();
   file.metadata["target_scale"] =
       Json{{"mean", to_json(scale_.mean)}, {"deviation", to_json(scale_.deviation)}}.dump();
-  store_tensors(network_->state(), "network.", file);
+  if (skip_) skip_->save(file);
+  if (network_) store_tensors(network_->state(), "network.", file);
 }
 
 }  // namespace dcnn

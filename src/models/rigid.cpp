@@ -91,13 +91,27 @@ Json preset(const std::string& name, bool /*axes*/) {
   return json;
 }
 
+Index filter_samples(const Options& model, double seconds, double dt) {
+  const double samples = dt > 0.0 ? std::round(seconds / dt) : 0.0;
+  if (!(samples >= 2.0 && samples <= 65536.0)) {
+    model.reject("filter_s", "must be 2 to 65536 samples of recordings with a clock");
+  }
+  return static_cast<Index>(samples);
+}
+
 std::unique_ptr<Model> make(const Problem& problem) {
   Options options(problem.configuration, problem.where, Exit::kUsage);
   Options model = options.child("model");
   const std::string form = model.choice("form", "regression", {"regression", "inertial"});
+  const double filter_s = model.number("filter_s", 0.0, 0.0, 100.0);
   model.raw("name");
   model.finish();
-  if (form == "regression") return std::make_unique<LinearModel>("rigid", kRegression, problem);
+  if (form == "regression") {
+    auto rigid = std::make_unique<LinearModel>("rigid", kRegression, problem);
+    if (filter_s > 0.0) rigid->filter_over(filter_samples(model, filter_s, problem.layout.dt));
+    return rigid;
+  }
+  if (filter_s > 0.0) model.reject("filter_s", "is for model.form 'regression' alone");
   if (problem.targets.names != kWrench || problem.layout.system.kind != System::Kind::kWrist) {
     model.reject("form",
                  "is 'inertial', which needs the targets fx,fy,fz,tx,ty,tz of a wrist; "

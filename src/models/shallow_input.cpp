@@ -72,14 +72,14 @@ ShallowInput::ShallowInput(Options& model, const FeatureLayout& layout, const st
   if (input.is_null()) return;
   const auto features = static_cast<Index>(layout.names.size());
   if (count() != features) model.reject("inputs", "chooses features; leave it or 'input' out");
-  input_ = make_input(input, features, where, Exit::kUsage);
+  input_ = make_input(input, layout, where);
   columns_ = all_rows(available(features));
 }
 
 ShallowInput::ShallowInput(const Container& file, Index features, const std::string& where)
     : least_(stored_row(file, "input_least", where)), most_(stored_row(file, "input_most", where)) {
   const Json input = parse_json(stored_text(file, "input", where), where, Exit::kModel);
-  if (!input.is_null()) input_ = make_input(input, features, where, Exit::kModel);
+  if (!input.is_null()) input_ = stored_input(input, features, where);
   const auto& columns = stored_values<std::int64_t>(file, "input_columns", where);
   columns_.assign(columns.begin(), columns.end());
   require(!columns_.empty() && columns_.front() >= 0 && columns_.back() < available(features) &&

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "dcnn/nn/loss.h"
+#include "models/linear_skip.h"
 #include "models/tensor_io.h"
 
 namespace dcnn {
@@ -81,11 +82,15 @@ void Trainer::begin_epoch() {
   const Index start = epoch_ % spec_.stride;
   order_ = permutation((training_.rows() - start + spec_.stride - 1) / spec_.stride, shuffle);
   for (std::int64_t& row : order_) row = start + spec_.stride * row;
-  const auto& levels = model_.noise_.levels;
-  snr_ = levels[Rng({model_.seed_, kLevel, epoch}).below(levels.size())];
-  noisy_ = model_.input_->prepare(
-      noisy(training_, model_.noise_, model_.map_, snr_, Rng({model_.seed_, kNoise, epoch}).bits()),
-      model_.map_);
+  const NoiseSpec& noise = model_.noise_;
+  const auto key = Rng({model_.seed_, kNoise, epoch}).bits();
+  if (noise.block_rows == 0) {
+    snr_ = noise.levels[Rng({model_.seed_, kLevel, epoch}).below(noise.levels.size())];
+    noisy_ = model_.input_->prepare(noisy(training_, noise, model_.map_, snr_, key), model_.map_);
+  } else {
+    noisy_ =
+        model_.input_->prepare(noisy_blocks(training_, noise, model_.map_, key), model_.map_);
+  }
 }
 
 bool Trainer::run_steps() {
@@ -107,7 +112,7 @@ void Trainer::step() {
   Pass pass{Pass::Mode::kTrain, Rng({model_.seed_, kDropout, epoch, number})};
   const Tensor inputs = gather(noisy_, order_, first);
   const Tensor loss =
-      half_mean_squared_error(model_.network_->forward(inputs, pass), gather_targets(first));
+      half_mean_squared_error(model_.network_->forward(inputs, pass), gather_targets(inputs, first));
   const double value = loss.values()[0];
   require(std::isfinite(value), Exit::kFailure, "training diverged in epoch ", epoch_ + 1,
           ": the loss is not finite; lower training.lr");
@@ -135,13 +140,16 @@ Tensor Trainer::gather(const PreparedStream& stream, const std::vector<std::int6
   return inputs;
 }
 
-Tensor Trainer::gather_targets(Index first) const {
+/// Targets of the batch, or what the skip leaves of them, on the network's own scale.
+Tensor Trainer::gather_targets(const Tensor& inputs, Index first) const {
   const Index targets = y_.cols();
   Tensor wanted({spec_.batch, targets});
+  Eigen::MatrixXd skip = Eigen::MatrixXd::Zero(spec_.batch, targets);
+  if (model_.skip_) skip = model_.skip_->of(inputs);
   for (Index i = 0; i < spec_.batch; ++i) {
     const Index row = order_[static_cast<std::size_t>(first + i)];
     for (Index j = 0; j < targets; ++j) {
-      wanted.data()[i * targets + j] = static_cast<Real>(y_(row, j));
+      wanted.data()[i * targets + j] = static_cast<Real>(y_(row, j) - skip(i, j) / model_.scale_.deviation[j]);
     }
   }
   return wanted;

@@ -28,7 +28,7 @@ class Trainer {
   void step();
   Tensor gather(const PreparedStream& stream, const std::vector<std::int64_t>& order,
                 Index first) const;
-  Tensor gather_targets(Index first) const;
+  Tensor gather_targets(const Tensor& inputs, Index first) const;
   void finish_epoch();
   void collect_statistics();
   std::vector<double> validation_rmse() const;

@@ -27,17 +27,19 @@ inline Index read_units(Options& options, const std::string& key) {
   return units;
 }
 
-/// Key `init`: "glorot" (uniform within ±sqrt(6/(fan_in + fan_out)), Glorot and Bengio 2010) or
-/// "narrow" (normal, standard deviation 0.01, spec 2.4). Fans count the window.
+/// Key `init`: "glorot" (uniform within ±sqrt(6/(fan_in + fan_out)), Glorot and Bengio 2010),
+/// "narrow" (normal, standard deviation 0.01, spec 2.4) or "zero" (the last layer of a network that
+/// learns a remainder: it begins as nothing). Fans count the window.
 inline Tensor initial_weight(Options& options, Shape shape, Index fan_in, Index fan_out, Rng& rng) {
-  const bool glorot = options.choice("init", "glorot", {"glorot", "narrow"}) == "glorot";
+  const auto init = options.choice("init", "glorot", {"glorot", "narrow", "zero"});
   require(element_count(shape) <= kMostWeights, Exit::kUsage, "a weight of shape ",
           to_string(shape), " is larger than ", kMostWeights,
           " numbers; use fewer filters or outputs");
   const double limit = std::sqrt(6.0 / static_cast<double>(fan_in + fan_out));
   Tensor weight(std::move(shape), true);
+  if (init == "zero") return weight;
   for (Real& w : weight.values()) {
-    w = static_cast<Real>(glorot ? rng.uniform(-limit, limit) : 0.01 * rng.normal());
+    w = static_cast<Real>(init == "glorot" ? rng.uniform(-limit, limit) : 0.01 * rng.normal());
   }
   return weight;
 }

@@ -22,10 +22,13 @@ struct NoiseSpec {
   Scope scope = Scope::kFeature;
   Power power = Power::kVariance;
   Signal on = Signal::kFeatures;
+  /// Training noise: rows that share one level, counted from the beginning of each segment; 0 is
+  /// one level for all rows of an epoch.
+  Index block_rows = 0;
 };
 
 /// Keys: levels_db (numbers, null is clean), scope (feature|matrix), power
-/// (variance|meansquare), on (features|pose).
+/// (variance|meansquare), on (features|pose), block_rows.
 NoiseSpec parse_noise(Options options);
 
 /// Standard deviation of the noise on each feature: sqrt(P_j / 10^(snr/10)); zeros when clean.

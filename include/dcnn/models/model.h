@@ -23,6 +23,8 @@ struct Stream {
       segments;  ///< stretches without a gap, in order; no window crosses their ends
 
   Index rows() const { return x.rows(); }
+  /// (N) first row of the segment each row lies in.
+  std::vector<Index> segment_begins() const;
 };
 
 /// A stream to learn from or to score on, with its targets in their units.
@@ -58,6 +60,10 @@ struct FitSession {
 /// of noise on the pose. The draw depends on (key, row) alone.
 Stream noisy(const Samples& samples, const NoiseSpec& spec, const InputMap& map, SnrLevel snr,
              std::uint64_t key);
+
+/// The same with a level of its own for every NoiseSpec::block_rows rows, drawn by key.
+Stream noisy_blocks(const Samples& samples, const NoiseSpec& spec, const InputMap& map,
+                    std::uint64_t key);
 
 class Model {
  public:

@@ -35,9 +35,16 @@ class NetworkInput {
 /// The stream itself, row-major, with the beginnings of its segments.
 PreparedStream prepare_rows(const Stream& stream);
 
-/// {"kind": "map"}: (F, 5, 1), Eq. 7 of the row. {"kind": "window", "length": T}: (T, F), the last
-/// T rows standardised, the segment's first row repeated before it. Another kind is Error(exit).
-std::unique_ptr<NetworkInput> make_input(const Json& json, Index features, const std::string& where,
-                                         Exit exit);
+/// What a configuration asks for, for these features. Another kind is Error(kUsage).
+///   {"kind": "map"}                  (F, 5, 1): Eq. 7 of the row
+///   {"kind": "window", "length": T}  (T, F): the last T rows standardised, the segment's first row
+///                                    repeated before it
+///   {"kind": "body"}                 (F, 5, 1): per-sample columns of channels in the sensor frame
+///   {"kind": "lines"}                (F, 5, 1): causal line fits to them (sensor_columns.h)
+std::unique_ptr<NetworkInput> make_input(const Json& json, const FeatureLayout& layout,
+                                         const std::string& where);
+/// From to_json(), for that number of features: Error(kModel).
+std::unique_ptr<NetworkInput> stored_input(const Json& json, Index features,
+                                           const std::string& where);
 
 }  // namespace dcnn

@@ -32,10 +32,15 @@ struct TrainingSpec {
   static TrainingSpec parse(Options options);
 };
 
+class LinearSkip;
+
 class NetworkModel : public Model {
  public:
-  /// `layers` as in Network; `input` as in make_input().
-  NetworkModel(std::string kind, const Json& input, const Json& layers, const Problem& problem);
+  /// `layers` as in Network; `input` as in make_input(). With `skip` a ridge regression on the
+  /// network's inputs comes first and the network learns what it leaves (linear_skip.h); without
+  /// layers it is all there is.
+  NetworkModel(std::string kind, const Json& input, const Json& layers, const Problem& problem,
+               bool skip = false);
   NetworkModel(const Container& file, const std::string& where);
   ~NetworkModel() override;
   /// What every list of kinds (ModelKind::load) needs for a network.
@@ -49,8 +54,11 @@ class NetworkModel : public Model {
 
  private:
   friend class Trainer;
-  /// The network's own scale to targets in their units, at rows from `first` on.
-  void scale_back(const Tensor& outputs, Index first, Eigen::MatrixXd& result) const;
+  void load_network(const Json& architecture, const Container& file, const std::string& where);
+  /// Fits the skip and makes the scale that of its remainder.
+  void fit_skip(const Samples& training);
+  /// Targets in their units from the network's inputs: the skip and the scaled-back network.
+  Eigen::MatrixXd outputs(const Tensor& inputs) const;
   /// Rebuilds the network that predicts, after the weights changed.
   void refold();
 
@@ -60,7 +68,8 @@ class NetworkModel : public Model {
   InputMap::Spec map_spec_;
   InputMap map_;
   std::unique_ptr<NetworkInput> input_;
-  TargetScale scale_;
+  std::unique_ptr<LinearSkip> skip_;  // may be null
+  TargetScale scale_;                 // of what the network learns
   Eigen::VectorXd spread_;  // of each training target
   TrainingSpec training_;
   NoiseSpec noise_;

@@ -1,0 +1,95 @@
+#include "dcnn/models/network_model.h"
+
+namespace dcnn {
+namespace {
+
+/// What stands beside the linear skip: four 2x2 convolution modules as in the paper, or one of the
+/// two controls of every comparison, a hidden layer and nothing at all.
+Json remainder_layers(Options options, Index targets, Index features) {
+  const auto body =
+      options.choice("body", "convolutions", {"convolutions", "hidden", "none"});
+  const auto padding = options.choice("padding", "valid", {"same", "valid"});
+  const auto filters = options.get("filters", std::vector<Index>{8, 16, 32, 32});
+  const auto units = static_cast<Index>(options.number("hidden", 64, 1, 4096));
+  const double dropout = options.number("dropout", 0.5, 0.0, 0.95);
+  for (const char* key : {"name", "input"}) options.raw(key);
+  options.finish();
+  if (body == "none") return Json::array();
+  Json layers = Json::array();
+  if (body == "hidden") {
+    layers = {{{"kind", "flatten"}}, {{"kind", "linear"}, {"outputs", units}}, {{"kind", "relu"}}};
+  } else {
+    const auto least = static_cast<Index>(filters.size()) + 1;
+    if (padding == "valid" && features < least) {
+      options.reject("padding", "is 'valid', which needs at least ", least, " rows, not ",
+                     features, "; use 'same'");
+    }
+    for (const Index count : filters) {
+      layers.push_back({{"kind", "conv2d"},
+                        {"filters", count},
+                        {"window", {2, 2}},
+                        {"padding", padding},
+                        {"init", "glorot"}});
+      layers.push_back({{"kind", "batch_norm"}});
+      layers.push_back({{"kind", "relu"}});
+    }
+    if (dropout > 0.0) layers.push_back({{"kind", "dropout"}, {"rate", dropout}});
+    layers.push_back({{"kind", "flatten"}});
+  }
+  layers.push_back({{"kind", "linear"}, {"outputs", targets}, {"init", "zero"}});
+  return layers;
+}
+
+/// Spec 2.6. Noise of every level in each epoch, in blocks of 2 s at 500 Hz: with so few epochs one
+/// level an epoch would leave most of them out.
+Json preset(const std::string& name, bool axes) {
+  Json json = {{"model", {{"body", "convolutions"}, {"padding", "valid"}, {"dropout", 0.5}}},
+               {"training",
+                {{"epochs", 8},
+                 {"batch", 100},
+                 {"lr", 2e-3},
+                 {"schedule", "cosine"},
+                 {"ema", 0.998},
+                 {"keep", "last"},
+                 {"standardise_targets", true}}},
+               {"noise",
+                {{"levels_db", {nullptr, 45, 40, 35, 30, 25, 20, 15, 10}}, {"block_rows", 1000}}}};
+  Json& training = json["training"];
+  if (name == "quick") training["epochs"] = 2;
+  if (name == "fair" || name == "paper") training["epochs"] = 20;
+  if (axes && name != "paper") {
+    json["model"].update({{"dropout", 0.0}, {"padding", "same"}});
+    training["batch"] = 200;
+  }
+  return json;
+}
+
+std::unique_ptr<Model> make(const std::string& name, const std::string& input,
+                            const Problem& problem) {
+  Options options(problem.configuration, problem.where, Exit::kUsage);
+  Options model = options.child("model");
+  Json chosen = model.raw("input");
+  if (chosen.is_null()) chosen = {{"kind", input}};
+  return std::make_unique<NetworkModel>(
+      name, chosen, remainder_layers(model, problem.outputs(), problem.features()), problem, true);
+}
+
+std::unique_ptr<Model> make_plus(const Problem& problem) {
+  return make("dcnn-plus", "body", problem);
+}
+std::unique_ptr<Model> make_t(const Problem& problem) { return make("dcnn-t", "lines", problem); }
+
+std::unique_ptr<Model> load(const Container& file, const std::string& where) {
+  return std::make_unique<NetworkModel>(file, where);
+}
+
+}  // namespace
+
+extern const ModelKind dcnn_plus_model, dcnn_t_model;
+const ModelKind dcnn_plus_model{
+    "dcnn-plus", "four 2x2 modules beside a linear part, in the sensor frame (not the paper's)",
+    preset, make_plus, load};
+const ModelKind dcnn_t_model{"dcnn-t", "the same on causal line fits over the last 0.26 s", preset,
+                             make_t, load};
+
+}  // namespace dcnn

@@ -1,0 +1,153 @@
+#include "models/sensor_columns.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dcnn/data/line_filter.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kClip = 5.0;
+constexpr double kKnee = 0.08;
+constexpr double kLeastSaturated = 0.3;  // deviation of a tanh entry
+constexpr Index kSaturated[] = {3, 4};   // column of tanh: body, lines
+constexpr double kConstant = 1e-9;       // a deviation below this share of the mean is rounding
+constexpr Index kLongest = 1 << 16;      // samples in a window
+
+using RowMajor = decltype(PreparedStream::values);
+
+/// Column c of every channel.
+void set_column(RowMajor& values, Index c, const Eigen::MatrixXd& column) {
+  for (Index j = 0; j < column.cols(); ++j) {
+    values.col(j * SensorColumns::kColumns + c) = column.col(j);
+  }
+}
+
+Eigen::RowVectorXd deviation_of(const Eigen::MatrixXd& values, const Eigen::RowVectorXd& mean) {
+  const double n = static_cast<double>(std::max<Index>(1, values.rows() - 1));
+  const Eigen::RowVectorXd sd =
+      ((values.rowwise() - mean).colwise().squaredNorm() / n).cwiseSqrt();
+  const Eigen::RowVectorXd least = kConstant * (mean.array().abs() + kConstant).matrix();
+  return (sd.array() > least.array()).select(sd, 1.0);
+}
+
+Eigen::VectorXd read_vector(Options& options, const std::string& key, Index size) {
+  const auto v = options.get<std::vector<double>>(key);
+  const Eigen::VectorXd result =
+      Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Index>(v.size()));
+  if (result.size() != size || !result.allFinite()) {
+    options.reject(key, "must hold ", size, " finite numbers");
+  }
+  return result;
+}
+
+template <class Vector>
+Json list_of(const Vector& v) {
+  return std::vector<double>(v.data(), v.data() + v.size());
+}
+
+}  // namespace
+
+SensorColumns::SensorColumns(const std::string& kind, Options& options,
+                             const FeatureLayout& layout)
+    : features_(static_cast<Index>(layout.names.size())), frame_(layout) {
+  if (kind == "body") return;
+  const auto windows = options.get("windows_s", std::vector<double>{0.016, 0.048, 0.128, 0.256});
+  if (windows.size() != kColumns - 1) options.reject("windows_s", "must be four lengths in s");
+  if (layout.dt <= 0.0) {
+    options.reject("kind", "is 'lines', which needs recordings with a clock; use 'body'");
+  }
+  for (const double window : windows) {
+    const double samples = std::round(window / layout.dt);
+    if (!(samples >= 2.0 && samples <= static_cast<double>(kLongest))) {
+      options.reject("windows_s", "must be lengths of 2 to ", kLongest, " samples of ", layout.dt,
+                     " s, not ", window, " s");
+    }
+    lengths_.push_back(static_cast<Index>(samples));
+  }
+}
+
+SensorColumns::SensorColumns(const std::string& kind, Options& options, Index features,
+                             const std::string& where)
+    : features_(features),
+      frame_(SensorFrame::parse(options.raw("frame"), features, where, Exit::kModel)) {
+  if (kind == "lines") {
+    lengths_ = options.get<std::vector<Index>>("lengths");
+    const bool valid = lengths_.size() == kColumns - 1 &&
+                       std::ranges::all_of(lengths_, [](Index n) { return n > 1 && n <= kLongest; });
+    if (!valid) options.reject("lengths", "must be four numbers of samples");
+  }
+  channel_mean_ = read_vector(options, "channel_mean", features);
+  knee_ = read_vector(options, "knee", features);
+  mean_ = read_vector(options, "mean", kColumns * features).transpose();
+  deviation_ = read_vector(options, "deviation", kColumns * features).transpose();
+  if ((knee_.array() <= 0.0).any()) options.reject("knee", "must be above 0");
+  if ((deviation_.array() <= 0.0).any()) options.reject("deviation", "must be above 0");
+}
+
+void SensorColumns::learn(const Samples& training, const InputMap& /*map*/) {
+  const Eigen::MatrixXd channels = frame_.of(training.x);
+  channel_mean_ = channels.colwise().mean().transpose();
+  knee_ = kKnee * deviation_of(channels, channel_mean_.transpose()).transpose();
+  const RowMajor columns = raw(training).values;
+  mean_ = columns.colwise().mean();
+  deviation_ = deviation_of(columns, mean_);
+  for (Index j = kSaturated[is_lines() ? 1 : 0]; j < deviation_.size(); j += kColumns) {
+    deviation_[j] = std::max(deviation_[j], kLeastSaturated);
+  }
+}
+
+PreparedStream SensorColumns::raw(const Stream& stream) const {
+  PreparedStream prepared = prepare_rows({frame_.of(stream.x), stream.segments});
+  const Eigen::MatrixXd x = prepared.values;
+  RowMajor& columns = prepared.values;
+  columns.resize(x.rows(), kColumns * features_);
+  const Eigen::RowVectorXd mean = channel_mean_.transpose(), knee = knee_.transpose();
+  const auto saturated = [&](const Eigen::MatrixXd& values) {
+    return (values.array().rowwise() / knee.array()).tanh().matrix().eval();
+  };
+  if (!is_lines()) {
+    set_column(columns, 0, x);
+    set_column(columns, 1, x.rowwise() - mean);
+    set_column(columns, 2, ((x.rowwise() - mean).array().rowwise() / knee.array() * kKnee).matrix());
+    set_column(columns, 3, saturated(x));
+    set_column(columns, 4, x.cwiseAbs2());
+    return prepared;
+  }
+  for (std::size_t k = 0; k < lengths_.size(); ++k) {
+    const Eigen::MatrixXd line = line_filtered(x, prepared.segment_begin, lengths_[k]);
+    set_column(columns, static_cast<Index>(k), line);
+    if (k == 2) set_column(columns, 4, saturated(line));
+  }
+  return prepared;
+}
+
+PreparedStream SensorColumns::prepare(const Stream& stream, const InputMap& /*map*/) const {
+  PreparedStream prepared = raw(stream);
+  auto& values = prepared.values;
+  for (Index i = 0; i < values.rows(); ++i) {
+    values.row(i) =
+        ((values.row(i) - mean_).array() / deviation_.array()).cwiseMax(-kClip).cwiseMin(kClip);
+  }
+  return prepared;
+}
+
+void SensorColumns::write(const PreparedStream& stream, const InputMap& /*map*/, Index row,
+                          Real* out) const {
+  const auto values = stream.values.row(row);
+  for (Index j = 0; j < values.size(); ++j) out[j] = static_cast<Real>(values[j]);
+}
+
+Json SensorColumns::to_json() const {
+  Json json = {{"kind", is_lines() ? "lines" : "body"},
+               {"frame", frame_.to_json()},
+               {"channel_mean", list_of(channel_mean_)},
+               {"knee", list_of(knee_)},
+               {"mean", list_of(mean_)},
+               {"deviation", list_of(deviation_)}};
+  if (is_lines()) json["lengths"] = lengths_;
+  return json;
+}
+
+}  // namespace dcnn

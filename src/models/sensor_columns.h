@@ -1,0 +1,49 @@
+// Five columns of every channel in the sensor frame: what DCNN+ and DCNN-T see instead of Eq. 7.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dcnn/data/sensor_frame.h"
+#include "dcnn/models/network_input.h"
+
+namespace dcnn {
+
+/// (F, 5, 1), every entry standardised by the clean training rows and clipped at ±5:
+///   body   x, x - mean, (x - mean)/sd, tanh(x/(0.08 sd)), x^2 of the row itself
+///   lines  causal line fits to x over four windows (line_filter.h), and tanh of the third one
+/// with x a channel in the sensor frame. The tanh saturates as dry friction does. Its sd counts as
+/// at least 0.3: a channel that hardly changes sign would otherwise make an entry that is nearly
+/// constant in training and explodes with noise.
+class SensorColumns : public NetworkInput {
+ public:
+  static constexpr Index kColumns = 5;
+
+  /// Key `windows_s` of kind lines: four window lengths in s, by default those of 8, 24, 64 and 128
+  /// samples at 500 Hz.
+  SensorColumns(const std::string& kind, Options& options, const FeatureLayout& layout);
+  /// From to_json().
+  SensorColumns(const std::string& kind, Options& options, Index features,
+                const std::string& where);
+
+  Shape shape() const override { return {features_, kColumns, 1}; }
+  void learn(const Samples& training, const InputMap& map) override;
+  PreparedStream prepare(const Stream& stream, const InputMap& map) const override;
+  void write(const PreparedStream& stream, const InputMap& map, Index row,
+             Real* out) const override;
+  Json to_json() const override;
+
+ private:
+  bool is_lines() const { return !lengths_.empty(); }
+  /// Columns before standardisation, (N, 5 F), channel by channel.
+  PreparedStream raw(const Stream& stream) const;
+
+  Index features_;
+  SensorFrame frame_;
+  std::vector<Index> lengths_;           // of the lines, samples; empty for body
+  Eigen::VectorXd channel_mean_, knee_;  // (F); the knee of tanh is 0.08 sd
+  Eigen::RowVectorXd mean_, deviation_;  // (5 F) of the columns
+};
+
+}  // namespace dcnn
