@@ -32,8 +32,8 @@ void SensorFrame::turn(Eigen::RowVectorXd& x) const {
     const Eigen::Matrix3d W = euler_rate_matrix(euler);
     const Eigen::Vector3d rates = block(kAngularVelocity);
     if (first_[kAngularAcceleration] >= 0) {
-      const Eigen::Vector3d alpha = W * block(kAngularAcceleration) +
-                                    euler_rate_matrix_derivative(euler, rates) * rates;
+      const Eigen::Vector3d alpha =
+          W * block(kAngularAcceleration) + euler_rate_matrix_derivative(euler, rates) * rates;
       block(kAngularAcceleration) = R_SE_ * alpha;
     }
     block(kAngularVelocity) = R_SE_ * (W * rates);

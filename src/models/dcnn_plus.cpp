@@ -6,8 +6,7 @@ namespace {
 /// What stands beside the linear skip: four 2x2 convolution modules as in the paper, or one of the
 /// two controls of every comparison, a hidden layer and nothing at all.
 Json remainder_layers(Options options, Index targets, Index features) {
-  const auto body =
-      options.choice("body", "convolutions", {"convolutions", "hidden", "none"});
+  const auto body = options.choice("body", "convolutions", {"convolutions", "hidden", "none"});
   const auto padding = options.choice("padding", "valid", {"same", "valid"});
   const auto filters = options.get("filters", std::vector<Index>{8, 16, 32, 32});
   const auto units = static_cast<Index>(options.number("hidden", 64, 1, 4096));
@@ -21,8 +20,8 @@ Json remainder_layers(Options options, Index targets, Index features) {
   } else {
     const auto least = static_cast<Index>(filters.size()) + 1;
     if (padding == "valid" && features < least) {
-      options.reject("padding", "is 'valid', which needs at least ", least, " rows, not ",
-                     features, "; use 'same'");
+      options.reject("padding", "is 'valid', which needs at least ", least, " rows, not ", features,
+                     "; use 'same'");
     }
     for (const Index count : filters) {
       layers.push_back({{"kind", "conv2d"},
@@ -43,17 +42,17 @@ Json remainder_layers(Options options, Index targets, Index features) {
 /// Spec 2.6. Noise of every level in each epoch, in blocks of 2 s at 500 Hz: with so few epochs one
 /// level an epoch would leave most of them out.
 Json preset(const std::string& name, bool axes) {
-  Json json = {{"model", {{"body", "convolutions"}, {"padding", "valid"}, {"dropout", 0.5}}},
-               {"training",
-                {{"epochs", 8},
-                 {"batch", 100},
-                 {"lr", 2e-3},
-                 {"schedule", "cosine"},
-                 {"ema", 0.998},
-                 {"keep", "last"},
-                 {"standardise_targets", true}}},
-               {"noise",
-                {{"levels_db", {nullptr, 45, 40, 35, 30, 25, 20, 15, 10}}, {"block_rows", 1000}}}};
+  Json json = {
+      {"model", {{"body", "convolutions"}, {"padding", "valid"}, {"dropout", 0.5}}},
+      {"training",
+       {{"epochs", 8},
+        {"batch", 100},
+        {"lr", 2e-3},
+        {"schedule", "cosine"},
+        {"ema", 0.998},
+        {"keep", "last"},
+        {"standardise_targets", true}}},
+      {"noise", {{"levels_db", {nullptr, 45, 40, 35, 30, 25, 20, 15, 10}}, {"block_rows", 1000}}}};
   Json& training = json["training"];
   if (name == "quick") training["epochs"] = 2;
   if (name == "fair" || name == "paper") training["epochs"] = 20;

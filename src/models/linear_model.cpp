@@ -13,7 +13,7 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double kGravity = 9.81;     // m/s^2
+constexpr double kGravity = 9.81;  // m/s^2
 constexpr Index kLongestFilter = 1 << 16;
 constexpr Index kRowsAtATime = 2048;  // terms in memory that does not grow with the recording
 

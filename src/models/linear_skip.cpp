@@ -16,8 +16,8 @@ constexpr Index kRowsAtATime = 1024;
 constexpr const char* kName = "skip.weights";
 
 /// [1, inputs] of some rows, as the network sees them.
-Eigen::MatrixXd design(const NetworkInput& input, const PreparedStream& stream,
-                       const InputMap& map, Index first, Index rows) {
+Eigen::MatrixXd design(const NetworkInput& input, const PreparedStream& stream, const InputMap& map,
+                       Index first, Index rows) {
   std::vector<Real> cells(static_cast<std::size_t>(element_count(input.shape())));
   Eigen::MatrixXd a(rows, 1 + static_cast<Index>(cells.size()));
   for (Index i = 0; i < rows; ++i) {
@@ -57,8 +57,8 @@ LinearSkip LinearSkip::fit(const Samples& training, const NoiseSpec& noise, cons
   require(skip.weights_.allFinite(), Exit::kFailure,
           "the linear part could not be fitted: a feature is not finite");
   // |Y - AW|^2 = |Y|^2 - 2 W^T A^T Y + W^T A^T A W, column by column.
-  const Eigen::VectorXd squares = training.y.colwise().squaredNorm().transpose() *
-                                  static_cast<double>(noise.levels.size());
+  const Eigen::VectorXd squares =
+      training.y.colwise().squaredNorm().transpose() * static_cast<double>(noise.levels.size());
   const Eigen::MatrixXd& w = skip.weights_;
   const Eigen::VectorXd left = squares - 2.0 * w.cwiseProduct(moment).colwise().sum().transpose() +
                                w.cwiseProduct(normal * w).colwise().sum().transpose();

@@ -66,9 +66,7 @@ std::unique_ptr<NetworkInput> simple(const std::string& kind, Options& options, 
 
 }  // namespace
 
-PreparedStream prepare_rows(const Stream& stream) {
-  return {stream.x, stream.segment_begins()};
-}
+PreparedStream prepare_rows(const Stream& stream) { return {stream.x, stream.segment_begins()}; }
 
 std::unique_ptr<NetworkInput> make_input(const Json& json, const FeatureLayout& layout,
                                          const std::string& where) {

@@ -26,8 +26,7 @@ void set_column(RowMajor& values, Index c, const Eigen::MatrixXd& column) {
 
 Eigen::RowVectorXd deviation_of(const Eigen::MatrixXd& values, const Eigen::RowVectorXd& mean) {
   const double n = static_cast<double>(std::max<Index>(1, values.rows() - 1));
-  const Eigen::RowVectorXd sd =
-      ((values.rowwise() - mean).colwise().squaredNorm() / n).cwiseSqrt();
+  const Eigen::RowVectorXd sd = ((values.rowwise() - mean).colwise().squaredNorm() / n).cwiseSqrt();
   const Eigen::RowVectorXd least = kConstant * (mean.array().abs() + kConstant).matrix();
   return (sd.array() > least.array()).select(sd, 1.0);
 }
@@ -49,8 +48,7 @@ Json list_of(const Vector& v) {
 
 }  // namespace
 
-SensorColumns::SensorColumns(const std::string& kind, Options& options,
-                             const FeatureLayout& layout)
+SensorColumns::SensorColumns(const std::string& kind, Options& options, const FeatureLayout& layout)
     : features_(static_cast<Index>(layout.names.size())), frame_(layout) {
   if (kind == "body") return;
   const auto windows = options.get("windows_s", std::vector<double>{0.016, 0.048, 0.128, 0.256});
@@ -74,8 +72,9 @@ SensorColumns::SensorColumns(const std::string& kind, Options& options, Index fe
       frame_(SensorFrame::parse(options.raw("frame"), features, where, Exit::kModel)) {
   if (kind == "lines") {
     lengths_ = options.get<std::vector<Index>>("lengths");
-    const bool valid = lengths_.size() == kColumns - 1 &&
-                       std::ranges::all_of(lengths_, [](Index n) { return n > 1 && n <= kLongest; });
+    const bool valid =
+        lengths_.size() == kColumns - 1 &&
+        std::ranges::all_of(lengths_, [](Index n) { return n > 1 && n <= kLongest; });
     if (!valid) options.reject("lengths", "must be four numbers of samples");
   }
   channel_mean_ = read_vector(options, "channel_mean", features);
@@ -110,7 +109,8 @@ PreparedStream SensorColumns::raw(const Stream& stream) const {
   if (!is_lines()) {
     set_column(columns, 0, x);
     set_column(columns, 1, x.rowwise() - mean);
-    set_column(columns, 2, ((x.rowwise() - mean).array().rowwise() / knee.array() * kKnee).matrix());
+    set_column(columns, 2,
+               ((x.rowwise() - mean).array().rowwise() / knee.array() * kKnee).matrix());
     set_column(columns, 3, saturated(x));
     set_column(columns, 4, x.cwiseAbs2());
     return prepared;

@@ -88,8 +88,7 @@ void Trainer::begin_epoch() {
     snr_ = noise.levels[Rng({model_.seed_, kLevel, epoch}).below(noise.levels.size())];
     noisy_ = model_.input_->prepare(noisy(training_, noise, model_.map_, snr_, key), model_.map_);
   } else {
-    noisy_ =
-        model_.input_->prepare(noisy_blocks(training_, noise, model_.map_, key), model_.map_);
+    noisy_ = model_.input_->prepare(noisy_blocks(training_, noise, model_.map_, key), model_.map_);
   }
 }
 
@@ -111,8 +110,8 @@ void Trainer::step() {
   const Index first = step_ * spec_.batch;
   Pass pass{Pass::Mode::kTrain, Rng({model_.seed_, kDropout, epoch, number})};
   const Tensor inputs = gather(noisy_, order_, first);
-  const Tensor loss =
-      half_mean_squared_error(model_.network_->forward(inputs, pass), gather_targets(inputs, first));
+  const Tensor loss = half_mean_squared_error(model_.network_->forward(inputs, pass),
+                                              gather_targets(inputs, first));
   const double value = loss.values()[0];
   require(std::isfinite(value), Exit::kFailure, "training diverged in epoch ", epoch_ + 1,
           ": the loss is not finite; lower training.lr");
@@ -149,7 +148,8 @@ Tensor Trainer::gather_targets(const Tensor& inputs, Index first) const {
   for (Index i = 0; i < spec_.batch; ++i) {
     const Index row = order_[static_cast<std::size_t>(first + i)];
     for (Index j = 0; j < targets; ++j) {
-      wanted.data()[i * targets + j] = static_cast<Real>(y_(row, j) - skip(i, j) / model_.scale_.deviation[j]);
+      wanted.data()[i * targets + j] =
+          static_cast<Real>(y_(row, j) - skip(i, j) / model_.scale_.deviation[j]);
     }
   }
   return wanted;

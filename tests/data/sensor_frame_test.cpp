@@ -10,8 +10,8 @@ namespace {
 
 FeatureLayout pose_layout() {
   FeatureLayout layout;
-  layout.names = {"alpha", "beta",   "gamma", "vx", "vy", "vz",      "dalpha", "dbeta",
-                  "dgamma", "ax",    "ay",    "az", "ddalpha", "ddbeta", "ddgamma"};
+  layout.names = {"alpha",  "beta", "gamma", "vx", "vy",      "vz",     "dalpha", "dbeta",
+                  "dgamma", "ax",   "ay",    "az", "ddalpha", "ddbeta", "ddgamma"};
   layout.spec.sensor_rotation_rpy = {0.3, -0.2, 0.7};
   return layout;
 }

@@ -9,8 +9,8 @@
 namespace dcnn {
 
 /// Turns [theta, v_B, theta', a_B, theta''] into [R^T e_z, R^T v, omega, R^T a, alpha], R = R_BS:
-/// in them the force on a tool hardly depends on where the robot stands, and its law is the same for
-/// all of them. The noise of the features goes through the transform with them.
+/// in them the force on a tool hardly depends on where the robot stands, and its law is the same
+/// for all of them. The noise of the features goes through the transform with them.
 class SensorFrame {
  public:
   /// The identity: what the sets `body` and `axes` need.

@@ -70,7 +70,7 @@ class NetworkModel : public Model {
   std::unique_ptr<NetworkInput> input_;
   std::unique_ptr<LinearSkip> skip_;  // may be null
   TargetScale scale_;                 // of what the network learns
-  Eigen::VectorXd spread_;  // of each training target
+  Eigen::VectorXd spread_;            // of each training target
   TrainingSpec training_;
   NoiseSpec noise_;
   std::uint64_t seed_ = 0;
