@@ -40,7 +40,8 @@ Json remainder_layers(Options options, Index targets, Index features) {
 }
 
 /// Spec 2.6. Noise of every level in each epoch, in blocks of 2 s at 500 Hz: with so few epochs one
-/// level an epoch would leave most of them out.
+/// level an epoch would leave most of them out. Batch norm takes its statistics from those noisy
+/// rows, behind which the weights were trained.
 Json preset(const std::string& name, bool axes) {
   Json json = {
       {"model", {{"body", "convolutions"}, {"padding", "valid"}, {"dropout", 0.5}}},
@@ -51,6 +52,7 @@ Json preset(const std::string& name, bool axes) {
         {"schedule", "cosine"},
         {"ema", 0.998},
         {"keep", "last"},
+        {"statistics", "running"},
         {"standardise_targets", true}}},
       {"noise", {{"levels_db", {nullptr, 45, 40, 35, 30, 25, 20, 15, 10}}, {"block_rows", 1000}}}};
   Json& training = json["training"];
@@ -60,6 +62,15 @@ Json preset(const std::string& name, bool axes) {
     json["model"].update({{"dropout", 0.0}, {"padding", "same"}});
     training["batch"] = 200;
   }
+  return json;
+}
+
+/// Without a filter in time more epochs fit the training trajectory and nothing else: on a
+/// validation trajectory 2 epochs gave 0.126 N without noise, 8 gave 0.270 N, the linear part alone
+/// 0.121 N.
+Json plus_preset(const std::string& name, bool axes) {
+  Json json = preset(name, axes);
+  json["training"]["epochs"] = 2;
   return json;
 }
 
@@ -87,7 +98,7 @@ std::unique_ptr<Model> load(const Container& file, const std::string& where) {
 extern const ModelKind dcnn_plus_model, dcnn_t_model;
 const ModelKind dcnn_plus_model{
     "dcnn-plus", "four 2x2 modules beside a linear part, in the sensor frame (not the paper's)",
-    preset, make_plus, load};
+    plus_preset, make_plus, load};
 const ModelKind dcnn_t_model{"dcnn-t", "the same on causal line fits over the last 0.26 s", preset,
                              make_t, load};
 
