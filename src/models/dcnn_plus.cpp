@@ -44,7 +44,7 @@ Json remainder_layers(Options options, Index targets, Index features) {
 /// rows, behind which the weights were trained.
 Json preset(const std::string& name, bool axes) {
   Json json = {
-      {"model", {{"body", "convolutions"}, {"padding", "valid"}, {"dropout", 0.5}}},
+      {"model", {{"body", "convolutions"}, {"padding", "valid"}, {"dropout", 0.7}}},
       {"training",
        {{"epochs", 8},
         {"batch", 100},
