@@ -25,6 +25,7 @@ thead { border-bottom: 1px solid #1a1a1a; }
 pre { background: #f5f5f5; padding: .8em; overflow-x: auto; font-size: .85em; }
 figure { margin: 1.5em 0; break-inside: avoid; }
 svg { max-width: 100%; height: auto; }
+.panels { display: grid; grid-template-columns: 1fr 1fr; gap: 0 .5em; }
 figcaption { font-size: .9em; color: #444; max-width: 50em; }
 @media print { body { margin: 0; max-width: none; font-size: 11pt; } h2 { break-after: avoid; } }
 )";
@@ -82,6 +83,19 @@ void HtmlReport::table(const std::vector<std::string>& header,
 
 void HtmlReport::chart(const Chart& chart, const std::string& caption) {
   body_ += "<figure>\n" + to_svg(chart) + "\n<figcaption>" + escape_markup(caption) +
+           "</figcaption>\n</figure>\n";
+}
+
+void HtmlReport::panels(std::vector<Chart> charts, const std::string& caption) {
+  if (charts.empty()) return;
+  Chart key = charts.front();
+  key.width = 2 * key.width;
+  body_ += "<figure>\n<div class=\"panels\">\n";
+  for (Chart& chart : charts) {
+    chart.legend = false;
+    body_ += to_svg(chart) + "\n";
+  }
+  body_ += "</div>\n" + to_svg_legend(key) + "\n<figcaption>" + escape_markup(caption) +
            "</figcaption>\n</figure>\n";
 }
 

@@ -26,6 +26,16 @@ constexpr std::array kMarkers = {"M-3.5 0a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0-7 0z",
 
 std::string number(double value) { return fixed(value, 2); }
 
+std::string svg_document(double width, double height, const std::string& title,
+                         const std::string& body) {
+  const auto w = fixed(width, 0), h = number(height);
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h +
+         "\" viewBox=\"0 0 " + w + " " + h +
+         "\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\" "
+         "fill=\"#1a1a1a\">\n<title>" +
+         escape_markup(title) + "</title>\n" + body + "</svg>";
+}
+
 std::string line(Point a, Point b, const std::string& attributes) {
   return "<line x1=\"" + number(a.x) + "\" y1=\"" + number(a.y) + "\" x2=\"" + number(b.x) +
          "\" y2=\"" + number(b.y) + "\" " + attributes + "/>\n";
@@ -57,9 +67,12 @@ std::string filled(std::size_t k) {
 }
 
 std::string marker(Point at, std::size_t k) {
+  // The second round of looks is hollow.
+  const bool hollow = k / kMarkers.size() % 2 == 1;
   return std::string("<path d=\"") + kMarkers[k % kMarkers.size()] + "\" transform=\"translate(" +
-         number(at.x) + " " + number(at.y) + ")\" fill=\"" + kColours[k % kColours.size()] + "\" " +
-         stroke(k) + "/>\n";
+         number(at.x) + " " + number(at.y) + ")\" fill=\"" +
+         (hollow ? "#fff" : kColours[k % kColours.size()]) + "\" " + stroke(k) +
+         (hollow ? " stroke-width=\"1.4\"" : "") + "/>\n";
 }
 
 }  // namespace dcnn
