@@ -10,6 +10,7 @@ struct Point {
   double x, y;  // pixels, y downwards
 };
 
+constexpr int kPlainBlack = 7;   ///< the look of what is measured
 constexpr double kLetter = 6.4;  ///< mean width of a character at 12 px, on the safe side
 
 std::string number(double value);  ///< a coordinate
