@@ -21,6 +21,7 @@ table { border-collapse: collapse; margin: 1em 0; font-size: .9em; font-variant-
 th, td { white-space: nowrap; padding: .25em .8em; text-align: left; vertical-align: top; }
 thead { border-bottom: 1px solid #1a1a1a; }
 .n { text-align: right; white-space: nowrap; }
+.t { white-space: normal; min-width: 12em; overflow-wrap: anywhere; }
 .wide { overflow-x: auto; }
 pre { background: #f5f5f5; padding: .8em; overflow-x: auto; font-size: .85em; }
 figure { margin: 1.5em 0; break-inside: avoid; }
@@ -37,6 +38,9 @@ bool looks_numeric(const std::string& cell) {
   return first != cell.npos && cell[first] >= '0' && cell[first] <= '9';
 }
 
+/// Words that would make a table wider than the page are wrapped.
+bool is_long(const std::string& cell) { return character_count(cell) > 36; }
+
 bool column_is_numeric(const std::vector<std::vector<std::string>>& rows, std::size_t column) {
   return std::all_of(rows.begin(), rows.end(), [column](const auto& row) {
     return column >= row.size() || looks_numeric(row[column]);
@@ -48,7 +52,8 @@ std::string table_row(const std::vector<std::string>& cells, const std::vector<b
   std::string row = "<tr>";
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const bool right = i < numeric.size() && numeric[i];
-    row += "<" + tag + (right ? " class=\"n\">" : ">") + escape_markup(cells[i]) + "</" + tag + ">";
+    const char* kind = right ? " class=\"n\">" : is_long(cells[i]) ? " class=\"t\">" : ">";
+    row += "<" + tag + kind + escape_markup(cells[i]) + "</" + tag + ">";
   }
   return row + "</tr>\n";
 }

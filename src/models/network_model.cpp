@@ -153,6 +153,8 @@ void NetworkModel::scale_back(const Tensor& outputs, Index first, Eigen::MatrixX
   }
 }
 
+bool NetworkModel::per_sample() const { return input_->per_sample(); }
+
 Index NetworkModel::parameter_count() const { return network_->parameter_count(); }
 
 void NetworkModel::save(Container& file) const {

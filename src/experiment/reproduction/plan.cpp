@@ -15,13 +15,6 @@ std::vector<NoiseMode> noise_modes(const std::string& preset) {
            "one power over the whole matrix, as awgn(X, snr, 'measured')",
            {"A"},
            draws,
-           every},
-          {"pose", "noise on the logged pose, before it is differentiated", {"A"}, draws, every},
-          {"map",
-           "independent noise on the five columns of X*: a leak, since the clean feature can be "
-           "averaged out of its copies",
-           {"A"},
-           draws,
            every}};
 }
 

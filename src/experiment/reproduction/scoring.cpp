@@ -10,6 +10,7 @@ constexpr Eigen::Index kMaxTraceRows = 4096;
 EvaluationRequest scoring_request(const NoiseMode& mode) {
   EvaluationRequest request;
   request.runs = mode.draws;
+  request.every = mode.every;
   request.matlab_noise = mode.name == "matlab";
   return request;
 }
