@@ -5,6 +5,7 @@
 #include "dcnn/experiment/train.h"
 #include "dcnn/physics/scenario.h"
 #include "experiment/reproduction/scoring.h"
+#include "experiment/reproduction/timing.h"
 
 namespace dcnn {
 namespace {
@@ -156,6 +157,33 @@ Step Workshop::scoring(const NoiseMode& mode, const Training& what) {
   return step;
 }
 
+/// Times do not depend on how a model was trained: those of protocol A.
+Step Workshop::timing(const Entry& entry) {
+  Step step;
+  const Training what{plan_.protocols.front().name, &entry, plan_.protocols.front().noise,
+                      request_.seed, request_.epochs};
+  const int repetitions =
+      entry.name == "lstm-25" ? plan_.timing.repetitions_lstm_25 : plan_.timing.repetitions;
+  step.name = entry.name + ": time";
+  step.seconds = 4 * entry.pass_s * repetitions * static_cast<double>(plan_.timing.samples) / 32045;
+  const auto file = layout_.timing(entry.name);
+  step.files = {file};
+  step.inputs = [this, what, repetitions] {
+    return training_inputs(what) + " " + data_hash(test_data()) + " " +
+           std::to_string(repetitions) + " " + std::to_string(plan_.timing.samples);
+  };
+  step.work = [this, what, file, repetitions](const StepSession& session) {
+    const Identifier identifier = read_identifier(layout_.model(what.series, what.entry->name));
+    const Recording recording =
+        read_recording(test_data(), request_.read, identifier.layout.system);
+    write_file(
+        file,
+        time_calls(identifier, recording, plan_.timing.samples, repetitions, session).dump(1) +
+            "\n");
+  };
+  return step;
+}
+
 /// A third of the epochs: what a training costs is what limits how many there can be.
 Workshop::Training Workshop::further(const Entry& entry, int k) const {
   const Json preset = model_kind(entry.kind, Exit::kUsage).preset(request_.preset, false);
@@ -184,6 +212,9 @@ std::vector<Step> Workshop::steps() {
       }
     });
   }
+  for_each_trained([&](const Entry& entry) {
+    if (timed(entry)) steps.push_back(timing(entry));
+  });
   const NoiseMode once{kFurtherTrainings, "", {}, 1, 4};
   for (int k = 1; k <= plan_.trainings; ++k) {
     for_each_trained([&](const Entry& entry) {
