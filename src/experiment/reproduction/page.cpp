@@ -157,7 +157,7 @@ std::string reproduction_page(const ReproductionRequest& request, const Plan& pl
   add_curves(page, request, plan, results);
   add_assumptions(page);
   page.heading("Where these numbers come from");
-  page.table({"", ""}, provenance.rows);
+  page.table({"of", "value"}, provenance.rows);
   return page.html();
 }
 

@@ -55,7 +55,6 @@ void add_claim_table(HtmlReport& page, const std::vector<Verdicts>& verdicts) {
     rows.push_back(row);
   }
   page.table(header, rows);
-  page.paragraph("Numbers, means over the noisy levels:");
   std::vector<Cells> numbers;
   for (std::size_t k = 0; k < first.size(); ++k) {
     for (const Verdicts& v : verdicts) {
@@ -65,7 +64,9 @@ void add_claim_table(HtmlReport& page, const std::vector<Verdicts>& verdicts) {
       numbers.push_back({claim.id, claim.id == "C5" ? "" : v.series, claim.numbers});
     }
   }
-  page.table({"", "", "numbers"}, numbers);
+  if (numbers.empty()) return;
+  page.paragraph("What the verdicts rest on, as means over the noisy levels:");
+  page.table({"", "reading", "numbers"}, numbers);
 }
 
 void add_score_table(HtmlReport& page, const Scores& scores, const std::vector<Entry>& entries) {
