@@ -101,6 +101,14 @@ TEST(Claims, AreNotTestedWithoutTheirNumbers) {
   EXPECT_EQ(verdicts(scores, times_of_the_paper()), "????+");
 }
 
+TEST(Claims, TimesThatIncludeMakingTheFeaturesDoNotCount) {
+  auto times = times_of_the_paper();
+  Timing slow{"dcnn", 1, 10, 50, 0, 500, 0};
+  slow.from_pose = true;
+  times.insert(times.begin(), slow);
+  EXPECT_EQ(verdicts(as_the_paper_says(), times), "+++++");
+}
+
 TEST(Claims, OneAugmentedModelIsTakenFromTheOtherTable) {
   const Scores with = as_the_paper_says();
   Scores without = as_the_paper_says();

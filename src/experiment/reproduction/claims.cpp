@@ -71,7 +71,7 @@ Values call_times(const std::vector<Timing>& timings, const std::vector<std::str
   std::vector<Named> result;
   for (const auto& name : names) {
     const auto row = std::find_if(timings.begin(), timings.end(), [&](const Timing& t) {
-      return t.entry == name && t.length == length;
+      return t.entry == name && t.length == length && !t.from_pose;
     });
     if (row == timings.end()) return std::nullopt;
     result.push_back({name, row->mean_s});

@@ -227,7 +227,7 @@ Chart timing_chart(const std::vector<Timing>& timings, const std::vector<Entry>&
   for (const Entry& entry : entries) {
     Series series{entry.label, {}, {}, {}, Series::Style::kMarkers, entry.look};
     for (const Timing& t : timings) {
-      if (t.entry != entry.name) continue;
+      if (t.entry != entry.name || t.from_pose) continue;
       const auto at = std::find(lengths.begin(), lengths.end(), t.length) - lengths.begin();
       series.x.push_back(static_cast<double>(at));
       series.y.push_back(t.mean_s * 1e6);

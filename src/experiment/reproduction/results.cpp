@@ -34,7 +34,8 @@ void add_timings(const Json& document, const std::string& entry, std::vector<Tim
   for (const Json& row : document.at("rows")) {
     timings.push_back({entry, row.at("length"), row.at("calls"), row.at("mean_s"), row.at("std_s"),
                        row.at("total_s"), row.at("total_std_s"), row.value("p50_s", 0.0),
-                       row.value("p99_s", 0.0), row.value("max_s", 0.0)});
+                       row.value("p99_s", 0.0), row.value("max_s", 0.0),
+                       row.value("features_included", false)});
   }
 }
 

@@ -43,6 +43,7 @@ struct Timing {
   int length = 1;
   Index calls = 0;
   double mean_s = 0, std_s = 0, total_s = 0, total_std_s = 0, p50_s = 0, p99_s = 0, max_s = 0;
+  bool from_pose = false;  ///< the call makes the features too; else it begins with them
 };
 
 struct Results {

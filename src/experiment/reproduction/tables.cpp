@@ -37,13 +37,15 @@ std::string draws_csv(const Scores& scores) {
 
 std::string timing_csv(const std::vector<Timing>& timings) {
   std::string text =
-      "model,length,calls,mean_s,std_s,total_s,total_std_s,p50_s,p99_s,max_s,paper_mean_s,"
+      "model,length,calls,mean_s,std_s,total_s,total_std_s,p50_s,p99_s,max_s,features_included,"
+      "paper_mean_s,"
       "paper_total_s\n";
   for (const Timing& t : timings) {
     text += t.entry + "," + std::to_string(t.length) + "," + std::to_string(t.calls);
     for (const double value :
          {t.mean_s, t.std_s, t.total_s, t.total_std_s, t.p50_s, t.p99_s, t.max_s})
       text += "," + decimal(value);
+    text += t.from_pose ? ",true" : ",false";
     const PaperTime* paper = paper_time(t.entry, t.length);
     text += paper ? "," + decimal(paper->mean_s) + "," + decimal(paper->total_s) + "\n" : ",,\n";
   }
@@ -62,7 +64,8 @@ Json timing_json(const std::vector<Timing>& timings) {
                     {"total_std_s", t.total_std_s},
                     {"p50_s", t.p50_s},
                     {"p99_s", t.p99_s},
-                    {"max_s", t.max_s}});
+                    {"max_s", t.max_s},
+                    {"features_included", t.from_pose}});
   }
   return {{"rows", rows}};
 }

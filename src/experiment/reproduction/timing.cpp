@@ -97,7 +97,7 @@ Json time_calls(const Identifier& identifier, const Recording& recording, Index 
                     {"p50_s", quantile(all, 0.5)},
                     {"p99_s", quantile(all, 0.99)},
                     {"max_s", *std::max_element(all.begin(), all.end())},
-                    {"features_included", true}});
+                    {"features_included", false}});
   }
   return {{"threads", 1}, {"repetitions", repetitions}, {"rows", rows}};
 }
