@@ -107,7 +107,10 @@ TEST_F(Reproduce, WhatDependsOnAChangeIsRedoneAndNothingElse) {
 
 TEST_F(Reproduce, GoesOnAfterAnInterruptToTheSameNumbers) {
   auto whole = arguments("whole"), cut = arguments("cut");
-  for (auto* all : {&whole, &cut}) all->back() = "20";
+  for (auto* all : {&whole, &cut}) {
+    all->back() = "8";
+    std::erase(*all, "dcnn-valid");
+  }
   ASSERT_EQ(run("reproduce", whole).exit_code, 0);
   const Process process("reproduce", cut);
   while (!fs::exists(at("cut/models/A/dcnn.run/checkpoint.safetensors")))

@@ -84,6 +84,11 @@ void add_score_table(HtmlReport& page, const Scores& scores, const std::vector<E
 
 namespace {
 
+/// One repetition has no standard deviation.
+std::string repeated(double mean, double deviation) {
+  return significant(mean, 4) + (deviation > 0 ? " ± " + significant(deviation, 2) : "");
+}
+
 /// Mean time of the same call from the raw pose, "–" where it was not measured.
 std::string time_from_pose(const std::vector<Timing>& timings, const Timing& same) {
   for (const Timing& t : timings) {
@@ -105,8 +110,8 @@ void add_timing_table(HtmlReport& page, const std::vector<Timing>& timings, cons
     Cells row{label_of(plan.entries, t.entry),
               std::to_string(t.length),
               std::to_string(t.calls),
-              significant(t.mean_s * 1e6, 4) + " ± " + significant(t.std_s * 1e6, 2),
-              significant(t.total_s, 4) + " ± " + significant(t.total_std_s, 2),
+              repeated(t.mean_s * 1e6, t.std_s * 1e6),
+              repeated(t.total_s, t.total_std_s),
               significant(t.p99_s * 1e6, 3),
               time_from_pose(timings, t)};
     const PaperTime* paper = paper_time(t.entry, t.length);
@@ -114,11 +119,13 @@ void add_timing_table(HtmlReport& page, const std::vector<Timing>& timings, cons
     row.push_back(paper ? fixed(paper->total_s, 2) : "–");
     rows.push_back(row);
   }
-  page.table({"model", "L", "calls", "mean [µs]", "total [s]", "p99 [µs]",
-              "from the pose: mean [µs]", "paper: mean [µs]", "paper: total [s]"},
+  page.table({"model", "L", "calls", "mean [µs]", "total [s]", "p99 [µs]", "from pose [µs]",
+              "paper [µs]", "paper total [s]"},
              rows);
   page.paragraph(
-      "L samples per call, one pinned thread, from the 15 features to the force. " +
+      "L samples per call, one pinned thread, from the 15 features to the force; 'from pose': with "
+      "the "
+      "features made in the call. " +
       std::to_string(plan.timing.repetitions) + " repetitions" +
       (plan.timing.repetitions_lstm_25 != plan.timing.repetitions
            ? ", for LSTM-25 " + std::to_string(plan.timing.repetitions_lstm_25)
