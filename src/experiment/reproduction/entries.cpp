@@ -22,7 +22,7 @@ std::vector<Entry> known_entries() {
       {"ffnn-m", "FFNN-M", "ffnn-m", {}, Group::kPaper, 40, 0.1, 4},
       {"cfnn-m", "CFNN-M", "cfnn-m", {}, Group::kPaper, 60, 0.1, 5},
       {"lstm", "LSTM", "lstm", {}, Group::kPaper, 120, 1.5, 11},
-      {"lstm-25", "LSTM-25", "lstm-25", {}, Group::kReading, 120, 30, 14},
+      {"lstm-25", "LSTM-25", "lstm-25", {}, Group::kReading, 120, 5, 14},
       {"dcnn", "DCNN", "dcnn", {}, Group::kPaper, 75, 0.5, 0},
       {"dcnn-valid", "DCNN valid", "dcnn", valid, Group::kReading, 30, 0.2, 8},
       {"ffnn-s-angles", "FFNN-S angles", "ffnn-s", angles, Group::kReading, 20, 0.1, 10},

@@ -15,7 +15,8 @@ std::vector<NoiseMode> noise_modes(const std::string& preset) {
            "one power over the whole matrix, as awgn(X, snr, 'measured')",
            {"A"},
            draws,
-           every}};
+           every},
+          {"pose", "noise on the logged pose, before it is differentiated", {"A"}, draws, every}};
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ std::vector<Verdicts> judge(const ReproductionRequest& request, const Results& r
 }
 
 Provenance provenance(const ReproductionRequest& request, const Plan& plan, Workshop& workshop,
-                      const Results& results) {
+                      const Results& results, int threads_used) {
   const OutputLayout layout{request.out};
   Provenance p;
   p.rows = {{"preset", request.preset},
@@ -30,7 +30,7 @@ Provenance provenance(const ReproductionRequest& request, const Plan& plan, Work
             {"seed of training and of test noise", std::to_string(request.seed)},
             {"draws per level", std::to_string(plan.modes.front().draws)},
             {"test samples scored", std::to_string(results.scores.at("feature/A").samples)},
-            {"threads", std::to_string(threads())},
+            {"threads", std::to_string(threads_used)},
             {"version", DCNN_VERSION},
             {"commit", request.commit}};
   for (const Entry& entry : plan.entries) {
@@ -87,13 +87,14 @@ ReproductionOutcome reproduce(const ReproductionRequest& request,
   const OutputLayout layout{request.out};
   Workshop workshop(request, plan);
   ReproductionOutcome outcome;
+  const int threads_used = threads();
   outcome.finished = run_steps(workshop.steps(), layout.stamps(), observer, outcome);
   if (!outcome.finished) return outcome;
 
   const Results results = read_results(layout, plan);
   write_tables(layout, plan, results);
   const auto verdicts = judge(request, results);
-  const auto from = provenance(request, plan, workshop, results);
+  const auto from = provenance(request, plan, workshop, results, threads_used);
   outcome.summary = summary_of(request, verdicts, from);
   outcome.report = layout.report();
   write_file(layout.out / "reproduction.json", outcome.summary.dump(2) + "\n");

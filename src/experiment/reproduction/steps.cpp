@@ -2,10 +2,10 @@
 
 #include "dcnn/core/digest.h"
 #include "dcnn/core/file.h"
+#include "dcnn/experiment/bench.h"
 #include "dcnn/experiment/train.h"
 #include "dcnn/physics/scenario.h"
 #include "experiment/reproduction/scoring.h"
-#include "experiment/reproduction/timing.h"
 
 namespace dcnn {
 namespace {
@@ -173,13 +173,18 @@ Step Workshop::timing(const Entry& entry) {
            std::to_string(repetitions) + " " + std::to_string(plan_.timing.samples);
   };
   step.work = [this, what, file, repetitions](const StepSession& session) {
-    const Identifier identifier = read_identifier(layout_.model(what.series, what.entry->name));
-    const Recording recording =
-        read_recording(test_data(), request_.read, identifier.layout.system);
-    write_file(
-        file,
-        time_calls(identifier, recording, plan_.timing.samples, repetitions, session).dump(1) +
-            "\n");
+    BenchRequest request;
+    request.models = {layout_.model(what.series, what.entry->name)};
+    if (plan_.timing.samples == kPaperTestSamples) request.data = test_data();
+    request.samples = plan_.timing.samples;
+    request.repetitions = repetitions;
+    request.seed = request_.seed;
+    request.read = request_.read;
+    const Bench result = bench(request, [&](int done, int total) {
+      if (session.stop_wanted && session.stop_wanted()) throw Stopped{};
+      session.progress(static_cast<double>(done) / total);
+    });
+    write_file(file, to_json(result).dump(1) + "\n");
   };
   return step;
 }
@@ -212,9 +217,6 @@ std::vector<Step> Workshop::steps() {
       }
     });
   }
-  for_each_trained([&](const Entry& entry) {
-    if (timed(entry)) steps.push_back(timing(entry));
-  });
   const NoiseMode once{kFurtherTrainings, "", {}, 1, 4};
   for (int k = 1; k <= plan_.trainings; ++k) {
     for_each_trained([&](const Entry& entry) {
@@ -222,6 +224,10 @@ std::vector<Step> Workshop::steps() {
       steps.push_back(scoring(once, further(entry, k)));
     });
   }
+  // Last: timing leaves the process on one thread, pinned to its processor.
+  for_each_trained([&](const Entry& entry) {
+    if (timed(entry)) steps.push_back(timing(entry));
+  });
   return steps;
 }
 
