@@ -1,6 +1,5 @@
 #include <iostream>
 
-#include "dcnn/core/file.h"
 #include "dcnn/physics/scenario.h"
 #include "dcnn/physics/simulator.h"
 #include "support/tool.h"
@@ -19,15 +18,12 @@ constexpr const char* kExamples =
 Json simulate_folder(const std::filesystem::path& config, const std::filesystem::path& out,
                      std::optional<std::uint64_t> seed) {
   const Scenario scenario = simulate_config(read_json(config, Exit::kUsage), config.string(), seed);
+  write_scenario(scenario, out);
   Json files = Json::array();
   for (const auto& recording : scenario.recordings) {
-    const auto path = out / (recording.name + ".csv");
-    write_csv(path, recording.noisy.table);
-    write_csv(out / (recording.name + "_clean.csv"), recording.clean.table);
-    files.push_back({{"file", path.string()}, {"samples", recording.noisy.samples()}});
+    files.push_back({{"file", (out / (recording.name + ".csv")).string()},
+                     {"samples", recording.noisy.samples()}});
   }
-  write_file(out / "sim.json", scenario.simulator.dump(2) + "\n");
-  write_file(out / "truth.json", scenario.truth.dump(2) + "\n");
   return {{"recordings", files},
           {"simulator", (out / "sim.json").string()},
           {"truth", (out / "truth.json").string()}};

@@ -78,12 +78,21 @@ Axis log_axis(double low, double high) {
             .ticks = {},
             .multiplier = {}};
   const int decades = last - first;
+  if (decades == 2) {
+    for (const double factor : {2.0, 5.0}) {
+      if (low >= factor * std::pow(10.0, first)) axis.low = factor * std::pow(10.0, first);
+    }
+    for (const double factor : {5.0, 2.0}) {
+      if (high <= factor * std::pow(10.0, last - 1)) axis.high = factor * std::pow(10.0, last - 1);
+    }
+  }
   const int stride = (decades + 7) / 8;
   const bool plain = first >= -3 && last <= 4;
   for (int decade = first; decade <= last; decade += stride) {
     for (const int factor : {1, 2, 5}) {
       const double value = factor * std::pow(10.0, decade);
       if (factor > 1 && (decades > 2 || decade == last)) continue;
+      if (value < axis.low * (1 - 1e-9) || value > axis.high * (1 + 1e-9)) continue;
       const std::string mantissa = factor == 1 ? "" : std::to_string(factor) + "·";
       axis.ticks.push_back({value, plain ? fixed(value, std::max(0, -decade))
                                          : mantissa + "10" + superscript(decade)});

@@ -26,7 +26,8 @@ struct Axis {
 /// range to whole ticks. An empty range is widened.
 Axis linear_axis(double low, double high, int wanted, bool outward);
 
-/// Whole decades around [low, high], both positive.
+/// Whole decades around [low, high], both positive; of two decades only what is needed, in steps of
+/// 1, 2 and 5.
 Axis log_axis(double low, double high);
 
 /// One tick per word, at 0, 1, …

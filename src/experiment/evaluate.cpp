@@ -47,6 +47,28 @@ TestSet make_test_set(const Identifier& identifier, const std::vector<Recording>
   return set;
 }
 
+Eigen::MatrixXd every_kth(const Eigen::MatrixXd& rows, Index k) {
+  return rows(Eigen::seqN(0, (rows.rows() + k - 1) / k, k), Eigen::all);
+}
+
+/// The parts of a test set that are scored.
+TestSet thinned(TestSet set, Index every) {
+  if (every == 1) return set;
+  for (auto* part : {&set.wanted, &set.unfiltered, &set.base}) *part = every_kth(*part, every);
+  set.first_rows = (set.first_rows + every - 1) / every;
+  set.first_t = every_kth(set.first_t, every);
+  return set;
+}
+
+/// Predictions for every so manyth row; all rows are predicted where they depend on one another.
+Eigen::MatrixXd predict_every(const Model& model, Stream stream, Index every) {
+  if (every == 1) return model.predict(stream);
+  if (!model.per_sample()) return every_kth(model.predict(stream), every);
+  stream.x = every_kth(stream.x, every);
+  stream.segments = {{0, stream.rows()}};
+  return model.predict(stream);
+}
+
 /// Reads each file once per system description; without time where the features need none.
 class RecordingCache {
  public:
@@ -171,9 +193,9 @@ Evaluation evaluate(const EvaluationRequest& request,
     const Identifier identifier = read_identifier(path);
     check_targets(evaluation, identifier, path.string());
     const auto& data = recordings.get(identifier.layout);
-    const TestSet set = make_test_set(identifier, data);
+    const TestSet set = thinned(make_test_set(identifier, data), request.every);
     evaluation.targets = identifier.targets;
-    evaluation.samples = set.stream.rows();
+    evaluation.samples = set.wanted.rows();
     evaluation.singular_samples = std::max(evaluation.singular_samples, set.singular);
     evaluation.unidentified = score(Eigen::MatrixXd::Zero(set.wanted.rows(), set.wanted.cols()),
                                     set.wanted, identifier.targets);
@@ -182,8 +204,10 @@ Evaluation evaluate(const EvaluationRequest& request,
       std::vector<EvaluationRow> rows;
       for (int run = 0; run < (level ? request.runs : 1); ++run) {
         const Eigen::MatrixXd predicted =
-            identifier.model->predict(
-                {noisy_features(request, set, identifier, data, level, run), set.stream.segments}) +
+            predict_every(
+                *identifier.model,
+                {noisy_features(request, set, identifier, data, level, run), set.stream.segments},
+                request.every) +
             set.base;
         rows.push_back(
             {identifier.name, file, level, run, score(predicted, set.wanted, identifier.targets)});

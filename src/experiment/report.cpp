@@ -21,10 +21,12 @@ table { border-collapse: collapse; margin: 1em 0; font-size: .9em; font-variant-
 th, td { white-space: nowrap; padding: .25em .8em; text-align: left; vertical-align: top; }
 thead { border-bottom: 1px solid #1a1a1a; }
 .n { text-align: right; white-space: nowrap; }
+.t { white-space: normal; min-width: 12em; overflow-wrap: anywhere; }
 .wide { overflow-x: auto; }
 pre { background: #f5f5f5; padding: .8em; overflow-x: auto; font-size: .85em; }
 figure { margin: 1.5em 0; break-inside: avoid; }
 svg { max-width: 100%; height: auto; }
+.panels { display: grid; grid-template-columns: 1fr 1fr; gap: 0 .5em; }
 figcaption { font-size: .9em; color: #444; max-width: 50em; }
 @media print { body { margin: 0; max-width: none; font-size: 11pt; } h2 { break-after: avoid; } }
 )";
@@ -35,6 +37,9 @@ bool looks_numeric(const std::string& cell) {
   const auto first = cell.find_first_not_of("+-−<>≤≥=~± [(");
   return first != cell.npos && cell[first] >= '0' && cell[first] <= '9';
 }
+
+/// Words that would make a table wider than the page are wrapped.
+bool is_long(const std::string& cell) { return character_count(cell) > 36; }
 
 bool column_is_numeric(const std::vector<std::vector<std::string>>& rows, std::size_t column) {
   return std::all_of(rows.begin(), rows.end(), [column](const auto& row) {
@@ -47,7 +52,8 @@ std::string table_row(const std::vector<std::string>& cells, const std::vector<b
   std::string row = "<tr>";
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const bool right = i < numeric.size() && numeric[i];
-    row += "<" + tag + (right ? " class=\"n\">" : ">") + escape_markup(cells[i]) + "</" + tag + ">";
+    const char* kind = right ? " class=\"n\">" : is_long(cells[i]) ? " class=\"t\">" : ">";
+    row += "<" + tag + kind + escape_markup(cells[i]) + "</" + tag + ">";
   }
   return row + "</tr>\n";
 }
@@ -82,6 +88,19 @@ void HtmlReport::table(const std::vector<std::string>& header,
 
 void HtmlReport::chart(const Chart& chart, const std::string& caption) {
   body_ += "<figure>\n" + to_svg(chart) + "\n<figcaption>" + escape_markup(caption) +
+           "</figcaption>\n</figure>\n";
+}
+
+void HtmlReport::panels(std::vector<Chart> charts, const std::string& caption) {
+  if (charts.empty()) return;
+  Chart key = charts.front();
+  key.width = 2 * key.width;
+  body_ += "<figure>\n<div class=\"panels\">\n";
+  for (Chart& chart : charts) {
+    chart.legend = false;
+    body_ += to_svg(chart) + "\n";
+  }
+  body_ += "</div>\n" + to_svg_legend(key) + "\n<figcaption>" + escape_markup(caption) +
            "</figcaption>\n</figure>\n";
 }
 

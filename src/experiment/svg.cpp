@@ -3,25 +3,14 @@
 
 #include "dcnn/experiment/report.h"
 #include "experiment/axis.h"
+#include "experiment/legend.h"
 #include "experiment/markup.h"
+#include "experiment/series.h"
 #include "experiment/svg_marks.h"
 #include "experiment/thinning.h"
 
 namespace dcnn {
 namespace {
-
-constexpr double kLetter = 6.4;  // mean width of a character at 12 px, on the safe side
-constexpr double kRow = 18;      // a row of the legend
-
-bool has_line(const Series& series) {
-  return series.style == Series::Style::kLine || series.style == Series::Style::kLineAndMarkers;
-}
-
-bool has_markers(const Series& series) {
-  return series.style == Series::Style::kMarkers || series.style == Series::Style::kLineAndMarkers;
-}
-
-bool has_bars(const Series& series) { return series.style == Series::Style::kBars; }
 
 /// Draws one chart: top to bottom title, plot, axis labels, legend (never over the data).
 class Drawing {
@@ -30,6 +19,7 @@ class Drawing {
     for (const auto& series : chart.series) {
       points_.push_back(drawable_points(series, chart.log_y));
       bar_series_ += has_bars(series) ? 1 : 0;
+      marker_series_ += apart(series) ? 1 : 0;
     }
     measure_bars();
     make_axes();
@@ -43,22 +33,27 @@ class Drawing {
     for (std::size_t k = 0; k < chart_.series.size(); ++k) {
       if (has_bars(chart_.series[k])) draw_bars(k, bar++);
     }
+    std::size_t place = 0;
     for (std::size_t k = 0; k < chart_.series.size(); ++k) {
-      if (!has_bars(chart_.series[k])) draw_line(k);
+      if (!has_bars(chart_.series[k])) draw_line(k, apart(chart_.series[k]) ? offset(place++) : 0);
     }
-    draw_legend();
-    const auto width = std::to_string(chart_.width), height = number(height_);
-    return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + height +
-           "\" viewBox=\"0 0 " + width + " " + height +
-           "\" role=\"img\" font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\" "
-           "fill=\"#1a1a1a\">\n<title>" +
-           escape_markup(chart_.title) + "</title>\n" + body_ + "</svg>";
+    body_ += legend_.draw(chart_, height_);
+    return svg_document(chart_.width, height_, chart_.title, body_);
   }
 
  private:
   double error(std::size_t k, std::size_t i) const {
     const auto& errors = chart_.series[k].error;
     return i < errors.size() && std::isfinite(errors[i]) ? std::abs(errors[i]) : 0;
+  }
+
+  bool apart(const Series& series) const {
+    return chart_.side_by_side && series.style == Series::Style::kMarkers;
+  }
+
+  /// Where in its category's slot the markers of a series stand.
+  double offset(std::size_t place) const {
+    return 0.84 * ((static_cast<double>(place) + 0.5) / static_cast<double>(marker_series_) - 0.5);
   }
 
   /// The smallest distance between bars of one series: what a group of bars shares.
@@ -110,23 +105,9 @@ class Drawing {
     if (tilted_) left_ = std::max(left_, 0.87 * longest);  // cos 30°: the first word starts inside
     top_ = chart_.title.empty() ? 20 : 38;
     bottom_ = std::max(top_ + 60, chart_.height - 44 - (tilted_ ? 0.5 * longest : 0));
-    place_legend();
+    if (chart_.legend) legend_ = Legend(chart_, left_, right_);
     height_ = std::max<double>(chart_.height, bottom_ + 44 + (tilted_ ? 0.5 * longest : 0)) +
-              (legend_.empty() ? 0 : legend_.back().y + kRow + 4);
-  }
-
-  /// Rows of entries from left to right; y counts from below the axis label.
-  void place_legend() {
-    const bool labelled = std::any_of(chart_.series.begin(), chart_.series.end(),
-                                      [](const auto& series) { return !series.label.empty(); });
-    if (!labelled) return;
-    double x = left_, y = 0;
-    for (const auto& series : chart_.series) {
-      const double width = 46 + kLetter * character_count(series.label);
-      if (x > left_ && x + width > right_) x = left_, y += kRow;
-      legend_.push_back({x, y});
-      x += width;
-    }
+              legend_.height();
   }
 
   Point at(double x, double y) const {
@@ -147,6 +128,10 @@ class Drawing {
       body_ += words({x, bottom_ + (tilted_ ? 14 : 17)}, tick.label,
                      tilted_ ? turn : "text-anchor=\"middle\"");
     }
+    for (std::size_t i = 1; chart_.side_by_side && i < chart_.categories.size(); ++i) {
+      const double x = at(static_cast<double>(i) - 0.5, y_.low).x;
+      body_ += line({x, top_}, {x, bottom_}, "stroke=\"#bbb\" stroke-width=\"0.7\"");
+    }
     body_ += line({left_, top_}, {left_, bottom_}, "stroke=\"#1a1a1a\"");
     const double zero = y_.log ? bottom_ : at(x_.low, std::clamp(0.0, y_.low, y_.high)).y;
     body_ += line({left_, bottom_}, {right_, bottom_}, "stroke=\"#1a1a1a\"");
@@ -156,10 +141,9 @@ class Drawing {
   }
 
   void draw_labels() {
-    const double middle = (left_ + right_) / 2,
-                 legend = legend_.empty() ? 0 : legend_.back().y + kRow + 4;
+    const double middle = (left_ + right_) / 2;
     body_ += words({left_, 18}, chart_.title, "font-size=\"13.5\" font-weight=\"bold\"");
-    body_ += words({middle, height_ - legend - 8}, with_multiplier(chart_.x_label, x_),
+    body_ += words({middle, height_ - legend_.height() - 8}, with_multiplier(chart_.x_label, x_),
                    "text-anchor=\"middle\"");
     const double centre = (top_ + bottom_) / 2;
     body_ += words({14, centre}, with_multiplier(chart_.y_label, y_),
@@ -174,7 +158,8 @@ class Drawing {
     const double half = error(k, i), y = chart_.series[k].y[i];
     if (half == 0) return;
     const double low = at(0, y - half).y, high = at(0, y + half).y;
-    const std::string dark = has_bars(chart_.series[k]) ? "stroke=\"#1a1a1a\"" : stroke(k);
+    const std::string dark =
+        has_bars(chart_.series[k]) ? "stroke=\"#1a1a1a\"" : stroke(look(chart_, k));
     body_ += line({x, low}, {x, high}, dark);
     body_ +=
         line({x - 3.5, high}, {x + 3.5, high}, dark) + line({x - 3.5, low}, {x + 3.5, low}, dark);
@@ -188,51 +173,40 @@ class Drawing {
       const double left = series.x[i] - group / 2 + static_cast<double>(bar) * width;
       const Point a = at(left, series.y[i]);
       const Point b = at(left + width, y_.log ? y_.low : 0);
-      body_ += box({a.x, std::min(a.y, b.y)}, b.x - a.x, std::abs(b.y - a.y), filled(k));
+      body_ +=
+          box({a.x, std::min(a.y, b.y)}, b.x - a.x, std::abs(b.y - a.y), filled(look(chart_, k)));
       draw_error(k, i, (a.x + b.x) / 2);
     }
   }
 
-  void draw_line(std::size_t k) {
+  void draw_line(std::size_t k, double shift) {
     const auto& series = chart_.series[k];
     const auto points = thinned(series, points_[k], chart_.width);
     if (has_line(series) && !points.empty()) {
       std::string path;
       for (const auto i : points) {
-        const Point p = at(series.x[i], series.y[i]);
+        const Point p = at(series.x[i] + shift, series.y[i]);
         path += (path.empty() ? "" : " ") + number(p.x) + "," + number(p.y);
       }
       body_ += "<polyline points=\"" + path + "\" fill=\"none\" stroke-linejoin=\"round\" " +
-               dashed(k) + "/>\n";
+               dashed(look(chart_, k)) + "/>\n";
     }
     for (const auto i : points) {
-      const Point p = at(series.x[i], series.y[i]);
+      const Point p = at(series.x[i] + shift, series.y[i]);
       draw_error(k, i, p.x);
-      if (has_markers(series)) body_ += marker(p, k);
-    }
-  }
-
-  void draw_legend() {
-    const double top = height_ - (legend_.empty() ? 0 : legend_.back().y + kRow);
-    for (std::size_t k = 0; k < legend_.size(); ++k) {
-      const auto& series = chart_.series[k];
-      const double x = legend_[k].x, y = top + legend_[k].y + 4;
-      if (has_bars(series)) body_ += box({x + 6, y - 5}, 16, 10, filled(k));
-      if (has_line(series)) body_ += line({x, y}, {x + 28, y}, dashed(k));
-      if (has_markers(series)) body_ += marker({x + 14, y}, k);
-      body_ += words({x + 34, y + 4}, series.label, "");
+      if (has_markers(series)) body_ += marker(p, look(chart_, k));
     }
   }
 
   const Chart& chart_;
   std::vector<std::vector<std::size_t>> points_;  // drawable, by series
-  std::size_t bar_series_ = 0;
+  std::size_t bar_series_ = 0, marker_series_ = 0;
   double slot_ = 1;  // width of a group of bars in x
   Axis x_, y_;
   double left_ = 0, right_ = 0, top_ = 0, bottom_ = 0,
          height_ = 0;    // of the plot, and of the picture
   bool tilted_ = false;  // long words under the axis
-  std::vector<Point> legend_;
+  Legend legend_;
   std::string body_;
 };
 

@@ -10,7 +10,14 @@ struct Point {
   double x, y;  // pixels, y downwards
 };
 
+constexpr int kPlainBlack = 7;   ///< the look of what is measured
+constexpr double kLetter = 6.4;  ///< mean width of a character at 12 px, on the safe side
+
 std::string number(double value);  ///< a coordinate
+
+/// A whole picture [px] around its elements.
+std::string svg_document(double width, double height, const std::string& title,
+                         const std::string& body);
 
 std::string line(Point a, Point b, const std::string& attributes);
 std::string words(Point at, const std::string& text, const std::string& attributes);

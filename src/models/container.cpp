@@ -1,12 +1,11 @@
 #include "dcnn/models/container.h"
 
-#include <sodium.h>
-
 #include <bit>
 #include <cassert>
 #include <cmath>
 #include <numeric>
 
+#include "dcnn/core/digest.h"
 #include "dcnn/core/file.h"
 #include "models/container_header.h"
 
@@ -50,20 +49,8 @@ const char* dtype_of(const std::vector<std::int64_t>&) { return "I64"; }
 
 /// SHA-256 in lower-case hex of the bytes with the 64 digits at `digits` read as '0'.
 std::string digest(std::string_view bytes, std::size_t digits) {
-  require(sodium_init() >= 0, Exit::kFailure, "libsodium does not start on this machine");
-  crypto_hash_sha256_state state;
-  crypto_hash_sha256_init(&state);
-  const auto add = [&state](std::string_view part) {
-    crypto_hash_sha256_update(&state, reinterpret_cast<const unsigned char*>(part.data()),
-                              part.size());
-  };
-  add(bytes.substr(0, digits));
-  add(std::string(kDigestDigits, '0'));
-  add(bytes.substr(digits + kDigestDigits));
-  unsigned char hash[crypto_hash_sha256_BYTES];
-  crypto_hash_sha256_final(&state, hash);
-  char hex[2 * sizeof hash + 1];
-  return sodium_bin2hex(hex, sizeof hex, hash, sizeof hash);
+  return sha256_hex({bytes.substr(0, digits), std::string(kDigestDigits, '0'),
+                     bytes.substr(digits + kDigestDigits)});
 }
 
 /// Where the digits of the checksum begin in a header; the key is a plain word, so it is found

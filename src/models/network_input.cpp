@@ -14,6 +14,7 @@ class MapInput : public NetworkInput {
  public:
   explicit MapInput(Index features) : features_(features) {}
   Shape shape() const override { return {features_, InputMap::kColumns, 1}; }
+  bool per_sample() const override { return true; }
   PreparedStream prepare(const Stream& stream, const InputMap& /*map*/) const override {
     return prepare_rows(stream);
   }
@@ -32,6 +33,7 @@ class WindowInput : public NetworkInput {
  public:
   WindowInput(Index features, Index length) : features_(features), length_(length) {}
   Shape shape() const override { return {length_, features_}; }
+  bool per_sample() const override { return length_ == 1; }
   PreparedStream prepare(const Stream& stream, const InputMap& map) const override {
     PreparedStream prepared = prepare_rows(stream);
     const Eigen::ArrayXd scale = (map.deviation().array() < 1e-12).select(1.0, map.deviation());

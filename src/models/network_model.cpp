@@ -182,6 +182,8 @@ Eigen::MatrixXd NetworkModel::outputs(const Tensor& inputs) const {
   return result;
 }
 
+bool NetworkModel::per_sample() const { return input_->per_sample(); }
+
 Index NetworkModel::parameter_count() const {
   return (network_ ? network_->parameter_count() : 0) + (skip_ ? skip_->parameter_count() : 0);
 }

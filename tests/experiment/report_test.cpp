@@ -154,6 +154,45 @@ TEST(Svg, SeriesDifferWithoutColour) {
   EXPECT_EQ(markers.size(), 7U);
 }
 
+TEST(Svg, MarkersOfOneCategoryStandSideBySide) {
+  auto chart = example(Style::kMarkers);
+  chart.categories = {"clean", "40 dB", "30 dB", "20 dB"};
+  chart.legend = false;
+  const std::regex place(R"re(translate\(([0-9.]+) )re");
+  const auto places = [&] {
+    const auto svg = to_svg(chart);
+    expect_sound(svg);
+    std::set<std::string> found;
+    for (std::sregex_iterator it(svg.begin(), svg.end(), place), end; it != end; ++it)
+      found.insert((*it)[1]);
+    return found.size();
+  };
+  EXPECT_EQ(places(), 3U) << "three categories have a value";
+  chart.side_by_side = true;
+  EXPECT_EQ(places(), 27U) << "nine series each";
+}
+
+TEST(Svg, ALegendAloneHasEveryEntryAndTheChartThenHasNone) {
+  auto chart = example(Style::kMarkers);
+  expect_sound(to_svg_legend(chart));
+  EXPECT_EQ(count(to_svg_legend(chart), ">model"), 9);
+  chart.legend = false;
+  EXPECT_EQ(count(to_svg(chart), ">model"), 0);
+}
+
+TEST(Svg, ASeriesMayHaveALookOfItsOwn) {
+  auto chart = example(Style::kMarkers);
+  chart.series.resize(2);
+  chart.series[0].look = chart.series[1].look = 4;
+  chart.series[1].style = Style::kLineAndMarkers;
+  const auto svg = to_svg(chart);
+  std::set<std::string> markers;
+  const std::regex path(R"re(<path d="([^"]*)")re");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), path), end; it != end; ++it)
+    markers.insert((*it)[1]);
+  EXPECT_EQ(markers.size(), 1U);
+}
+
 TEST(Thinning, KeepsTheExtremesAndTheOrder) {
   Series series;
   std::mt19937 random(3);
@@ -206,6 +245,14 @@ TEST(Axis, LogarithmicTicksArePowersOfTen) {
   EXPECT_EQ(log_axis(0.02, 0.05).ticks.size(), 4U) << "0.01 0.02 0.05 0.10";
 }
 
+TEST(Axis, LogarithmicAxesDoNotWasteHalfADecade) {
+  const auto axis = log_axis(0.25, 3.7);
+  EXPECT_DOUBLE_EQ(axis.low, 0.2);
+  EXPECT_DOUBLE_EQ(axis.high, 5.0);
+  EXPECT_EQ(axis.ticks.front().label, "0.2");
+  EXPECT_EQ(axis.ticks.back().label, "5");
+}
+
 TEST(Axis, SmallNumbersShareOneMultiplier) {
   const auto axis = linear_axis(0, 4e-6, 4, true);
   EXPECT_EQ(axis.multiplier, "×10⁻⁶");
@@ -227,6 +274,8 @@ TEST(HtmlReport, IsWellFormedSelfContainedAndEscaped) {
   report.table({"<model>", "RMSE [N]"}, {{"a<b", "0.12"}, {"c", "–"}, {"short"}});
   report.table({"empty"}, {});
   report.chart(example(Style::kBars), "Fig. <1>");
+  report.panels({example(Style::kMarkers), example(Style::kLine)}, "Fig. <2>");
+  report.panels({}, "nothing");
   auto html = report.html();
   ASSERT_TRUE(html.starts_with("<!DOCTYPE html>\n"));
   html.erase(0, html.find('\n'));

@@ -12,6 +12,7 @@ struct Series {
   std::vector<double> x, y;
   std::vector<double> error;  ///< half-length of the error bars, empty for none
   enum class Style { kLine, kMarkers, kLineAndMarkers, kBars } style = Style::kLine;
+  int look = -1;  ///< number of colour, dashes and marker; negative: its place in the chart
 };
 
 struct Chart {
@@ -21,12 +22,16 @@ struct Chart {
       categories;  ///< x = 0, 1, … are these words (SNR levels), empty for numbers
   bool log_y = false;
   int width = 720, height = 320;
+  bool side_by_side = false;  ///< markers of one category stand beside one another
+  bool legend = true;
 };
 
 /// SVG text of a chart: axes with round ticks, legend, colour-blind-safe colours, readable in
 /// print. Long lines are thinned to at most `2 * width` points by minimum and maximum per pixel
 /// column.
 std::string to_svg(const Chart& chart);
+/// Its legend alone, of the chart's width.
+std::string to_svg_legend(const Chart& chart);
 
 /// An HTML document put together top to bottom.
 class HtmlReport {
@@ -38,6 +43,8 @@ class HtmlReport {
   void table(const std::vector<std::string>& header,
              const std::vector<std::vector<std::string>>& rows);
   void chart(const Chart& chart, const std::string& caption);
+  /// One figure of several charts, two beside one another, under them the legend of the first.
+  void panels(std::vector<Chart> charts, const std::string& caption);
   std::string html() const;
 
  private:

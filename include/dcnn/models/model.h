@@ -74,6 +74,8 @@ class Model {
   /// (N, targets), one row per row of the stream; the rows before the first one of a segment are
   /// taken to equal it.
   virtual Eigen::MatrixXd predict(const Stream& stream) const = 0;
+  /// Every prediction depends on its own row alone, so that rows can be left out.
+  virtual bool per_sample() const { return false; }
   virtual Index parameter_count() const = 0;
   /// Training statistics of the features: the power that test noise refers to.
   virtual const InputMap& map() const = 0;

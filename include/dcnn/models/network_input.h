@@ -22,6 +22,8 @@ class NetworkInput {
   virtual ~NetworkInput() = default;
   /// Of one sample: (H, W, C) or (T, F).
   virtual Shape shape() const = 0;
+  /// The input of a row is made of that row alone.
+  virtual bool per_sample() const { return false; }
   /// Statistics of its own, from training rows alone; those of the features are in the map.
   virtual void learn(const Samples& /*training*/, const InputMap& /*map*/) {}
   virtual PreparedStream prepare(const Stream& stream, const InputMap& map) const = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,5 +32,9 @@ struct Scenario {
 /// Recording k draws from streams of its own, (seed, k, purpose). Faults are Error(kUsage).
 Scenario simulate_config(const Json& config, const std::string& where,
                          std::optional<std::uint64_t> seed_override = std::nullopt);
+
+/// Writes <name>.csv and <name>_clean.csv of every recording, sim.json and truth.json into
+/// `folder`.
+void write_scenario(const Scenario& scenario, const std::filesystem::path& folder);
 
 }  // namespace dcnn

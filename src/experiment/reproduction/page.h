@@ -1,0 +1,24 @@
+// The report of a reproduction: one HTML file.
+#pragma once
+
+#include <string>
+
+#include "experiment/reproduction/claims.h"
+
+namespace dcnn {
+
+/// What every number of the page depends on, for its last table.
+struct Provenance {
+  std::vector<std::vector<std::string>> rows;  ///< name and value
+};
+
+struct Verdicts {
+  std::string series;  ///< "A", "B", "only dcnn augmented"
+  std::vector<Claim> claims;
+};
+
+std::string reproduction_page(const ReproductionRequest& request, const Plan& plan,
+                              const Results& results, const std::vector<Verdicts>& verdicts,
+                              const Provenance& provenance);
+
+}  // namespace dcnn

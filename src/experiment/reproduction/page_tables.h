@@ -1,0 +1,20 @@
+// The tables of the report.
+#pragma once
+
+#include <vector>
+
+#include "dcnn/experiment/report.h"
+#include "experiment/reproduction/page.h"
+
+namespace dcnn {
+
+/// Claims against readings, then the numbers of each.
+void add_claim_table(HtmlReport& page, const std::vector<Verdicts>& verdicts);
+/// Overall RMSE per model and level, then per target.
+void add_score_table(HtmlReport& page, const Scores& scores, const std::vector<Entry>& entries);
+/// Table I with the paper's columns beside ours.
+void add_timing_table(HtmlReport& page, const std::vector<Timing>& timings, const Plan& plan);
+/// Mean and SD over further trainings of the overall RMSE.
+void add_training_spread(HtmlReport& page, const Plan& plan, const Results& results);
+
+}  // namespace dcnn

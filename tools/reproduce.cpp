@@ -1,0 +1,132 @@
+#include "dcnn/experiment/reproduce.h"
+
+#include <cstdio>
+#include <iostream>
+
+#include "dcnn/experiment/configuration.h"
+#include "support/interrupt.h"
+#include "support/progress.h"
+#include "support/tool.h"
+
+namespace {
+
+using namespace dcnn;
+
+constexpr const char* kExamples =
+    "  dcnn-reproduce --preset quick                       # a first look, minutes\n"
+    "  dcnn-reproduce --preset standard --out out/paper    # again after Ctrl-C: goes on\n"
+    "  dcnn-reproduce --data train.csv test.csv --models cf dcnn\n"
+    "  dcnn-reproduce --preset paper --plan                # steps and expected time\n";
+
+std::string minutes(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f min", seconds / 60.0);
+  return text;
+}
+
+void print_plan(const Json& plan) {
+  for (const Json& step : plan["steps"]) {
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, "%9.1f s  ", step["seconds"].get<double>());
+    std::cout << seconds << step["step"].get<std::string>() << "\n";
+  }
+  std::cout << "about " << minutes(plan["seconds"].get<double>()) << " on two cores\n";
+}
+
+void print_claims(const Json& summary) {
+  for (const auto& [series, claims] : summary["claims"].items()) {
+    std::cout << series << "\n";
+    for (const Json& claim : claims) {
+      const Json& holds = claim["holds"];
+      std::cout << "  " << claim["id"].get<std::string>() << "  "
+                << (holds.is_null()     ? "not tested"
+                    : holds.get<bool>() ? "true      "
+                                        : "false     ")
+                << "  " << claim["text"].get<std::string>() << "\n";
+    }
+  }
+}
+
+Exit work(const ReproductionRequest& request, const Tool& tool) {
+  catch_interrupts();
+  const double expected = reproduction_plan(request)["seconds"];
+  tool.note("about " + minutes(expected) + " on two cores; what is finished is not done again");
+  Progress bar(tool.common().quiet);
+  ReproductionObserver observer;
+  observer.stop_wanted = [] { return interrupted(); };
+  observer.note = [&](const std::string& text) { bar.line(text); };
+  observer.progress = [&](double done, const std::string& step) { bar.update(done, step); };
+  const ReproductionOutcome outcome = reproduce(request, observer);
+  bar.clear();
+  tool.note(std::to_string(outcome.done) + " steps done, " + std::to_string(outcome.skipped) +
+            " skipped, since they were finished");
+  if (!outcome.finished) {
+    tool.note("interrupted; the state is saved in " + request.out.string() +
+              ", the same command goes on");
+    return Exit::kInterrupted;
+  }
+  if (tool.common().json) {
+    Tool::print(outcome.summary);
+  } else {
+    print_claims(outcome.summary);
+    std::cout << "report: " << outcome.report.string() << "\n";
+  }
+  return Exit::kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("dcnn-reproduce",
+            "The paper's experiments in one report: noise (Fig. 5), time (Table I), claims.",
+            kExamples);
+  ReproductionRequest request;
+  std::string repeat = "draws";
+  int trainings = 20;
+  bool plan_only = false;
+  auto& app = tool.app();
+  app.add_option("--preset", request.preset, "how much of everything")
+      ->check(CLI::IsMember(kPresets))
+      ->capture_default_str();
+  app.add_option("--out", request.out, "folder for the report and all work [out/reproduce-PRESET]");
+  request.scene = "configs/sim/embedded.json";
+  auto* scene = app.add_option("--scene", request.scene,
+                               "simulation of recordings named train and test (JSON)")
+                    ->capture_default_str();
+  app.add_option("--data", request.data, "own recordings instead: one to train on, one to test on")
+      ->expected(2)
+      ->excludes(scene);
+  app.add_option("--models", request.models, "which models (default: all of the preset)");
+  app.add_option("--augment-only", request.augment_only,
+                 "the model that alone is noise-trained in the third reading")
+      ->capture_default_str();
+  app.add_option("--repeat", repeat,
+                 "spread over draws of the test noise, or beside it over trainings")
+      ->check(CLI::IsMember({"draws", "training"}))
+      ->capture_default_str();
+  app.add_option("--trainings", trainings, "how many, with --repeat training")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  app.add_option("--epochs", request.epochs, "epochs, instead of the preset's")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--draws", request.draws, "draws of the test noise, instead of the preset's")
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--commit", request.commit, "of the code, for the report")->capture_default_str();
+  app.add_flag("--plan", plan_only, "print the steps and their expected time, do nothing");
+  const ReadFlags read(app);
+
+  return tool.run(argc, argv, [&] {
+    request.read = read.options();
+    request.seed = tool.common().seed.value_or(1);
+    if (repeat == "training") request.trainings = trainings;
+    if (request.out.empty()) request.out = "out/reproduce-" + request.preset;
+    if (!plan_only) return work(request, tool);
+    const Json plan = reproduction_plan(request);
+    if (tool.common().json) {
+      Tool::print(plan);
+    } else {
+      print_plan(plan);
+    }
+    return Exit::kDone;
+  });
+}
