@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "data/spectral.h"
 #include "data/spline.h"
 
 namespace dcnn {
@@ -13,7 +14,8 @@ using Kind = DerivativeSpec::Kind;
 using Input = Eigen::Ref<const Eigen::VectorXd>;
 using Output = Eigen::Ref<Eigen::VectorXd>;
 
-const std::vector<std::string> kKinds = {"sg", "sg_causal", "central", "spline"};  // in enum order
+const std::vector<std::string> kKinds = {"sg", "sg_causal", "central", "spline",
+                                         "spectral"};  // in enum order
 
 /// Weights of the first and the second derivative, per second and per second squared.
 struct Weights {
@@ -85,7 +87,7 @@ void by_spline(const Input& t, const Input& x, Output first, Output second) {
 
 int shortest(const DerivativeSpec& spec, double dt) {
   if (spec.kind == Kind::kCentral) return 2;
-  if (spec.kind == Kind::kSpline) return 3;
+  if (spec.kind == Kind::kSpline || spec.kind == Kind::kSpectral) return 3;
   return spec.kind == Kind::kSavitzkyGolay ? spec.window(dt) : 1;
 }
 
@@ -117,6 +119,7 @@ DerivativeSpec parse_derivative(Options options) {
     if (kKinds[k] == kind) spec.kind = static_cast<Kind>(k);
   }
   spec.window_s = options.number("window_s", spec.window_s, 0.0, 100.0);
+  spec.cutoff_hz = options.number("cutoff_hz", spec.cutoff_hz, 1e-3, 1e6);
   spec.order = options.get("order", spec.kind == Kind::kCausalSavitzkyGolay ? 2 : 3);
   if (spec.order < 2 || spec.order > 7) options.reject("order", "must be between 2 and 7");
   options.finish();
@@ -124,6 +127,7 @@ DerivativeSpec parse_derivative(Options options) {
 }
 
 Json to_json(const DerivativeSpec& spec) {
+  if (spec.kind == Kind::kSpectral) return {{"kind", "spectral"}, {"cutoff_hz", spec.cutoff_hz}};
   return {{"kind", kKinds[static_cast<std::size_t>(spec.kind)]},
           {"window_s", spec.window_s},
           {"order", spec.order}};
@@ -136,7 +140,8 @@ Eigen::VectorXd savitzky_golay_weights(int window, int order, int derivative, do
   const double half = 0.5 * (window - 1), z_at = (at - half) / half;
   const Eigen::ArrayXd z = Eigen::ArrayXd::LinSpaced(window, -1.0, 1.0);
   Eigen::ArrayXd p = Eigen::ArrayXd::Ones(window), p_before = Eigen::ArrayXd::Zero(window);
-  Eigen::Array3d q(1.0, 0.0, 0.0), q_before = Eigen::Array3d::Zero();  // p_j(at) and its derivatives
+  Eigen::Array3d q(1.0, 0.0, 0.0),
+      q_before = Eigen::Array3d::Zero();  // p_j(at) and its derivatives
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(window);
   double norm = window, norm_before = 1.0;
   for (int j = 0; j <= order; ++j) {
@@ -158,7 +163,7 @@ Derivatives differentiate(const Eigen::MatrixXd& signals, const Recording& recor
   const int window = spec.window(dt);
   const Eigen::VectorXd t = recording.column("t");
   Derivatives out{Eigen::MatrixXd(signals.rows(), signals.cols()),
-                  Eigen::MatrixXd(signals.rows(), signals.cols())};
+                  Eigen::MatrixXd(signals.rows(), signals.cols()), signals};
   for_each_piece(signals.cols(), [&](Index column) {
     for (const Segment& s : recording.segments) {
       const auto x = signals.col(column).segment(s.begin, s.size());
@@ -174,6 +179,13 @@ Derivatives differentiate(const Eigen::MatrixXd& signals, const Recording& recor
         case Kind::kSpline:
           by_spline(t.segment(s.begin, s.size()), x, first, second);
           break;
+        case Kind::kSpectral: {
+          const Smoothed smoothed = smooth(x, dt, spec.cutoff_hz);
+          first = smoothed.first;
+          second = smoothed.second;
+          out.value.col(column).segment(s.begin, s.size()) = smoothed.value;
+          break;
+        }
         case Kind::kCentral:
           gradient(x, dt, first);
           gradient(first, dt, second);

@@ -38,13 +38,20 @@ Eigen::VectorXd wrench_column(const Wrench& wrench, const std::string& target) {
        "'; give it an inertia for torques, or leave --base out");
 }
 
+/// The simulator's own estimator where it names one, unless the model must run online.
+DerivativeSpec base_derivative(const Identifier& identifier) {
+  const DerivativeSpec& own = identifier.layout.spec.derivative;
+  const bool online = own.kind == DerivativeSpec::Kind::kCausalSavitzkyGolay;
+  return online ? own : identifier.base->derivative.value_or(own);
+}
+
 }  // namespace
 
 Eigen::MatrixXd Identifier::base_prediction(const Recording& recording) const {
   const auto count = static_cast<Eigen::Index>(targets.names.size());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(recording.samples(), count);
   if (!base) return result;
-  const Motion motion = motion_of(recording, base->model, layout.spec.derivative);
+  const Motion motion = motion_of(recording, base->model, base_derivative(*this));
   const Wrench wrench = simulate(*base, motion, nullptr, nullptr);
   for (Eigen::Index j = 0; j < count; ++j) {
     result.col(j) = wrench_column(wrench, targets.names[static_cast<std::size_t>(j)]);
@@ -66,11 +73,7 @@ Container pack(const Identifier& identifier) {
       Json{{"names", identifier.targets.names}, {"units", identifier.targets.units}}.dump();
   file.metadata["configuration"] = identifier.configuration.dump();
   file.metadata["seed"] = std::to_string(identifier.seed);
-  if (identifier.base) {
-    Json base = to_json(identifier.base->model);
-    base["effects"] = to_json(identifier.base->effects);
-    file.metadata["base"] = base.dump();
-  }
+  if (identifier.base) file.metadata["base"] = to_json(*identifier.base).dump();
   identifier.model->save(file);
   return file;
 }

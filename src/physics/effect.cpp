@@ -161,6 +161,30 @@ Json to_json(const std::vector<EffectSpec>& effects) {
   return list;
 }
 
+std::string unit_of_parameter(const std::string& name) {
+  static const std::vector<std::pair<std::string, std::string>> kUnits{{"_kg", "kg"},
+                                                                       {"_rad", "rad"},
+                                                                       {"_nm", "N*m"},
+                                                                       {"_n", "N"},
+                                                                       {"_mps", "m/s"},
+                                                                       {"_nspm", "N*s/m"},
+                                                                       {"_ns2pm2", "N*s^2/m^2"},
+                                                                       {"_npm", "N/m"},
+                                                                       {"_nprad", "N/rad"},
+                                                                       {"_hz", "Hz"},
+                                                                       {"_s", "s"},
+                                                                       {"_nps", "N/s"},
+                                                                       {"_nmps", "N*m/s"},
+                                                                       {"_npk", "N/K"},
+                                                                       {"_nmpk", "N*m/K"},
+                                                                       {"_degc", "degC"},
+                                                                       {"_m", "m"}};
+  for (const auto& [end, unit] : kUnits) {
+    if (name.ends_with(end)) return unit;
+  }
+  return "";
+}
+
 void change_model(const EffectSpec& effect, ToolModel& model) {
   Options parameters(effect.parameters, effect.effect, Exit::kData);
   kind_of(effect).change(model, parameters);

@@ -44,6 +44,17 @@ Offset read_offset(Options& parameters, const std::string& stem, const std::stri
   return offset;
 }
 
+Json offset_parameters(const Eigen::VectorXd& amplitudes, const std::string& stem,
+                       const std::string& per) {
+  Json parameters;
+  for (Index i = 0; i < amplitudes.size(); ++i) {
+    const std::string axis(1, "xyz"[i % 3]);
+    parameters[i < 3 ? stem + "_" + axis + "_n" + per : stem + "_t" + axis + "_nm" + per] =
+        amplitudes(i);
+  }
+  return parameters;
+}
+
 void add(Wrench& wrench, const Offset& offset, const Eigen::VectorXd& factor) {
   wrench.force += factor * offset.force.transpose();
   if (wrench.torque.rows() > 0) wrench.torque += factor * offset.torque.transpose();

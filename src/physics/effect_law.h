@@ -30,6 +30,10 @@ struct Offset {
 };
 Offset read_offset(Options& parameters, const std::string& stem, const std::string& per = "");
 
+/// The parameters read_offset() reads, from 3 amplitudes or 6 with torques.
+Json offset_parameters(const Eigen::VectorXd& amplitudes, const std::string& stem,
+                       const std::string& per = "");
+
 /// Adds factor_k·offset to each row k.
 void add(Wrench& wrench, const Offset& offset, const Eigen::VectorXd& factor);
 

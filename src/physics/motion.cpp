@@ -61,8 +61,8 @@ void read_rotation(const Recording& recording, const ToolModel& model, const Der
                    Motion& motion) {
   const std::vector<std::string> w{"wx", "wy", "wz"}, dw{"dwx", "dwy", "dwz"};
   if (!recording.has_all(w)) {
-    const MatrixXd q = quaternions(recording);
-    const auto derived = differentiate(q, recording, spec);
+    const auto derived = differentiate(quaternions(recording), recording, spec);
+    const MatrixXd q = derived.value.rowwise().normalized();
     motion.w_S = body_rates(q, derived.first) * model.R_ES();
     motion.dw_S = body_rates(q, derived.second) * model.R_ES();
   } else {
@@ -70,6 +70,19 @@ void read_rotation(const Recording& recording, const ToolModel& model, const Der
     if (!recording.has_all(dw)) motion.dw_S = differentiate(motion.w_S, recording, spec).first;
   }
   if (recording.has_all(dw)) motion.dw_S = recording.block(dw);
+}
+
+/// Orientation without the noise that a smoothing estimator takes off its derivatives.
+void smooth_orientation(const Recording& recording, const ToolModel& model,
+                        const DerivativeSpec& spec, Motion& motion) {
+  if (spec.kind != DerivativeSpec::Kind::kSpectral) return;
+  const MatrixXd q = differentiate(quaternions(recording), recording, spec).value;
+  for (Index k = 0; k < q.rows(); ++k) {
+    motion.R_BS[static_cast<std::size_t>(k)] =
+        Eigen::Quaterniond(q(k, 0), q(k, 1), q(k, 2), q(k, 3)).normalized().toRotationMatrix() *
+        model.R_ES();
+  }
+  motion.euler = differentiate(motion.euler, recording, spec).value;
 }
 
 void stand_still(Motion& motion, Index samples) {
@@ -106,6 +119,7 @@ Motion motion_of(const Recording& recording, const ToolModel& model,
     stand_still(motion, recording.samples());
   } else {
     motion.t = recording.column("t");
+    smooth_orientation(recording, model, derivative, motion);
     read_translation(recording, derivative, motion);
     read_rotation(recording, model, derivative, motion);
   }

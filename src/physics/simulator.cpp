@@ -33,7 +33,11 @@ void add_noise(Eigen::MatrixXd& signals, const Motion& motion, double deviation,
 
 Simulator parse_simulator(const Json& json, const std::string& where, Exit exit) {
   Options options(json, where, exit);
-  Simulator simulator{read_tool_model(options), parse_effects(options.raw("effects"), where, exit)};
+  Simulator simulator;
+  simulator.model = read_tool_model(options);
+  simulator.effects = parse_effects(options.raw("effects"), where, exit);
+  if (options.has("derivative"))
+    simulator.derivative = parse_derivative(options.child("derivative"));
   options.finish();
   return simulator;
 }
@@ -45,6 +49,7 @@ Simulator read_simulator(const std::filesystem::path& path) {
 Json to_json(const Simulator& simulator) {
   Json json = to_json(simulator.model);
   if (!simulator.effects.empty()) json["effects"] = to_json(simulator.effects);
+  if (simulator.derivative) json["derivative"] = to_json(*simulator.derivative);
   return json;
 }
 
@@ -67,31 +72,51 @@ Wrench rigid_wrench(const ToolModel& model, const Motion& motion) {
   return wrench;
 }
 
-Wrench simulate(const Simulator& simulator, const Motion& motion, const SensorNoise* noise,
-                Rng* rng) {
-  ToolModel model = simulator.model;
-  const auto each = [&](Stage stage, auto act) {
-    for (const EffectKind* kind : effect_kinds()) {
-      if (kind->stage != stage) continue;
-      for (const auto& effect : simulator.effects) {
-        if (effect.effect == kind->name) act(effect);
-      }
+namespace {
+
+/// The effects of one stage in the order of the catalogue.
+template <class Act>
+void each_of(const std::vector<EffectSpec>& effects, Stage stage, const Act& act) {
+  for (const EffectKind* kind : effect_kinds()) {
+    if (kind->stage != stage) continue;
+    for (const auto& effect : effects) {
+      if (effect.effect == kind->name) act(effect);
     }
-  };
-  each(Stage::kTool, [&](const EffectSpec& effect) { change_model(effect, model); });
-  const Offset bias{model.bias, model.bias_torque};
-  model.bias.setZero();  // the sensor's offset acts after its gain and its filters
-  model.bias_torque.setZero();
-  Wrench wrench = rigid_wrench(model, motion);
-  for (int s = static_cast<int>(Stage::kForce); s <= static_cast<int>(Stage::kQuantisation); ++s) {
+  }
+}
+
+}  // namespace
+
+ToolModel changed_tool(const ToolModel& model, const std::vector<EffectSpec>& effects) {
+  ToolModel changed = model;
+  each_of(effects, Stage::kTool, [&](const EffectSpec& effect) { change_model(effect, changed); });
+  return changed;
+}
+
+void pass_on(const std::vector<EffectSpec>& effects, Stage first, const Motion& motion,
+             const ToolModel& model, Wrench& wrench, const SensorNoise* noise, Rng* rng) {
+  for (int s = static_cast<int>(first); s <= static_cast<int>(Stage::kQuantisation); ++s) {
     const auto stage = static_cast<Stage>(s);
-    if (stage == Stage::kOffset) add(wrench, bias, Eigen::VectorXd::Ones(motion.samples()));
+    if (stage == Stage::kOffset) {
+      add(wrench, {model.bias, model.bias_torque}, Eigen::VectorXd::Ones(motion.samples()));
+    }
     if (stage == Stage::kNoise && noise) {
       add_noise(wrench.force, motion, noise->force, noise->ar, *rng);
       add_noise(wrench.torque, motion, noise->torque, noise->ar, *rng);
     }
-    each(stage, [&](const EffectSpec& effect) { apply_effect(effect, motion, model, wrench); });
+    each_of(effects, stage,
+            [&](const EffectSpec& effect) { apply_effect(effect, motion, model, wrench); });
   }
+}
+
+Wrench simulate(const Simulator& simulator, const Motion& motion, const SensorNoise* noise,
+                Rng* rng) {
+  const ToolModel model = changed_tool(simulator.model, simulator.effects);
+  ToolModel without_bias = model;  // the sensor's offset acts after its gain and its filters
+  without_bias.bias.setZero();
+  without_bias.bias_torque.setZero();
+  Wrench wrench = rigid_wrench(without_bias, motion);
+  pass_on(simulator.effects, Stage::kForce, motion, model, wrench, noise, rng);
   return wrench;
 }
 
@@ -106,7 +131,8 @@ void set_wrench(const Wrench& wrench, const std::string& suffix, Recording& reco
 
 Recording predict_motion(const Simulator& simulator, const Recording& motion,
                          const DerivativeSpec& derivative) {
-  const Wrench wrench = simulate(simulator, motion_of(motion, simulator.model, derivative));
+  const Wrench wrench = simulate(
+      simulator, motion_of(motion, simulator.model, simulator.derivative.value_or(derivative)));
   Recording out = motion;
   set_wrench(wrench, "", out);
   return out;

@@ -1,4 +1,5 @@
-// The four estimators of spec 1.3: first and second derivatives of sampled signals, length preserved.
+// The four estimators of spec 1.3: first and second derivatives of sampled signals, length
+// preserved.
 #pragma once
 
 #include <Eigen/Dense>
@@ -11,25 +12,29 @@
 namespace dcnn {
 
 struct DerivativeSpec {
-  enum class Kind { kSavitzkyGolay, kCausalSavitzkyGolay, kCentral, kSpline };
+  enum class Kind { kSavitzkyGolay, kCausalSavitzkyGolay, kCentral, kSpline, kSpectral };
   Kind kind = Kind::kSavitzkyGolay;
   double window_s = 0.1;
-  int order = 3;  ///< degree of the local polynomial (sg: 3, sg_causal: 2 by default)
+  double cutoff_hz = 11.0;  ///< spectral: |H| = 1/(1 + (f/cutoff)^8), zero phase
+  int order = 3;            ///< degree of the local polynomial (sg: 3, sg_causal: 2 by default)
 
   /// Number of samples in the window: 2·round(window_s/(2·dt)) + 1, at least order + 4 (odd).
   int window(double dt) const;
 };
 
-/// Keys: kind (sg|sg_causal|central|spline), window_s, order.
+/// Keys: kind (sg|sg_causal|central|spline|spectral), window_s, order, cutoff_hz.
 DerivativeSpec parse_derivative(Options options);
 Json to_json(const DerivativeSpec& spec);
 
-/// Weights w so that the derivative of the given order (0, 1, 2) at offset `at` (samples from the window's
-/// first) of the least-squares polynomial through `window` samples is sum w_k·x_k / dt^derivative.
+/// Weights w so that the derivative of the given order (0, 1, 2) at offset `at` (samples from the
+/// window's first) of the least-squares polynomial through `window` samples is sum w_k·x_k /
+/// dt^derivative.
 Eigen::VectorXd savitzky_golay_weights(int window, int order, int derivative, double at);
 
 struct Derivatives {
   Eigen::MatrixXd first, second;  ///< (T, columns), per second and per second squared
+  Eigen::MatrixXd
+      value;  ///< (T, columns) the signals as the estimator sees them: smoothed by `spectral`
 };
 
 /// Derivatives of every column, segment by segment. A segment shorter than the window is an

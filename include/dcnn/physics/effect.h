@@ -58,6 +58,24 @@ struct EffectSpec {
   std::string recording;  ///< acts in this file only; empty for all
 };
 
+/// A parameter the force is not linear in: where the diagnosis looks for it.
+struct ShapeParameter {
+  const char* name;
+  double low, high;           ///< bounds; searched on a logarithmic scale where low > 0
+  std::vector<double> seeds;  ///< where a search begins; empty where seeds come from the residual
+};
+
+/// How an effect is found from data: the force is linear in its amplitudes where the shapes are
+/// held.
+struct EffectFit {
+  int amplitudes = 0;         ///< where forces are measured
+  int with_torque = 0;        ///< where torques are measured beside them; 0: as many
+  bool non_negative = false;  ///< an amplitude below zero refutes the effect (dissipation)
+  std::vector<ShapeParameter> shapes;
+  /// The published parameters that belong to amplitudes and shapes.
+  Json (*parameters)(const Eigen::VectorXd& amplitudes, const Eigen::VectorXd& shapes) = nullptr;
+};
+
 /// One law of the catalogue (effects.def), applied in place by simulation and corrected model
 /// alike.
 struct EffectKind {
@@ -77,6 +95,9 @@ struct EffectKind {
   /// first sample of the recording.
   void (*apply)(Wrench&, const Motion&, const EffectSpec&, const ToolModel&,
                 Options& parameters) = nullptr;
+  /// The ways in which its parameters are fitted (thermal_drift has two); empty for what the
+  /// diagnosis does not look for.
+  std::vector<EffectFit> fits = {};
 };
 
 /// The catalogue in the order of effects.def; effects of one stage act in this order.
@@ -90,6 +111,9 @@ std::vector<std::string> admitted_axes(AxisRule rule);
 /// axis or interval, and a missing, unknown or impossible parameter are Errors(exit).
 std::vector<EffectSpec> parse_effects(const Json& list, const std::string& where, Exit exit);
 Json to_json(const std::vector<EffectSpec>& effects);
+
+/// The unit of a published parameter, from the end of its name ("fc_n": N), empty for none.
+std::string unit_of_parameter(const std::string& name);
 
 /// Applies one effect of Stage::kTool, or any other one to a wrench, respecting its interval.
 void change_model(const EffectSpec& effect, ToolModel& model);

@@ -18,9 +18,11 @@ namespace dcnn {
 struct Simulator {
   ToolModel model;
   std::vector<EffectSpec> effects;
+  std::optional<DerivativeSpec>
+      derivative;  ///< how it was fitted to poses; else the caller's choice
 };
 
-/// sim.json with an optional list `effects`.
+/// sim.json with an optional list `effects` and an optional `derivative`.
 Simulator parse_simulator(const Json& json, const std::string& where, Exit exit);
 Simulator read_simulator(const std::filesystem::path& path);  ///< Error(kData)
 Json to_json(const Simulator& simulator);
@@ -36,8 +38,17 @@ struct SensorNoise {
   double ar = 0.0;                   ///< coefficient in (-1, 1); 0 is white
 };
 
-/// The whole chain, stages in order; the model's bias enters at Stage::kOffset, and noise at
-/// Stage::kNoise where `noise` is given (then `rng` must be too).
+/// All that happens to a wrench from `first` on, stages in order, in place; the bias enters at
+/// Stage::kOffset, and noise at Stage::kNoise where `noise` is given (then `rng` must be too).
+/// Effects of stages before `first` are left out.
+void pass_on(const std::vector<EffectSpec>& effects, Stage first, const Motion& motion,
+             const ToolModel& model, Wrench& wrench, const SensorNoise* noise = nullptr,
+             Rng* rng = nullptr);
+
+/// The tool as the effects of Stage::kTool change it.
+ToolModel changed_tool(const ToolModel& model, const std::vector<EffectSpec>& effects);
+
+/// The whole chain: the rigid wrench of the changed tool, then all other stages.
 Wrench simulate(const Simulator& simulator, const Motion& motion,
                 const SensorNoise* noise = nullptr, Rng* rng = nullptr);
 
@@ -45,7 +56,7 @@ Wrench simulate(const Simulator& simulator, const Motion& motion,
 void set_wrench(const Wrench& wrench, const std::string& suffix, Recording& recording);
 
 /// The recording with fx,fy,fz (and tx,ty,tz where the model has an inertia) replaced or added by
-/// what the simulator predicts for its motion.
+/// what the simulator predicts for its motion, by its own derivative where it names one.
 Recording predict_motion(const Simulator& simulator, const Recording& motion,
                          const DerivativeSpec& derivative);
 

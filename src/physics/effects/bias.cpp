@@ -18,6 +18,12 @@ const EffectKind bias_effect{
     .equation = "+ b",
     .example = R"({"delta_bias_x_n": 0.3, "delta_bias_y_n": -0.2, "delta_bias_z_n": 0.1})",
     .apply = apply,
+    .fits = {{.amplitudes = 3,
+              .with_torque = 6,
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return offset_parameters(a, "delta_bias");
+                  }}},
 };
 
 }  // namespace dcnn

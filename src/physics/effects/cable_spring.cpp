@@ -21,6 +21,12 @@ const EffectKind cable_spring_effect{
     .example = R"({"k_nprad": 0.5, "rest_rad": 0.1})",
     .axis = AxisRule::kAngle,
     .apply = apply,
+    .fits = {{.amplitudes = 2,
+              // k and k·rest: the force is linear in both.
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return Json{{"k_nprad", a(0)}, {"rest_rad", a(0) == 0.0 ? 0.0 : a(1) / a(0)}};
+                  }}},
 };
 
 }  // namespace dcnn

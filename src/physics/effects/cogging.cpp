@@ -25,6 +25,14 @@ const EffectKind cogging_effect{
     .example = R"({"amp_n": 0.1, "order": 12.0, "phase_rad": 0.5})",
     .axis = AxisRule::kAngle,
     .apply = apply,
+    .fits = {{.amplitudes = 2,
+              .shapes = {{"order", 0.5, 200.0, {}}},
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
+                    return Json{{"amp_n", std::hypot(a(0), a(1))},
+                                {"order", s(0)},
+                                {"phase_rad", std::atan2(a(1), a(0))}};
+                  }}},
 };
 
 }  // namespace dcnn

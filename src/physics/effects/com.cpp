@@ -18,6 +18,12 @@ const EffectKind com_effect{
     .example = R"({"delta_com_x_m": 0.01, "delta_com_y_m": -0.005, "delta_com_z_m": 0.02})",
     .interval = IntervalRule::kNever,
     .change = change,
+    .fits = {{.amplitudes = 3,
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return Json{
+                        {"delta_com_x_m", a(0)}, {"delta_com_y_m", a(1)}, {"delta_com_z_m", a(2)}};
+                  }}},
 };
 
 }  // namespace dcnn

@@ -25,6 +25,10 @@ const EffectKind contact_effect{
     .interval = IntervalRule::kRequired,
     .needs_time = true,
     .apply = apply,
+    .fits = {{.amplitudes = 3,
+              .with_torque = 6,
+              .parameters = [](const Eigen::VectorXd& a,
+                               const Eigen::VectorXd&) { return offset_parameters(a, "force"); }}},
 };
 
 }  // namespace dcnn

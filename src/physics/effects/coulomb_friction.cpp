@@ -24,6 +24,13 @@ const EffectKind coulomb_friction_effect{
     .example = R"({"fc_n": 0.4, "v0_mps": 0.01})",
     .axis = AxisRule::kLine,
     .apply = apply,
+    .fits = {{.amplitudes = 1,
+              .non_negative = true,
+              .shapes = {{"v0", 3e-4, 0.3, {0.003, 0.012, 0.05}}},
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
+                    return Json{{"fc_n", a(0)}, {"v0_mps", s(0)}};
+                  }}},
 };
 
 }  // namespace dcnn

@@ -25,6 +25,12 @@ const EffectKind crosstalk_effect{
     .example =
         R"({"c_xy": 0.01, "c_xz": -0.005, "c_yx": -0.012, "c_yz": 0.007, "c_zx": 0.014, "c_zy": -0.009})",
     .apply = apply,
+    .fits = {{.amplitudes = 6,
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return Json{{"c_xy", a(0)}, {"c_xz", a(1)}, {"c_yx", a(2)},
+                                {"c_yz", a(3)}, {"c_zx", a(4)}, {"c_zy", a(5)}};
+                  }}},
 };
 
 }  // namespace dcnn

@@ -37,6 +37,12 @@ const EffectKind flexible_resonance_effect{
     .axis = AxisRule::kSensor,
     .needs_time = true,
     .apply = apply,
+    .fits = {{.amplitudes = 1,
+              .shapes = {{"freq", 1.0, 200.0, {}}, {"zeta", 2e-3, 0.9, {0.01, 0.03, 0.1}}},
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
+                    return Json{{"freq_hz", s(0)}, {"zeta", s(1)}, {"fraction", a(0)}};
+                  }}},
 };
 
 }  // namespace dcnn

@@ -19,6 +19,11 @@ const EffectKind gain_effect{
     .equation = "F_i -> (1+k_i) F_i",
     .example = R"({"gain_x": 0.02, "gain_y": -0.03, "gain_z": 0.01})",
     .apply = apply,
+    .fits = {{.amplitudes = 3,
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return Json{{"gain_x", a(0)}, {"gain_y", a(1)}, {"gain_z", a(2)}};
+                  }}},
 };
 
 }  // namespace dcnn

@@ -20,6 +20,11 @@ const EffectKind gravity_tilt_effect{
     .example = R"({"tilt_x_rad": 0.02, "tilt_y_rad": -0.03})",
     .interval = IntervalRule::kNever,
     .change = change,
+    .fits = {{.amplitudes = 2,
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return Json{{"tilt_x_rad", a(0)}, {"tilt_y_rad", a(1)}};
+                  }}},
 };
 
 }  // namespace dcnn

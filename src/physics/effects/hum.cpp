@@ -25,6 +25,17 @@ const EffectKind hum_effect{
         R"({"freq_hz": 50.0, "sin_x_n": 0.1, "sin_y_n": 0.0, "sin_z_n": -0.05, "cos_x_n": 0.02, "cos_y_n": 0.08, "cos_z_n": 0.0})",
     .needs_time = true,
     .apply = apply,
+    .fits = {{.amplitudes = 6,
+              .with_torque = 12,
+              .shapes = {{"freq", 0.05, 500.0, {}}},
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
+                    const Index half = a.size() / 2;
+                    Json p = offset_parameters(a.head(half), "sin");
+                    p.update(offset_parameters(a.tail(half), "cos"));
+                    p["freq_hz"] = s(0);
+                    return p;
+                  }}},
 };
 
 }  // namespace dcnn

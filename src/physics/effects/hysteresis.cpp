@@ -54,6 +54,12 @@ const EffectKind hysteresis_effect{
     .axis = AxisRule::kAngle,
     .needs_time = true,
     .apply = apply,
+    .fits = {{.amplitudes = 1,
+              .shapes = {{"width", 5e-3, 3.0, {0.05, 0.15, 0.4}}, {"asym", 0.0, 1.0, {0.5}}},
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
+                    return Json{{"force_n", a(0)}, {"width_rad", s(0)}, {"asym", s(1)}};
+                  }}},
 };
 
 }  // namespace dcnn

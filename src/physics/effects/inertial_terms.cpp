@@ -15,6 +15,8 @@ const EffectKind inertial_terms_effect{
     .equation = "model.inertial -> full",
     .interval = IntervalRule::kNever,
     .change = change,
+    .fits = {{.parameters = [](const Eigen::VectorXd&,
+                               const Eigen::VectorXd&) { return Json::object(); }}},
 };
 
 }  // namespace dcnn

@@ -19,6 +19,12 @@ const EffectKind linear_drift_effect{
     .example = R"({"rate_x_nps": 0.001, "rate_y_nps": -0.002, "rate_z_nps": 0.003})",
     .needs_time = true,
     .apply = apply,
+    .fits = {{.amplitudes = 3,
+              .with_torque = 6,
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return offset_parameters(a, "rate", "ps");
+                  }}},
 };
 
 }  // namespace dcnn

@@ -68,6 +68,13 @@ const EffectKind loose_load_effect{
     .axis = AxisRule::kSensor,
     .needs_time = true,
     .apply = apply,
+    .fits = {{.amplitudes = 1,
+              .non_negative = true,
+              .shapes = {{"gap", 1e-5, 0.1, {}}},
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
+                    return Json{{"slug_kg", a(0)}, {"gap_m", s(0)}};
+                  }}},
 };
 
 }  // namespace dcnn

@@ -35,6 +35,11 @@ const EffectKind lowpass_effect{
     .example = R"({"tau_s": 0.01})",
     .needs_time = true,
     .apply = apply,
+    .fits = {{.shapes = {{"tau", 2e-5, 1.0, {0.003, 0.02}}},
+              .parameters =
+                  [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {
+                    return Json{{"tau_s", s(0)}};
+                  }}},
 };
 
 }  // namespace dcnn

@@ -52,6 +52,16 @@ const EffectKind lugre_friction_effect{
     .axis = AxisRule::kLine,
     .needs_time = true,
     .apply = apply,
+    .fits = {{.amplitudes = 1,
+              .non_negative = true,
+              // fc/sigma0, the reach of the bristles, and sigma1/sigma0: the force is linear in fc.
+              .shapes = {{"reach", 2e-5, 0.1, {3e-4, 1e-3, 4e-3}}, {"damping", 1e-5, 0.3, {1e-3}}},
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
+                    return Json{{"fc_n", a(0)},
+                                {"sigma0_npm", std::max(a(0), 1e-12) / s(0)},
+                                {"sigma1_nspm", a(0) / s(0) * s(1)}};
+                  }}},
 };
 
 }  // namespace dcnn

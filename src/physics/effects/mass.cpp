@@ -18,6 +18,11 @@ const EffectKind mass_effect{
     .example = R"({"delta_mass_kg": 0.05})",
     .interval = IntervalRule::kNever,
     .change = change,
+    .fits = {{.amplitudes = 1,
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return Json{{"delta_mass_kg", a(0)}};
+                  }}},
 };
 
 }  // namespace dcnn

@@ -21,6 +21,11 @@ const EffectKind misalignment_effect{
     .equation = "F -> Rm^T F, Rm = Rz(rz) Ry(ry) Rx(rx)",
     .example = R"({"rot_x_rad": 0.02, "rot_y_rad": -0.01, "rot_z_rad": 0.03})",
     .apply = apply,
+    .fits = {{.amplitudes = 3,
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return Json{{"rot_x_rad", a(0)}, {"rot_y_rad", a(1)}, {"rot_z_rad", a(2)}};
+                  }}},
 };
 
 }  // namespace dcnn

@@ -22,6 +22,12 @@ const EffectKind quadratic_drag_effect{
     .example = R"({"c2_ns2pm2": 5.0})",
     .axis = AxisRule::kLine,
     .apply = apply,
+    .fits = {{.amplitudes = 1,
+              .non_negative = true,
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return Json{{"c2_ns2pm2", a(0)}};
+                  }}},
 };
 
 }  // namespace dcnn

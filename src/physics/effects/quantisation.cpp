@@ -19,6 +19,11 @@ const EffectKind quantisation_effect{
     .equation = "q round(F/q)",
     .example = R"({"step_n": 0.05})",
     .apply = apply,
+    .fits = {{.shapes = {{"step", 1e-6, 1e3, {}}},
+              .parameters =
+                  [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {
+                    return Json{{"step_n", s(0)}};
+                  }}},
 };
 
 }  // namespace dcnn

@@ -21,6 +21,11 @@ const EffectKind saturation_effect{
     .example = R"({"limit_n": 5.0})",
     .axis = AxisRule::kSensor,
     .apply = apply,
+    .fits = {{.shapes = {{"limit", 1e-3, 1e4, {}}},
+              .parameters =
+                  [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {
+                    return Json{{"limit_n", s(0)}};
+                  }}},
 };
 
 }  // namespace dcnn

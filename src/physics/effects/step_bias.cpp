@@ -20,6 +20,10 @@ const EffectKind step_bias_effect{
     .interval = IntervalRule::kOnset,
     .needs_time = true,
     .apply = apply,
+    .fits = {{.amplitudes = 3,
+              .with_torque = 6,
+              .parameters = [](const Eigen::VectorXd& a,
+                               const Eigen::VectorXd&) { return offset_parameters(a, "step"); }}},
 };
 
 }  // namespace dcnn

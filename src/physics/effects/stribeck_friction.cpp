@@ -26,6 +26,13 @@ const EffectKind stribeck_friction_effect{
     .example = R"({"fc_n": 0.3, "fs_n": 0.6, "vs_mps": 0.03, "v0_mps": 0.005})",
     .axis = AxisRule::kLine,
     .apply = apply,
+    .fits = {{.amplitudes = 2,
+              .non_negative = true,
+              .shapes = {{"vs", 1e-3, 1.0, {0.01, 0.03, 0.1}}, {"v0", 3e-4, 0.3, {0.003, 0.012}}},
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
+                    return Json{{"fc_n", a(0)}, {"fs_n", a(1)}, {"vs_mps", s(0)}, {"v0_mps", s(1)}};
+                  }}},
 };
 
 }  // namespace dcnn

@@ -42,6 +42,24 @@ const EffectKind thermal_drift_effect{
     .example = R"({"a_x_n": 0.3, "a_y_n": -0.2, "a_z_n": 0.5, "tau_s": 60.0})",
     .needs_time = true,
     .apply = apply,
+    .fits = {{.amplitudes = 3,
+              .with_torque = 6,
+              .shapes = {{"tau", 0.5, 5000.0, {10.0, 40.0, 150.0}}},
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
+                    Json p = offset_parameters(a, "a");
+                    p["tau_s"] = s(0);
+                    return p;
+                  }},
+             {.amplitudes = 3,
+              .with_torque = 6,
+              .shapes = {{"t_ref", -50.0, 150.0, {20.0, 25.0, 30.0, 40.0}}},
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
+                    Json p = offset_parameters(a, "k", "pk");
+                    p["t_ref_degc"] = s(0);
+                    return p;
+                  }}},
 };
 
 }  // namespace dcnn

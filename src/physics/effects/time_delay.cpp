@@ -50,6 +50,11 @@ const EffectKind time_delay_effect{
     .example = R"({"delay_s": 0.013})",
     .needs_time = true,
     .apply = apply,
+    .fits = {{.shapes = {{"delay", 2e-5, 1.0, {0.003, 0.02}}},
+              .parameters =
+                  [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {
+                    return Json{{"delay_s", s(0)}};
+                  }}},
 };
 
 }  // namespace dcnn

@@ -20,6 +20,12 @@ const EffectKind viscous_friction_effect{
     .example = R"({"c_nspm": 2.0})",
     .axis = AxisRule::kLine,
     .apply = apply,
+    .fits = {{.amplitudes = 1,
+              .non_negative = true,
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return Json{{"c_nspm", a(0)}};
+                  }}},
 };
 
 }  // namespace dcnn
