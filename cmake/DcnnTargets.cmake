@@ -2,8 +2,10 @@
 function(dcnn_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-    # GCC 12 reports the inlined code of std::string itself (GCC bugs 105329 and 105651).
-    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)
+    # GCC 12 reports the inlined code of std::string itself (GCC bugs 105329 and 105651), and memory that
+    # Eigen has resized (bug 104475).
+    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict
+      -Wno-use-after-free)
   endif()
   if(DCNN_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)

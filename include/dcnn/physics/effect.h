@@ -71,7 +71,7 @@ struct EffectFit {
   int amplitudes = 0;         ///< where forces are measured
   int with_torque = 0;        ///< where torques are measured beside them; 0: as many
   bool non_negative = false;  ///< an amplitude below zero refutes the effect (dissipation)
-  std::vector<ShapeParameter> shapes;
+  std::vector<ShapeParameter> shapes = {};
   /// The published parameters that belong to amplitudes and shapes.
   Json (*parameters)(const Eigen::VectorXd& amplitudes, const Eigen::VectorXd& shapes) = nullptr;
 };

@@ -1,0 +1,245 @@
+#include "diagnosis/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dcnn/data/fourier.h"
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Every combination of the seeds of a form's shapes.
+std::vector<Eigen::VectorXd> seed_grid(const EffectFit& form) {
+  std::vector<Eigen::VectorXd> grid{Eigen::VectorXd(0)};
+  for (const ShapeParameter& shape : form.shapes) {
+    std::vector<Eigen::VectorXd> longer;
+    for (const auto& point : grid) {
+      for (const double seed : shape.seeds) {
+        Eigen::VectorXd p(point.size() + 1);
+        p << point, seed;
+        longer.push_back(p);
+      }
+    }
+    grid = std::move(longer);
+  }
+  return grid;
+}
+
+std::vector<std::string> axes_of(const EffectKind& kind) {
+  if (kind.axis == AxisRule::kNone) return {""};
+  return admitted_axes(kind.axis);
+}
+
+/// What is left, averaged over 20 ms, and the rows' directions along one axis.
+struct AngleBins {
+  double low = 0.0, width = 0.02;
+  Eigen::VectorXd sum, count;
+};
+
+/// The force along n, collected in bins of the angle.
+AngleBins bin_by_angle(const Case& study, const Signals& left, const std::string& axis) {
+  AngleBins bins;
+  double low = 1e300, high = -1e300;
+  std::vector<AngleLine> lines;
+  for (const Log& log : study.logs) {
+    lines.push_back(angle_line_of(axis, log.motion));
+    low = std::min(low, lines.back().angle.minCoeff());
+    high = std::max(high, lines.back().angle.maxCoeff());
+  }
+  bins.low = low;
+  bins.width = std::max(0.02, (high - low) / 4000.0);
+  const auto size = static_cast<Index>((high - low) / bins.width) + 1;
+  bins.sum = bins.count = Eigen::VectorXd::Zero(size);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    for (Index i = 0; i < lines[k].angle.size(); i += 5) {
+      double along = 0.0, norm = 0.0;
+      for (std::size_t j = 0; j < study.channels.size(); ++j) {
+        if (study.channels[j] > 2) continue;
+        const double n = lines[k].n_S(i, study.channels[j]);
+        along += n * left[k](i, static_cast<Index>(j));
+        norm += n * n;
+      }
+      const auto bin = static_cast<Index>((lines[k].angle(i) - low) / bins.width);
+      bins.sum(bin) += along;
+      bins.count(bin) += norm;
+    }
+  }
+  return bins;
+}
+
+/// The order whose sine and cosine of the angle explain most of the bins, beside a line in it.
+double best_order(const AngleBins& bins) {
+  const Index n = bins.sum.size();
+  const Eigen::ArrayXd q =
+      bins.low + bins.width * (Eigen::ArrayXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)) + 0.5);
+  const double range = bins.width * static_cast<double>(n), middle = bins.low + 0.5 * range;
+  double best = 0.0, most = -1.0;
+  const double step = std::max(0.1, 0.4 / range);
+  for (double order = std::max(1.0, 2.0 * kPi / range); order < std::min(120.0, 0.5 / bins.width);
+       order += step) {
+    Eigen::MatrixXd A(n, 4);
+    A << Eigen::VectorXd::Ones(n), (q - middle).matrix(), (order * q).sin().matrix(),
+        (order * q).cos().matrix();
+    Eigen::Matrix4d gram = A.transpose() * bins.count.asDiagonal() * A;
+    gram.diagonal().array() += 1e-9 * gram.diagonal().maxCoeff();
+    const Eigen::Vector4d b = A.transpose() * bins.sum;
+    const double gain = b.dot(gram.ldlt().solve(b));
+    if (gain > most) most = gain, best = order;
+  }
+  return best;
+}
+
+void add_cogging(const Scan& scan, const Signals& left, std::vector<Member>& list) {
+  const Case& study = scan.setting().study;
+  const EffectKind& kind = *find_effect("cogging");
+  for (const auto& axis : axes_of(kind)) {
+    const AngleBins bins = bin_by_angle(study, left, axis);
+    if (bins.sum.size() < 16 || bins.count.maxCoeff() <= 0.0) continue;
+    const double order = best_order(bins);
+    if (order <= 0.0) continue;
+    list.push_back(make_member(kind, kind.fits[0], axis, study.has_torque(),
+                               Eigen::VectorXd::Constant(1, order)));
+  }
+}
+
+void add_resonances(const Scan& scan, const Signals& left, const std::vector<Floor>& floors,
+                    std::vector<Member>& list) {
+  const Case& study = scan.setting().study;
+  const EffectKind& kind = *find_effect("flexible_resonance");
+  for (std::size_t j = 0; j < study.channels.size(); ++j) {
+    if (study.channels[j] > 2) continue;
+    auto peaks =
+        spectral_lines(study, left, floors, 1.5, 0.25 / study.dt(), static_cast<Index>(j), 3);
+    for (const double hz : {4.0, 8.0, 14.0}) peaks.push_back({hz, 0.0});
+    for (const Peak& peak : peaks) {
+      for (const double zeta : kind.fits[0].shapes[1].seeds) {
+        list.push_back(make_member(
+            kind, kind.fits[0],
+            admitted_axes(AxisRule::kSensor)[static_cast<std::size_t>(study.channels[j])],
+            study.has_torque(), Eigen::Vector2d(peak.hz, zeta)));
+      }
+    }
+  }
+}
+
+void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& floors,
+             std::vector<Member>& list) {
+  const Case& study = scan.setting().study;
+  const EffectKind& kind = *find_effect("hum");
+  std::vector<Peak> peaks;
+  for (Index j = 0; j < study.channel_count(); ++j) {
+    for (const Peak& p : spectral_lines(study, left, floors, 0.3, 0.49 / study.dt(), j, 1)) {
+      peaks.push_back(p);
+    }
+  }
+  std::sort(peaks.begin(), peaks.end(), [](auto& a, auto& b) { return a.ratio > b.ratio; });
+  for (std::size_t k = 0; k < std::min<std::size_t>(2, peaks.size()); ++k) {
+    list.push_back(make_member(kind, kind.fits[0], "", study.has_torque(),
+                               Eigen::VectorXd::Constant(1, peaks[k].hz)));
+  }
+}
+
+bool has_temperature(const Case& study) {
+  return std::all_of(study.logs.begin(), study.logs.end(), [](const Log& log) {
+    return log.motion.temperature.size() == log.motion.samples();
+  });
+}
+
+}  // namespace
+
+bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
+  const auto because = [&](const char* text) {
+    if (why) *why = text;
+    return false;
+  };
+  if (kind.needs_time && study.is_static()) return because("the recordings have no time");
+  if (kind.axis == AxisRule::kLine) {
+    if (study.is_static()) return because("nothing moves in a list of poses");
+    for (const Log& log : study.logs) {
+      if (log.motion.v_B.rows() != log.motion.samples()) {
+        return because("no position or velocity is logged");
+      }
+    }
+  }
+  if (kind.stage == Stage::kTool && !study.own_tool && std::string(kind.name) != "mass") {
+    return because("the simulator's own tool is not known");
+  }
+  if (std::string(kind.name) == "inertial_terms" &&
+      study.simulator.model.inertial == ToolModel::Inertial::kFull) {
+    return because("the simulator has all inertial terms");
+  }
+  if ((std::string(kind.name) == "com" || std::string(kind.name) == "inertial_terms") &&
+      study.is_static() && !study.has_torque()) {
+    return because("at rest the force does not depend on it");
+  }
+  return true;
+}
+
+std::vector<Peak> spectral_lines(const Case& study, const Signals& left,
+                                 const std::vector<Floor>& floors, double from_hz, double to_hz,
+                                 Index channel, int most) {
+  // The longest recording tells frequencies best.
+  std::size_t longest = 0;
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    if (left[k].rows() > left[longest].rows()) longest = k;
+  }
+  const Floor& floor = floors[static_cast<std::size_t>(channel)];
+  const double dt = study.dt();
+  const Index n = left[longest].rows();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(fast_length(n));
+  const Eigen::ArrayXd phase =
+      Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5) * 2.0 * kPi / double(n);
+  x.head(n) = (left[longest].col(channel).array() - left[longest].col(channel).mean()) *
+              (1.0 - phase.cos());
+  const Eigen::VectorXd power = fourier(x).cwiseAbs2() / (1.5 * static_cast<double>(n));
+  std::vector<Peak> peaks;
+  for (Index k = 2; k + 2 < power.size(); ++k) {
+    const double hz = static_cast<double>(k) / (static_cast<double>(x.size()) * dt);
+    if (hz < from_hz || hz > to_hz || power(k) < power(k - 1) || power(k) < power(k + 1)) continue;
+    peaks.push_back({hz, power(k) / std::max(1e-300, floor.density(hz, dt))});
+  }
+  std::sort(peaks.begin(), peaks.end(), [](auto& a, auto& b) { return a.ratio > b.ratio; });
+  std::vector<Peak> apart;
+  for (const Peak& peak : peaks) {
+    const bool near = std::any_of(apart.begin(), apart.end(), [&](const Peak& other) {
+      return std::abs(other.hz - peak.hz) < std::max(0.1, 0.04 * peak.hz);
+    });
+    if (!near) apart.push_back(peak);
+    if (static_cast<int>(apart.size()) == most) break;
+  }
+  return apart;
+}
+
+std::vector<Member> candidates(const Scan& scan, const Signals& left,
+                               const std::vector<Floor>& floors) {
+  const Case& study = scan.setting().study;
+  std::vector<Member> list;
+  for (const EffectKind* kind : effect_kinds()) {
+    const bool own_test = kind->interval == IntervalRule::kRequired ||
+                          kind->interval == IntervalRule::kOnset ||
+                          kind->stage == Stage::kSaturation || kind->stage == Stage::kQuantisation;
+    if (own_test || !is_testable(study, *kind)) continue;
+    for (const EffectFit& form : kind->fits) {
+      if (!form.shapes.empty() && std::string(form.shapes[0].name) == "t_ref" &&
+          !has_temperature(study)) {
+        continue;
+      }
+      for (const auto& axis : axes_of(*kind)) {
+        for (const auto& shapes : seed_grid(form)) {
+          list.push_back(make_member(*kind, form, axis, study.has_torque(), shapes));
+        }
+      }
+    }
+  }
+  if (study.is_static()) return list;
+  add_cogging(scan, left, list);
+  add_resonances(scan, left, floors, list);
+  add_hum(scan, left, floors, list);
+  return list;
+}
+
+}  // namespace dcnn

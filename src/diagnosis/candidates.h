@@ -1,0 +1,29 @@
+// Which effects are tried, and where in their shapes a search for them begins.
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/scan.h"
+
+namespace dcnn {
+
+/// Members to try next to the model of a scan: every fit of the catalogue, every axis it admits,
+/// every seed of its shapes; seeds of orders and frequencies come from what the model leaves. What
+/// needs a test of its own (events, knocks, rounding, clipping) and what the log lacks the signals
+/// for is left out.
+std::vector<Member> candidates(const Scan& scan, const Signals& left,
+                               const std::vector<Floor>& floors);
+
+/// Whether the recordings hold the signals that the effect needs; if not, why, in words.
+bool is_testable(const Case& study, const EffectKind& kind, std::string* why = nullptr);
+
+/// The strongest lines of what is left, in the whole band of the log: frequency [Hz] and how often
+/// its power is the floor's, strongest first.
+struct Peak {
+  double hz, ratio;
+};
+std::vector<Peak> spectral_lines(const Case& study, const Signals& left,
+                                 const std::vector<Floor>& floors, double from_hz, double to_hz,
+                                 Index channel, int most);
+
+}  // namespace dcnn

@@ -1,0 +1,44 @@
+// What a diagnosis is about: recordings, the simulator at hand, and the quantities both give.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dcnn/data/recording.h"
+#include "dcnn/physics/simulator.h"
+
+namespace dcnn {
+
+/// One recording, its motion, and what was measured and simulated in it.
+struct Log {
+  Recording recording;
+  Motion motion;             ///< by Case::derivative
+  Eigen::MatrixXd measured;  ///< (T, channels)
+  Wrench base;               ///< of somebody else's simulator, added to ours; no rows without one
+  /// Columns of a linear simulator whose coefficients are fitted, (T, channels) each.
+  std::vector<Eigen::MatrixXd> regressors;
+};
+
+struct Case {
+  Simulator simulator;        ///< as given; an empty tool where somebody else's predicts
+  bool own_tool = true;       ///< mass and centre of mass mean something
+  std::vector<int> channels;  ///< columns of (fx,fy,fz,tx,ty,tz) that are measured
+  std::vector<std::string> targets, units;  ///< of the channels
+  std::vector<Log> logs;                    ///< to fit on
+  DerivativeSpec derivative;
+  bool shared_clock = true;
+  double end_of_clock = 0.0;  ///< s, end of the last recording
+
+  Index channel_count() const { return static_cast<Index>(channels.size()); }
+  bool has_torque() const { return !channels.empty() && channels.back() > 2; }
+  bool is_static() const { return logs.front().motion.is_static(); }
+  double dt() const { return logs.front().motion.dt; }
+};
+
+/// The columns of a wrench that the case measures, (T, channels).
+Eigen::MatrixXd measured_part(const Case& study, const Wrench& wrench);
+
+/// Motions of all logs by this estimator, which becomes the case's.
+void set_derivative(Case& study, const DerivativeSpec& derivative);
+
+}  // namespace dcnn

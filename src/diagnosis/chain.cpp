@@ -1,0 +1,61 @@
+#include "diagnosis/chain.h"
+
+namespace dcnn {
+
+Chain::Chain(const Case& study, std::vector<Member> members)
+    : study_(study), members_(std::move(members)), specs_(specs_of(members_)) {
+  for (const Log& log : study.logs) {
+    stages_.push_back(prepare(log, specs_));
+    prediction_.push_back(finish(log, stages_.back(), stages_.back().forced, specs_));
+  }
+}
+
+/// Rigid part and forces on the tool.
+Chain::Stages Chain::prepare(const Log& log, const std::vector<EffectSpec>& effects) const {
+  Stages stages{changed_tool(study_.simulator.model, effects), {}};
+  ToolModel without_bias = stages.model;
+  without_bias.bias.setZero();
+  without_bias.bias_torque.setZero();
+  stages.forced = rigid_wrench(without_bias, log.motion);
+  if (log.base.force.rows() > 0) stages.forced.force += log.base.force;
+  if (log.base.torque.rows() > 0) stages.forced.torque += log.base.torque;
+  for (const EffectSpec& effect : effects) {
+    if (find_effect(effect.effect)->stage == Stage::kForce) {
+      apply_effect(effect, log.motion, stages.model, stages.forced);
+    }
+  }
+  return stages;
+}
+
+Eigen::MatrixXd Chain::finish(const Log& log, const Stages& stages, Wrench wrench,
+                              const std::vector<EffectSpec>& effects) const {
+  pass_on(effects, Stage::kResonance, log.motion, stages.model, wrench);
+  return measured_part(study_, wrench);
+}
+
+Signals Chain::with(const Member& extra) const {
+  const EffectSpec spec = spec_of(extra);
+  std::vector<EffectSpec> effects = specs_;
+  effects.push_back(spec);
+  Signals result;
+  for (std::size_t k = 0; k < study_.logs.size(); ++k) {
+    const Log& log = study_.logs[k];
+    if (extra.kind->stage == Stage::kTool) {
+      const Stages stages = prepare(log, effects);
+      result.push_back(finish(log, stages, stages.forced, effects));
+      continue;
+    }
+    Wrench wrench = stages_[k].forced;
+    if (extra.kind->stage == Stage::kForce) {
+      apply_effect(spec, log.motion, stages_[k].model, wrench);
+    }
+    result.push_back(finish(log, stages_[k], std::move(wrench), effects));
+  }
+  return result;
+}
+
+Signals predict(const Case& study, const std::vector<Member>& members) {
+  return Chain(study, members).prediction();
+}
+
+}  // namespace dcnn

@@ -1,0 +1,42 @@
+// Predictions of a case's recordings under a set of effects, with what effects do not touch cached.
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/case.h"
+#include "diagnosis/member.h"
+
+namespace dcnn {
+
+/// One matrix (T, channels) per recording.
+using Signals = std::vector<Eigen::MatrixXd>;
+
+class Chain {
+ public:
+  Chain(const Case& study, std::vector<Member> members);
+
+  const std::vector<Member>& members() const { return members_; }
+  const Signals& prediction() const { return prediction_; }
+  /// The prediction with one effect more.
+  Signals with(const Member& extra) const;
+
+ private:
+  struct Stages {
+    ToolModel model;  // as the members change it
+    Wrench forced;    // after the forces on the tool
+  };
+  Eigen::MatrixXd finish(const Log& log, const Stages& stages, Wrench wrench,
+                         const std::vector<EffectSpec>& effects) const;
+  Stages prepare(const Log& log, const std::vector<EffectSpec>& effects) const;
+
+  const Case& study_;
+  std::vector<Member> members_;
+  std::vector<EffectSpec> specs_;
+  std::vector<Stages> stages_;  // per recording
+  Signals prediction_;
+};
+
+/// What the effects make of the case's recordings.
+Signals predict(const Case& study, const std::vector<Member>& members);
+
+}  // namespace dcnn

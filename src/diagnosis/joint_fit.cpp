@@ -1,0 +1,138 @@
+#include "diagnosis/joint_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dcnn {
+namespace {
+
+constexpr int kMostSteps = 12;
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kSettled = 0.02;  // of chi-square: far below what decides anything
+
+/// One number of one member, on the scale it is searched on.
+struct Coordinate {
+  std::size_t member;
+  bool is_shape;
+  Index index;
+};
+
+std::vector<Coordinate> coordinates_of(const std::vector<Member>& members) {
+  std::vector<Coordinate> list;
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    if (members[m].fixed) continue;
+    for (Index i = 0; i < members[m].amplitudes.size(); ++i) list.push_back({m, false, i});
+    for (Index i = 0; i < members[m].shapes.size(); ++i) list.push_back({m, true, i});
+  }
+  return list;
+}
+
+void move(std::vector<Member>& members, const Coordinate& c, double step) {
+  Member& member = members[c.member];
+  if (!c.is_shape) {
+    member.amplitudes(c.index) += step;
+    return;
+  }
+  const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(c.index)];
+  member.shapes(c.index) =
+      from_search_scale(shape, search_scale(shape, member.shapes(c.index)) + step);
+}
+
+/// A difference step: upwards, but for a shape at its upper bound.
+double difference_step(const std::vector<Member>& members, const Coordinate& c) {
+  const Member& member = members[c.member];
+  if (!c.is_shape) return std::max(1e-3 * std::abs(member.amplitudes(c.index)), 1e-5);
+  const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(c.index)];
+  return member.shapes(c.index) > 0.995 * shape.high ? -1e-3 : 1e-3;
+}
+
+Eigen::MatrixXd derivatives(const Setting& setting, const std::vector<Member>& members,
+                            const std::vector<Coordinate>& coordinates,
+                            const Eigen::VectorXd& here) {
+  Eigen::MatrixXd columns(here.size(), static_cast<Index>(coordinates.size()));
+  for_each_piece(columns.cols(), [&](Index k) {
+    const Coordinate& c = coordinates[static_cast<std::size_t>(k)];
+    std::vector<Member> moved = members;
+    const double step = difference_step(members, c);
+    move(moved, c, step);
+    columns.col(k) = (setting.whitened(predict(setting.study, moved)) - here) / step;
+  });
+  return columns;
+}
+
+}  // namespace
+
+Eigen::VectorXd Setting::whitened(const Signals& signals) const {
+  return whitener(signals).cwiseProduct(mask);
+}
+
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+  if (A.cols() == 0) return Eigen::VectorXd(0);
+  const Eigen::VectorXd scale =
+      A.colwise().norm().transpose().unaryExpr([](double n) { return n > 0.0 ? 1.0 / n : 0.0; });
+  const Eigen::MatrixXd scaled = A * scale.asDiagonal();
+  Eigen::MatrixXd gram = scaled.transpose() * scaled;
+  gram.diagonal().array() += 1e-11;
+  return scale.cwiseProduct(gram.ldlt().solve(scaled.transpose() * b));
+}
+
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
+  Eigen::MatrixXd basis(columns.rows(), columns.cols());
+  Index count = 0;
+  for (Index k = 0; k < columns.cols(); ++k) {
+    Eigen::VectorXd c = columns.col(k);
+    const double before = c.norm();
+    for (int pass = 0; pass < 2; ++pass) {  // twice is enough (Kahan and Parlett)
+      c -= basis.leftCols(count) * (basis.leftCols(count).transpose() * c);
+    }
+    if (c.norm() > 1e-6 * before && before > 0.0) basis.col(count++) = c.normalized();
+  }
+  return basis.leftCols(count);
+}
+
+JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
+  const Eigen::VectorXd wanted = setting.whitened(setting.measured);
+  const auto coordinates = coordinates_of(members);
+  const Index free = static_cast<Index>(coordinates.size()), extra = setting.nuisance.cols();
+  Eigen::VectorXd here = setting.whitened(predict(setting.study, members));
+  JointFit fit;
+  fit.nuisance = least_squares(setting.nuisance, wanted - here);
+  Eigen::VectorXd residual = wanted - here - setting.nuisance * fit.nuisance;
+  fit.chi2 = residual.squaredNorm();
+  fit.tangent.resize(here.size(), free + extra);
+  fit.tangent.rightCols(extra) = setting.nuisance;
+  for (int step = 0; step < kMostSteps; ++step) {
+    fit.tangent.leftCols(free) = derivatives(setting, members, coordinates, here);
+    if (free == 0) break;
+    const Eigen::VectorXd change = least_squares(fit.tangent, wanted - here);
+    const double before = fit.chi2;
+    bool better = false;
+    for (double length = 1.0; length > 0.02 && !better; length *= 0.4) {
+      std::vector<Member> moved = members;
+      for (Index k = 0; k < free; ++k) {
+        const Coordinate& c = coordinates[static_cast<std::size_t>(k)];
+        // A shape may not leap out of the region its derivative tells of.
+        const double most = c.is_shape ? 1.0 : kInfinite;
+        move(moved, c, length * std::clamp(change(k), -most, most));
+      }
+      const Eigen::VectorXd there = setting.whitened(predict(setting.study, moved));
+      const Eigen::VectorXd nuisance = least_squares(setting.nuisance, wanted - there);
+      const Eigen::VectorXd left = wanted - there - setting.nuisance * nuisance;
+      const double chi2 = left.squaredNorm();
+      if (!(chi2 < fit.chi2)) continue;
+      better = true;
+      members = std::move(moved);
+      here = there;
+      residual = left;
+      fit.chi2 = chi2;
+      fit.nuisance = nuisance;
+    }
+    if (!better || before - fit.chi2 < kSettled) break;
+  }
+  fit.members = std::move(members);
+  fit.residual = std::move(residual);
+  return fit;
+}
+
+}  // namespace dcnn

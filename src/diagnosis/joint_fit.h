@@ -1,0 +1,43 @@
+// All members of a model fitted together through the exact chain.
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/whitener.h"
+
+namespace dcnn {
+
+/// What every fit of a diagnosis shares.
+struct Setting {
+  const Case& study;
+  Whitener whitener;
+  Signals measured;
+  Eigen::MatrixXd nuisance;  ///< whitened columns that are always fitted beside the members
+  Eigen::VectorXd mask;      ///< 0 for rows that a knock disturbs, else 1
+
+  Eigen::VectorXd whitened(const Signals& signals) const;
+};
+
+struct JointFit {
+  std::vector<Member> members;
+  Eigen::VectorXd residual;  ///< whitened, after members and nuisance
+  Eigen::MatrixXd tangent;   ///< whitened derivatives by the free parameters, then the nuisance
+  Eigen::VectorXd nuisance;  ///< coefficients
+  double chi2 = 0.0;
+
+  /// Free parameters before the nuisance in `tangent`.
+  Index free_parameters() const { return tangent.cols() - nuisance.size(); }
+};
+
+/// Gauss-Newton over amplitudes and shapes (on their search scales) of all members that are not
+/// fixed, by differences through the chain, with step halving.
+JointFit joint_fit(const Setting& setting, std::vector<Member> members);
+
+/// Coefficients x that minimise |Ax - b|, columns scaled, with a ridge that only decides what the
+/// data leave open.
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+
+/// An orthonormal basis of the columns.
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
+
+}  // namespace dcnn

@@ -1,0 +1,116 @@
+#include "diagnosis/load.h"
+
+#include <algorithm>
+#include <array>
+
+namespace dcnn {
+namespace {
+
+constexpr std::array<const char*, 6> kChannels{"fx", "fy", "fz", "tx", "ty", "tz"};
+
+double first_time(const Recording& r) { return r.has("t") ? r.column("t")(0) : 0.0; }
+double last_time(const Recording& r) { return r.has("t") ? r.column("t")(r.samples() - 1) : 0.0; }
+
+std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
+                                const ReadOptions& options) {
+  std::vector<Recording> recordings;
+  ReadOptions read = options;
+  read.static_list = true;
+  for (const auto& path : paths) recordings.push_back(read_recording(path, read, System()));
+  std::stable_sort(recordings.begin(), recordings.end(),
+                   [](const auto& a, const auto& b) { return first_time(a) < first_time(b); });
+  return recordings;
+}
+
+/// Somebody else's prediction of the channels that are measured.
+Wrench simulated_columns(const Recording& recording, const Case& study) {
+  Wrench base{Eigen::MatrixXd::Zero(recording.samples(), 3),
+              Eigen::MatrixXd::Zero(study.has_torque() ? recording.samples() : 0, 3)};
+  for (std::size_t j = 0; j < study.channels.size(); ++j) {
+    const std::string column = study.targets[j] + "_sim";
+    require(recording.has(column), Exit::kData, recording.name, ": column '", column,
+            "' is missing; give --sim, or what your simulator predicts for every measured target");
+    const int channel = study.channels[j];
+    (channel < 3 ? base.force.col(channel) : base.torque.col(channel - 3)) =
+        recording.column(column);
+  }
+  return base;
+}
+
+/// Which wrench components every recording measures, and the simulator predicts.
+void choose_channels(const std::vector<Recording>& recordings, const DiagnosisRequest& request,
+                     Case& study) {
+  const bool torque = !request.simulator || study.simulator.model.inertia.has_value();
+  for (int channel = 0; channel < (torque ? 6 : 3); ++channel) {
+    const std::string name = kChannels[static_cast<std::size_t>(channel)];
+    const bool measured = std::all_of(recordings.begin(), recordings.end(),
+                                      [&](const Recording& r) { return r.has(name); });
+    const bool simulated = request.simulator || recordings.front().has(name + "_sim");
+    if (!measured || !simulated) continue;
+    study.channels.push_back(channel);
+    study.targets.push_back(name);
+    study.units.push_back(channel < 3 ? "N" : "N*m");
+  }
+  require(!study.channels.empty(), Exit::kData, recordings.front().name,
+          ": no force that is both measured and simulated; give columns fx,fy,fz and --sim or "
+          "fx_sim,fy_sim,fz_sim");
+}
+
+Log make_log(Recording recording, const Case& study, bool columns) {
+  Log log;
+  if (columns) log.base = simulated_columns(recording, study);
+  log.measured = recording.block(study.targets);
+  log.recording = std::move(recording);
+  log.motion = motion_of(log.recording, study.simulator.model, study.derivative);
+  return log;
+}
+
+bool overlapping(const std::vector<std::pair<double, double>>& sorted) {
+  for (std::size_t k = 1; k < sorted.size(); ++k) {
+    if (sorted[k].first < sorted[k - 1].second) return true;
+  }
+  return false;
+}
+
+void set_clock(const DiagnosisRequest& request, const std::vector<const Recording*>& recordings,
+               Case& study) {
+  std::vector<std::pair<double, double>> spans;
+  for (const Recording* r : recordings) {
+    spans.emplace_back(first_time(*r), last_time(*r));
+    study.end_of_clock = std::max(study.end_of_clock, spans.back().second);
+  }
+  std::sort(spans.begin(), spans.end());
+  const bool overlap = overlapping(spans);
+  study.shared_clock = request.shared_clock.value_or(!overlap);
+  require(!(study.shared_clock && overlap), Exit::kData, recordings.front()->name,
+          ": its time overlaps another recording's; use --clock own");
+}
+
+}  // namespace
+
+LoadedCase load_wrist(const DiagnosisRequest& request) {
+  LoadedCase loaded;
+  Case& study = loaded.fit;
+  if (request.simulator) {
+    study.simulator = read_simulator(*request.simulator);
+  } else {
+    study.own_tool = false;
+    study.simulator.model.inertia = Eigen::Matrix3d::Zero();
+  }
+  auto fit = read_all(request.fit, request.read), holdout = read_all(request.holdout, request.read);
+  std::vector<Recording> all = fit;
+  all.insert(all.end(), holdout.begin(), holdout.end());
+  choose_channels(all, request, study);
+  if (!study.has_torque()) study.simulator.model.inertia.reset();
+  std::vector<const Recording*> pointers;
+  for (const Recording& r : all) pointers.push_back(&r);
+  set_clock(request, pointers, study);
+  loaded.holdout = study;
+  for (auto& r : fit) study.logs.push_back(make_log(std::move(r), study, !request.simulator));
+  for (auto& r : holdout) {
+    loaded.holdout.logs.push_back(make_log(std::move(r), loaded.holdout, !request.simulator));
+  }
+  return loaded;
+}
+
+}  // namespace dcnn

@@ -1,0 +1,16 @@
+// Cases from files.
+#pragma once
+
+#include "dcnn/diagnosis/diagnose.h"
+#include "diagnosis/case.h"
+
+namespace dcnn {
+
+/// The case of a wrist sensor: recordings to fit on, and those held out as logs of a second case of
+/// the same simulator. Recordings are in the order of their clocks.
+struct LoadedCase {
+  Case fit, holdout;
+};
+LoadedCase load_wrist(const DiagnosisRequest& request);
+
+}  // namespace dcnn

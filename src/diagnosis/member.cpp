@@ -1,0 +1,46 @@
+#include "diagnosis/member.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dcnn {
+
+int Member::parameters() const {
+  const int ends = !interval_s ? 0 : kind->interval == IntervalRule::kOnset ? 1 : 2;
+  return static_cast<int>(amplitudes.size() + shapes.size()) + ends;
+}
+
+Member make_member(const EffectKind& kind, const EffectFit& form, const std::string& axis,
+                   bool with_torque, const Eigen::VectorXd& shapes) {
+  const int count = with_torque && form.with_torque > 0 ? form.with_torque : form.amplitudes;
+  Member member;
+  member.kind = &kind;
+  member.form = &form;
+  member.axis = axis;
+  member.amplitudes = Eigen::VectorXd::Ones(count);
+  member.shapes = shapes;
+  return member;
+}
+
+EffectSpec spec_of(const Member& member) {
+  return {member.kind->name, member.axis, member.interval_s,
+          member.form->parameters(member.amplitudes, member.shapes), member.recording};
+}
+
+std::vector<EffectSpec> specs_of(const std::vector<Member>& members) {
+  std::vector<EffectSpec> specs;
+  specs.reserve(members.size());
+  for (const Member& member : members) specs.push_back(spec_of(member));
+  return specs;
+}
+
+double search_scale(const ShapeParameter& shape, double value) {
+  return shape.low > 0.0 ? std::log(value) : value;
+}
+
+double from_search_scale(const ShapeParameter& shape, double coordinate) {
+  const double value = shape.low > 0.0 ? std::exp(coordinate) : coordinate;
+  return std::clamp(value, shape.low, shape.high);
+}
+
+}  // namespace dcnn

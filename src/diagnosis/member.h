@@ -1,0 +1,39 @@
+// An effect with numbers: what is in a model, or tried for it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dcnn/physics/effect.h"
+
+namespace dcnn {
+
+struct Member {
+  const EffectKind* kind = nullptr;
+  const EffectFit* form = nullptr;  ///< one of kind->fits
+  std::string axis;                 ///< empty for none
+  std::optional<std::pair<double, double>> interval_s;
+  std::string recording;  ///< acts in this one only; empty for all
+  Eigen::VectorXd amplitudes, shapes;
+  /// Found at the full rate by a test of its own (hum above the blocks' band, rounding, clipping,
+  /// knocks): the joint fit leaves it as it is.
+  bool fixed = false;
+
+  std::string name() const { return kind->name; }
+  /// Numbers that were fitted: amplitudes, shapes and the ends of an interval.
+  int parameters() const;
+};
+
+/// A member with these shapes and unit amplitudes.
+Member make_member(const EffectKind& kind, const EffectFit& form, const std::string& axis,
+                   bool with_torque, const Eigen::VectorXd& shapes);
+
+EffectSpec spec_of(const Member& member);
+std::vector<EffectSpec> specs_of(const std::vector<Member>& members);
+
+/// A shape on the scale it is searched on: its logarithm where it must be positive.
+double search_scale(const ShapeParameter& shape, double value);
+/// The inverse, held within the bounds.
+double from_search_scale(const ShapeParameter& shape, double coordinate);
+
+}  // namespace dcnn

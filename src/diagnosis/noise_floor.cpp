@@ -1,0 +1,247 @@
+#include "diagnosis/noise_floor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dcnn/data/fourier.h"
+#include "dcnn/data/rotation.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kMotionFree = 20.0;  // Hz: hand-guided and commanded motion ends well below
+constexpr double kColourGain = 12.0;  // of the log-likelihood, before noise is called coloured
+constexpr Index kWindow = 1024;       // samples of one periodogram
+constexpr Index kFewestBins = 12;     // below this the quiet band says nothing
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Shape of AR(1) noise of unit variance.
+double ar_shape(double rho, double hz, double dt) {
+  return (1.0 - rho * rho) / (1.0 - 2.0 * rho * std::cos(2.0 * kPi * hz * dt) + rho * rho);
+}
+
+/// Periodograms of windows of one signal, (bins, windows), scaled so that white noise of variance
+/// s^2 has mean s^2. Windows never cross a gap.
+struct Periodograms {
+  Eigen::MatrixXd power;
+  Eigen::VectorXd hz;
+};
+
+Periodograms periodograms(const Case& study, const Signals& signals, Index channel) {
+  Index shortest = kWindow;
+  for (const Log& log : study.logs) {
+    for (const Segment& s : log.motion.segments) shortest = std::min(shortest, s.size());
+  }
+  const Index n = std::max<Index>(16, shortest);
+  const Eigen::VectorXd taper =
+      (1.0 - (Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5) * 2.0 * kPi /
+              static_cast<double>(n))
+                 .cos())
+          .matrix() *
+      0.5;
+  const double power = taper.squaredNorm();
+  Periodograms result;
+  const Index bins = n / 2 + 1;
+  result.hz = Eigen::VectorXd::LinSpaced(bins, 0.0, static_cast<double>(bins - 1)) /
+              (static_cast<double>(n) * study.dt());
+  std::vector<Eigen::VectorXd> columns;
+  for (std::size_t k = 0; k < study.logs.size(); ++k) {
+    for (const Segment& s : study.logs[k].motion.segments) {
+      for (Index begin = s.begin; begin + n <= s.end; begin += n) {
+        Eigen::VectorXd x = signals[k].col(channel).segment(begin, n);
+        x.array() -= x.mean();
+        columns.push_back(fourier(x.cwiseProduct(taper)).cwiseAbs2() / power);
+      }
+    }
+  }
+  result.power.resize(bins, static_cast<Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    result.power.col(static_cast<Index>(k)) = columns[k];
+  }
+  return result;
+}
+
+/// Median over windows of each bin, as an estimate of the density (a chi-square of two degrees has
+/// the median ln 2 of its mean).
+Eigen::VectorXd density_of(const Periodograms& p) {
+  Eigen::VectorXd density(p.power.rows());
+  for (Index i = 0; i < density.size(); ++i) {
+    std::vector<double> values(static_cast<std::size_t>(p.power.cols()));
+    for (Index k = 0; k < p.power.cols(); ++k) values[static_cast<std::size_t>(k)] = p.power(i, k);
+    density(i) = values.empty() ? 0.0 : median(values) / std::numbers::ln2;
+  }
+  return density;
+}
+
+struct Whittle {
+  double level = 0.0, likelihood = 0.0;
+};
+
+/// The level of noise of this shape, and its log-likelihood up to a constant, with ratios far above
+/// it clipped.
+Whittle fit_level(const Eigen::VectorXd& density, const Eigen::VectorXd& shape, double windows) {
+  std::vector<double> ratios;
+  for (Index i = 0; i < density.size(); ++i) ratios.push_back(density(i) / shape(i));
+  const double middle = median(ratios);
+  double sum = 0.0;
+  for (double& ratio : ratios) sum += ratio = std::min(ratio, 3.0 * middle);
+  Whittle fit;
+  fit.level = sum / static_cast<double>(ratios.size());
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    fit.likelihood -= std::log(fit.level * shape(static_cast<Index>(i))) + ratios[i] / fit.level;
+  }
+  fit.likelihood *= windows;
+  return fit;
+}
+
+Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, double dt,
+                double windows) {
+  Floor best;
+  const Whittle white = fit_level(density, Eigen::VectorXd::Ones(density.size()), windows);
+  best.white = white.level;
+  double most = white.likelihood + kColourGain;
+  for (const double rho : {0.3, 0.5, 0.7, 0.8, 0.87, 0.92, 0.95, 0.97, 0.985, 0.995}) {
+    for (const double share : {0.0, 0.01, 0.03, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85}) {
+      const Eigen::VectorXd shape =
+          hz.unaryExpr([&](double f) { return share + (1.0 - share) * ar_shape(rho, f, dt); });
+      const Whittle fit = fit_level(density, shape, windows);
+      if (fit.likelihood <= most) continue;
+      most = fit.likelihood;
+      best.white = share * fit.level;
+      best.coloured = (1.0 - share) * fit.level;
+      best.rho = rho;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+double Floor::deviation() const { return std::sqrt(white + coloured); }
+
+double Floor::density(double hz, double dt) const {
+  return white + (coloured > 0.0 ? coloured * ar_shape(rho, hz, dt) : 0.0);
+}
+
+double Floor::pose_density(double hz, double cutoff_hz) const {
+  if (cutoff_hz <= 0.0) return 0.0;
+  const double w = 2.0 * kPi * hz;
+  return (static_part + moving_part * w * w * w * w) / (1.0 + std::pow(hz / cutoff_hz, 8.0));
+}
+
+double quiet_band(double dt) { return std::min(kMotionFree, 0.2 / dt); }
+
+std::vector<Floor> noise_floor(const Case& study, const Signals& residual) {
+  const double dt = study.dt(), from = quiet_band(dt), to = 0.49 / dt;
+  std::vector<Floor> floors;
+  for (Index channel = 0; channel < study.channel_count(); ++channel) {
+    const Periodograms p = periodograms(study, residual, channel);
+    const Eigen::VectorXd density = density_of(p);
+    std::vector<Index> quiet;
+    for (Index i = 0; i < p.hz.size(); ++i) {
+      if (p.hz(i) >= from && p.hz(i) <= to) quiet.push_back(i);
+    }
+    Floor floor;
+    if (static_cast<Index>(quiet.size()) >= kFewestBins && p.power.cols() > 0) {
+      floor = fit_floor(density(quiet), p.hz(quiet), dt, static_cast<double>(p.power.cols()));
+    }
+    floor.source = "spectrum of the residual above " +
+                   std::to_string(static_cast<int>(std::lround(from))) + " Hz";
+    floors.push_back(floor);
+  }
+  return floors;
+}
+
+void add_pose_noise(const Case& study, std::vector<Floor>& floors) {
+  if (study.is_static()) return;
+  const auto quiet_density = [&](const std::vector<std::string>& names) {
+    double most = 0.0;
+    for (const auto& name : names) {
+      Signals pose;
+      for (const Log& log : study.logs) {
+        if (!log.recording.has(name)) return 0.0;
+        Eigen::VectorXd x = log.recording.column(name);
+        if (names.size() == 3 && name != "x" && name != "y" && name != "z") unwrap(x);
+        pose.emplace_back(x);
+      }
+      const Periodograms p = periodograms(study, pose, 0);
+      const Eigen::VectorXd density = density_of(p);
+      std::vector<double> quiet;
+      for (Index i = 0; i < p.hz.size(); ++i) {
+        if (p.hz(i) >= quiet_band(study.dt()) && p.hz(i) <= 0.49 / study.dt()) {
+          quiet.push_back(density(i));
+        }
+      }
+      if (!quiet.empty()) most = std::max(most, median(quiet));
+    }
+    return most;
+  };
+  const ToolModel& tool = study.simulator.model;
+  const double position = quiet_density({"x", "y", "z"});
+  const bool angles = study.logs.front().recording.has("alpha");
+  const double angle = angles ? quiet_density({"alpha", "beta", "gamma"})
+                              : 4.0 * quiet_density({"qw", "qx", "qy", "qz"});
+  const double lever = tool.mass * tool.com.norm(), weight = tool.mass * tool.gravity.norm();
+  const bool moving = tool.inertial != ToolModel::Inertial::kNone;
+  for (std::size_t j = 0; j < floors.size(); ++j) {
+    const bool force = study.channels[j] < 3;
+    const double arm = force ? 1.0 : tool.com.norm();
+    floors[j].static_part = weight * weight * angle * arm * arm;
+    floors[j].moving_part =
+        moving ? (tool.mass * tool.mass * position + lever * lever * angle) * arm * arm : 0.0;
+  }
+}
+
+std::vector<Eigen::VectorXd> noise_level(const Case& study, const Signals& residual) {
+  constexpr double kSeconds = 1.0, kSpread = 2.5;
+  const Index n = std::max<Index>(8, std::llround(kSeconds / study.dt()));
+  std::vector<Eigen::VectorXd> levels;
+  std::vector<double> logs;
+  for (std::size_t k = 0; k < study.logs.size(); ++k) {
+    const Eigen::MatrixXd& r = residual[k];
+    Eigen::VectorXd level = Eigen::VectorXd::Ones(r.rows());
+    for (const Segment& s : study.logs[k].motion.segments) {
+      for (Index begin = s.begin; begin < s.end; begin += n) {
+        const Index end = std::min(begin + n, s.end);
+        double sum = 0.0, count = 0.0;
+        for (Index j = 0; j < r.cols(); ++j) {
+          for (Index i = std::max(begin, s.begin + 2); i < end; ++i, ++count) {
+            sum += std::abs(r(i, j) - 2.0 * r(i - 1, j) + r(i - 2, j));
+          }
+        }
+        const double mean = count > 0.0 ? sum / count : 0.0;
+        level.segment(begin, end - begin).setConstant(mean);
+        if (mean > 0.0 && end - begin == n) logs.push_back(std::log(mean));
+      }
+    }
+    levels.push_back(level);
+  }
+  double mean = 0.0, square = 0.0;
+  for (const double x : logs)
+    mean += x / static_cast<double>(std::max<std::size_t>(1, logs.size()));
+  for (const double x : logs) square += (x - mean) * (x - mean);
+  const double spread =
+      logs.size() > 3 ? std::sqrt(square / static_cast<double>(logs.size() - 1)) : 0.0;
+  // Mean of n·channels absolute second differences of white noise: relative spread 0.756·sqrt(2)/
+  // sqrt(n·channels), the second factor for their correlation.
+  const double expected =
+      1.07 / std::sqrt(static_cast<double>(n * std::max<Index>(1, study.channel_count())));
+  double power = 0.0, rows = 0.0;
+  for (auto& level : levels) {
+    if (spread <= kSpread * expected) level.setOnes();
+    level = level.cwiseMax(1e-3 * std::exp(mean));
+    power += level.squaredNorm();
+    rows += static_cast<double>(level.size());
+  }
+  for (auto& level : levels) level /= std::sqrt(power / std::max(1.0, rows));
+  return levels;
+}
+
+}  // namespace dcnn

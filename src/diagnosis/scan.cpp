@@ -1,0 +1,144 @@
+#include "diagnosis/scan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dcnn {
+namespace {
+
+constexpr double kUnit =
+    1e-3;  // amplitude of a column: small enough for angles, large for rounding
+
+/// Shapes an effect cannot have without being another one.
+bool is_itself(const Member& member) {
+  if (member.name() != "stribeck_friction") return true;
+  return member.amplitudes(1) > member.amplitudes(0);
+}
+
+}  // namespace
+
+Scan::Scan(const Setting& setting, const JointFit& fit)
+    : setting_(setting),
+      chain_(setting.study, fit.members),
+      here_(setting.whitened(chain_.prediction())),
+      basis_(orthonormal(fit.tangent)) {
+  residual_ = off_model(fit.residual);
+}
+
+Eigen::MatrixXd Scan::off_model(const Eigen::MatrixXd& columns) const {
+  return columns - basis_ * (basis_.transpose() * columns);
+}
+
+Eigen::MatrixXd Scan::columns(const Member& member) const {
+  Member unit = member;
+  if (member.amplitudes.size() == 0) return setting_.whitened(chain_.with(unit)) - here_;
+  Eigen::MatrixXd columns(here_.size(), member.amplitudes.size());
+  // From a common point with all amplitudes alike, since some laws divide by one of them.
+  const bool needs_origin = member.amplitudes.size() == 2;
+  Eigen::VectorXd origin = here_;
+  if (needs_origin) {
+    unit.amplitudes.setConstant(kUnit);
+    origin = setting_.whitened(chain_.with(unit));
+  }
+  for (Index j = 0; j < columns.cols(); ++j) {
+    unit.amplitudes.setConstant(needs_origin ? kUnit : 0.0);
+    unit.amplitudes(j) += kUnit;
+    columns.col(j) = (setting_.whitened(chain_.with(unit)) - origin) / kUnit;
+  }
+  return columns;
+}
+
+Trial Scan::evaluate(const Member& member) const {
+  Trial trial;
+  trial.member = member;
+  const Eigen::MatrixXd raw = columns(member), c = off_model(raw);
+  const double energy = raw.squaredNorm();
+  trial.kept = energy > 0.0 ? c.squaredNorm() / energy : 0.0;
+  const Eigen::VectorXd match = c.transpose() * residual_;
+  if (member.amplitudes.size() == 0) {
+    trial.gain = std::max(0.0, 2.0 * match(0) - c.squaredNorm());
+    return trial;
+  }
+  trial.member.amplitudes = least_squares(c, residual_);
+  const Eigen::MatrixXd gram = c.transpose() * c;
+  trial.deviation =
+      gram.diagonal().unaryExpr([](double g) { return g > 0.0 ? 1.0 / std::sqrt(g) : 0.0; });
+  if (!trial.member.amplitudes.allFinite()) return trial;
+  const bool wrong_sign = member.form->non_negative && trial.member.amplitudes.minCoeff() < 0.0;
+  if (wrong_sign || !is_itself(trial.member)) return trial;
+  trial.gain = std::max(0.0, match.dot(trial.member.amplitudes));
+  return trial;
+}
+
+Trial Scan::refine(const Trial& start, int evaluations) const {
+  const auto& shapes = start.member.form->shapes;
+  const Index n = start.member.shapes.size();
+  if (n == 0) return start;
+  Eigen::VectorXd x(n), size(n);
+  for (Index i = 0; i < n; ++i) {
+    const ShapeParameter& shape = shapes[static_cast<std::size_t>(i)];
+    x(i) = search_scale(shape, start.member.shapes(i));
+    size(i) = shape.low > 0.0 ? 0.4 : 0.15 * (shape.high - shape.low);
+    if (start.member.name() == "hum" || start.member.name() == "cogging") size(i) = 0.01;
+    if (start.member.name() == "flexible_resonance" && i == 0) size(i) = 0.05;
+  }
+  Trial best = start;
+  const auto loss = [&](const Eigen::VectorXd& at) {
+    Member member = start.member;
+    for (Index i = 0; i < n; ++i) {
+      member.shapes(i) = from_search_scale(shapes[static_cast<std::size_t>(i)], at(i));
+    }
+    const Trial trial = evaluate(member);
+    if (trial.gain > best.gain) best = trial;
+    return -trial.gain;
+  };
+  simplex_search(loss, x, size, n == 1 ? evaluations * 2 / 3 : evaluations);
+  return best;
+}
+
+Eigen::VectorXd simplex_search(const std::function<double(const Eigen::VectorXd&)>& f,
+                               const Eigen::VectorXd& x, const Eigen::VectorXd& size,
+                               int evaluations) {
+  const Index n = x.size();
+  std::vector<std::pair<double, Eigen::VectorXd>> points{{f(x), x}};
+  for (Index i = 0; i < n; ++i) {
+    Eigen::VectorXd p = x;
+    p(i) += size(i);
+    points.emplace_back(f(p), p);
+  }
+  const auto by_value = [](const auto& a, const auto& b) { return a.first < b.first; };
+  for (int used = static_cast<int>(n) + 1; used < evaluations;) {
+    std::stable_sort(points.begin(), points.end(), by_value);
+    auto& worst = points.back();
+    Eigen::VectorXd centre = Eigen::VectorXd::Zero(n);
+    for (Index i = 0; i < n; ++i) centre += points[static_cast<std::size_t>(i)].second;
+    centre /= static_cast<double>(n);
+    const auto at = [&](double factor) {
+      Eigen::VectorXd p = centre + factor * (worst.second - centre);
+      ++used;
+      return std::pair{f(p), p};
+    };
+    auto trial = at(-1.0);
+    if (trial.first < points.front().first) {
+      auto further = at(-2.0);
+      worst = further.first < trial.first ? further : trial;
+    } else if (trial.first < points[static_cast<std::size_t>(n - 1)].first) {
+      worst = trial;
+    } else {
+      auto inner = at(trial.first < worst.first ? -0.5 : 0.5);
+      if (inner.first < std::min(trial.first, worst.first)) {
+        worst = inner;
+      } else {
+        for (std::size_t i = 1; i < points.size(); ++i) {
+          points[i].second = 0.5 * (points[i].second + points[0].second);
+          points[i].first = f(points[i].second);
+          ++used;
+        }
+      }
+    }
+    if ((points.back().second - points.front().second).cwiseAbs().maxCoeff() < 1e-4) break;
+  }
+  return std::min_element(points.begin(), points.end(), by_value)->second;
+}
+
+}  // namespace dcnn

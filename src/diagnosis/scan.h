@@ -1,0 +1,50 @@
+// What one more effect would gain, everything already in the model refitted beside it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/joint_fit.h"
+
+namespace dcnn {
+
+struct Trial {
+  Member member;
+  double gain = 0.0;  ///< of chi-square; 0 where a sign refutes the effect
+  double kept = 1.0;  ///< share of its columns' energy that the model at hand cannot imitate
+  Eigen::VectorXd deviation;  ///< of each amplitude, from the noise alone
+
+  /// What counts: 10 per fitted number (an exact law explains far more, a coincidence less).
+  double net_gain() const { return gain - 10.0 * member.parameters(); }
+};
+
+class Scan {
+ public:
+  Scan(const Setting& setting, const JointFit& fit);
+
+  /// Best amplitudes of the member at its shapes, linear in the prediction of the model at hand.
+  Trial evaluate(const Member& member) const;
+  /// Shapes improved from where they are (Nelder and Mead 1965 on their search scales).
+  Trial refine(const Trial& start, int evaluations = 40) const;
+  /// Its whitened columns, (rows, amplitudes), or one column for an effect without amplitudes.
+  Eigen::MatrixXd columns(const Member& member) const;
+  Eigen::MatrixXd off_model(const Eigen::MatrixXd& columns) const;
+  const Eigen::VectorXd& residual() const { return residual_; }
+  const Setting& setting() const { return setting_; }
+  const Chain& chain() const { return chain_; }
+
+ private:
+  const Setting& setting_;
+  Chain chain_;
+  Eigen::VectorXd here_;  // whitened prediction
+  Eigen::MatrixXd basis_;
+  Eigen::VectorXd residual_;  // off the basis
+};
+
+/// Minimises f from x with steps of the given size; returns the best point.
+Eigen::VectorXd simplex_search(const std::function<double(const Eigen::VectorXd&)>& f,
+                               const Eigen::VectorXd& x, const Eigen::VectorXd& size,
+                               int evaluations);
+
+}  // namespace dcnn

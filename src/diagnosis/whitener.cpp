@@ -1,0 +1,125 @@
+#include "diagnosis/whitener.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace dcnn {
+namespace {
+
+constexpr double kBlockSeconds = 0.02;
+constexpr double kEndSeconds = 0.25;  // of a segment, left out at either end
+constexpr int kOrder = 8;
+constexpr int kFrequencies = 4096;
+
+/// Autocovariance at lags 0 … kOrder of means over blocks of `block` samples.
+Eigen::VectorXd block_covariance(const Floor& floor, double cutoff_hz, Index block, double dt) {
+  Eigen::VectorXd covariance = Eigen::VectorXd::Zero(kOrder + 1);
+  const auto b = static_cast<double>(block);
+  for (int i = 0; i < kFrequencies; ++i) {
+    const double hz = (i + 0.5) / kFrequencies * 0.5 / dt, x = std::numbers::pi * hz * dt;
+    const double mean = std::sin(b * x) / (b * std::sin(x));
+    const double density =
+        (floor.density(hz, dt) + floor.pose_density(hz, cutoff_hz)) * mean * mean / kFrequencies;
+    for (int lag = 0; lag <= kOrder; ++lag)
+      covariance(lag) += density * std::cos(2.0 * x * b * lag);
+  }
+  return covariance;
+}
+
+}  // namespace
+
+Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
+                   const std::vector<Eigen::VectorXd>& levels)
+    : channels_(study.channel_count()) {
+  const bool moving = !study.is_static();
+  const double dt = moving ? study.dt() : 1.0;
+  block_ = moving ? std::max<Index>(1, std::llround(kBlockSeconds / dt)) : 1;
+  block_seconds_ = static_cast<double>(block_) * dt;
+  const double cutoff = study.derivative.kind == DerivativeSpec::Kind::kSpectral && moving
+                            ? study.derivative.cutoff_hz
+                            : 0.0;
+  block_deviation_.resize(channels_);
+  for (Index j = 0; j < channels_; ++j) {
+    const Floor& floor = floors[static_cast<std::size_t>(j)];
+    Eigen::VectorXd c = block_covariance(floor, cutoff, block_, dt);
+    if (!moving) {
+      c.setZero();
+      c(0) = floor.white + floor.coloured;
+    }
+    c(0) = std::max(c(0) * (1.0 + 1e-6), 1e-300);
+    block_deviation_(j) = std::sqrt(c(0));
+    // Levinson and Durbin: predictors of every order.
+    Filter filter;
+    std::vector<double> a;
+    double error = c(0);
+    filter.coefficients.emplace_back();
+    filter.deviation.push_back(std::sqrt(error));
+    for (int order = 1; order <= (moving ? kOrder : 0); ++order) {
+      double k = c(order);
+      for (int i = 0; i < order - 1; ++i) k -= a[static_cast<std::size_t>(i)] * c(order - 1 - i);
+      k /= error;
+      std::vector<double> next(a);
+      for (std::size_t i = 0; i < a.size(); ++i) next[i] -= k * a[a.size() - 1 - i];
+      next.push_back(k);
+      a = next;
+      error = std::max(error * (1.0 - k * k), 1e-12 * c(0));
+      filter.coefficients.push_back(a);
+      filter.deviation.push_back(std::sqrt(error));
+    }
+    filters_.push_back(filter);
+  }
+  const Index margin = moving ? std::llround(kEndSeconds / dt) : 0;
+  for (std::size_t k = 0; k < study.logs.size(); ++k) {
+    for (const Segment& s : study.logs[k].motion.segments) {
+      const Index count = (s.size() - 2 * margin) / block_;
+      if (count <= 0) continue;
+      runs_.push_back({k, s.begin + margin, count});
+      rows_ += count * channels_;
+    }
+  }
+  inverse_level_.resize(rows_);
+  info_.reserve(static_cast<std::size_t>(rows_));
+  Index row = 0;
+  for (const Run& run : runs_) {
+    for (Index j = 0; j < channels_; ++j) {
+      for (Index b = 0; b < run.count; ++b, ++row) {
+        const Index middle = run.first + b * block_ + block_ / 2;
+        info_.push_back({static_cast<std::uint32_t>(run.log), static_cast<std::uint32_t>(j),
+                         study.logs[run.log].motion.t(middle)});
+        inverse_level_(row) = 1.0 / levels[run.log](middle);
+      }
+    }
+  }
+}
+
+Eigen::VectorXd Whitener::operator()(const Signals& signals) const {
+  Eigen::VectorXd out(rows_);
+  Index row = 0;
+  Eigen::VectorXd means;
+  for (const Run& run : runs_) {
+    const Eigen::MatrixXd& signal = signals[run.log];
+    means.resize(run.count);
+    for (Index j = 0; j < channels_; ++j) {
+      const double* x = signal.col(j).data() + run.first;
+      for (Index b = 0; b < run.count; ++b, x += block_) {
+        double sum = 0.0;
+        for (Index i = 0; i < block_; ++i) sum += x[i];
+        means(b) = sum / static_cast<double>(block_);
+      }
+      const Filter& filter = filters_[static_cast<std::size_t>(j)];
+      const Index most = static_cast<Index>(filter.coefficients.size()) - 1;
+      for (Index b = 0; b < run.count; ++b, ++row) {
+        const auto order = static_cast<std::size_t>(std::min(b, most));
+        const std::vector<double>& a = filter.coefficients[order];
+        double value = means(b);
+        for (std::size_t i = 0; i < a.size(); ++i) {
+          value -= a[i] * means(b - 1 - static_cast<Index>(i));
+        }
+        out(row) = value / filter.deviation[order] * inverse_level_(row);
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace dcnn

@@ -1,0 +1,49 @@
+// From signals at the log's rate to independent numbers of unit variance.
+#pragma once
+
+#include "diagnosis/noise_floor.h"
+
+namespace dcnn {
+
+/// Means over blocks of about 20 ms, whitened by an AR(8) filter of the floor's spectrum. The same
+/// linear map for measurements and columns. Nothing crosses a gap; the ends of every segment, where
+/// the smoother has one side only, are left out.
+class Whitener {
+ public:
+  Whitener(const Case& study, const std::vector<Floor>& floors,
+           const std::vector<Eigen::VectorXd>& levels);
+
+  Index rows() const { return rows_; }
+  Eigen::VectorXd operator()(const Signals& signals) const;
+
+  /// What one number of the result belongs to.
+  struct Row {
+    std::uint32_t log, channel;
+    double t;  ///< s, middle of the block
+  };
+  const std::vector<Row>& row_info() const { return info_; }
+  double block_seconds() const { return block_seconds_; }
+  /// Standard deviation of a block's noise by channel, in the target's unit.
+  const Eigen::VectorXd& block_deviation() const { return block_deviation_; }
+
+ private:
+  struct Run {  // the blocks of one segment
+    std::size_t log;
+    Index first, count;  // first sample, number of blocks
+  };
+  /// Predictors of orders 0 … 8 and their innovation deviations.
+  struct Filter {
+    std::vector<std::vector<double>> coefficients;
+    std::vector<double> deviation;
+  };
+
+  std::vector<Run> runs_;
+  std::vector<Filter> filters_;  // per channel
+  std::vector<Row> info_;
+  Eigen::VectorXd inverse_level_;  // per row
+  Eigen::VectorXd block_deviation_;
+  Index block_ = 1, rows_ = 0, channels_ = 0;
+  double block_seconds_ = 0.0;
+};
+
+}  // namespace dcnn
