@@ -28,6 +28,8 @@ struct Case {
   DerivativeSpec derivative;
   bool shared_clock = true;
   double end_of_clock = 0.0;  ///< s, end of the last recording
+  /// Values on a coarse lattice: what rounding makes of the mean of a noisy force depends on both.
+  double rounding_step = 0.0, rounding_noise = 0.0;
 
   Index channel_count() const { return static_cast<Index>(channels.size()); }
   bool has_torque() const { return !channels.empty() && channels.back() > 2; }

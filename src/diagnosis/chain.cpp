@@ -1,6 +1,27 @@
 #include "diagnosis/chain.h"
 
+#include <cmath>
+#include <numbers>
+
 namespace dcnn {
+
+namespace {
+
+/// E[q round((F + e)/q)] for Gaussian e: F + q/pi sum_k (-1)^k/k sin(2 pi k F/q) exp(-2 (pi k
+/// s/q)^2) (the Fourier series of the sawtooth, damped by the noise).
+void round_mean(const Case& study, Eigen::MatrixXd& mean) {
+  constexpr double kPi = std::numbers::pi;
+  const double q = study.rounding_step;
+  const Eigen::ArrayXXd angle = 2.0 * kPi / q * mean.array();
+  for (int k = 1; k <= 6; ++k) {
+    const double a = kPi * k * study.rounding_noise / q;
+    const double size = q / (kPi * k) * std::exp(-2.0 * a * a);
+    if (size < 1e-4 * q) break;
+    mean.array() += (k % 2 ? -size : size) * (k * angle).sin();
+  }
+}
+
+}  // namespace
 
 Chain::Chain(const Case& study, std::vector<Member> members)
     : study_(study), members_(std::move(members)), specs_(specs_of(members_)) {
@@ -30,7 +51,9 @@ Chain::Stages Chain::prepare(const Log& log, const std::vector<EffectSpec>& effe
 Eigen::MatrixXd Chain::finish(const Log& log, const Stages& stages, Wrench wrench,
                               const std::vector<EffectSpec>& effects) const {
   pass_on(effects, Stage::kResonance, log.motion, stages.model, wrench);
-  return measured_part(study_, wrench);
+  Eigen::MatrixXd mean = measured_part(study_, wrench);
+  if (study_.rounding_step > 0.0) round_mean(study_, mean);
+  return mean;
 }
 
 Signals Chain::with(const Member& extra) const {

@@ -8,7 +8,7 @@ namespace dcnn {
 Json diagnose(const DiagnosisRequest& request,
               const std::function<void(const std::string&)>& progress) {
   LoadedCase loaded = load_wrist(request);
-  Search search(std::move(loaded.fit), progress);
+  Search search(std::move(loaded.fit), {}, progress);
   search.run();
   Json report;
   report["cutoff_hz"] = search.study().derivative.cutoff_hz;

@@ -18,6 +18,7 @@ struct Member {
   /// Found at the full rate by a test of its own (hum above the blocks' band, rounding, clipping,
   /// knocks): the joint fit leaves it as it is.
   bool fixed = false;
+  Eigen::VectorXd fixed_deviation;  ///< then: of amplitudes and shapes, from that test
 
   std::string name() const { return kind->name; }
   /// Numbers that were fitted: amplitudes, shapes and the ends of an interval.

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "diagnosis/candidates.h"
+#include "diagnosis/detectors.h"
 #include "diagnosis/events.h"
 
 namespace dcnn {
@@ -72,6 +73,23 @@ double linear_misfit(const Case& study, const std::vector<Member>& members) {
   return (empty.residual - A * least_squares(A, empty.residual)).squaredNorm();
 }
 
+/// 0 for blocks within one of the spans.
+Eigen::VectorXd mask_of(const Whitener& whitener, const std::vector<Span>& a,
+                        const std::vector<Span>& b) {
+  Eigen::VectorXd mask = Eigen::VectorXd::Ones(whitener.rows());
+  for (const auto* list : {&a, &b}) {
+    for (const Span& span : *list) {
+      for (std::size_t row = 0; row < whitener.row_info().size(); ++row) {
+        const auto& at = whitener.row_info()[row];
+        if (at.log == span.log && at.t >= span.begin && at.t <= span.end) {
+          mask(static_cast<Index>(row)) = 0.0;
+        }
+      }
+    }
+  }
+  return mask;
+}
+
 bool same_place(const Member& a, const Member& b) {
   return a.kind == b.kind && a.axis == b.axis && !a.interval_s && !b.interval_s;
 }
@@ -86,8 +104,9 @@ Signals difference(const Case& study, const Signals& prediction) {
   return left;
 }
 
-Search::Search(Case study, std::function<void(const std::string&)> progress)
-    : study_(std::move(study)), progress_(std::move(progress)) {}
+Search::Search(Case study, std::vector<Span> held_out,
+               std::function<void(const std::string&)> progress)
+    : study_(std::move(study)), progress_(std::move(progress)), held_out_(std::move(held_out)) {}
 
 void Search::say(const std::string& text) const {
   if (progress_) progress_(text);
@@ -138,8 +157,13 @@ void Search::make_setting(const std::vector<Member>& members) {
   setting_ = std::make_unique<Setting>(
       Setting{study_, Whitener(study_, floors_, noise_level(study_, left_)), measured, {}, {}});
   const Index rows = setting_->whitener.rows();
-  setting_->mask = Eigen::VectorXd::Ones(rows);
+  setting_->mask = mask_of(setting_->whitener, held_out_, masked_);
   setting_->nuisance.resize(rows, 0);
+  for (std::size_t k = 0; k < study_.logs.front().regressors.size(); ++k) {
+    Signals column;
+    for (const Log& log : study_.logs) column.push_back(log.regressors[k]);
+    setting_->nuisance = appended(setting_->nuisance, setting_->whitened(column));
+  }
   if (study_.is_static()) return;
   // What a little more or less smoothing changes, per channel.
   for (const Case* other : {&softer_, &harder_}) {
@@ -201,7 +225,7 @@ std::vector<Trial> Search::additions(const JointFit& fit) const {
     Trial& trial = chosen[static_cast<std::size_t>(k)];
     trial = scan.refine(trial);
   });
-  if (!study_.is_static()) {
+  if (!study_.is_static() && events_allowed_) {
     chosen.push_back(find_contact(scan));
     chosen.push_back(find_step(scan));
   }
@@ -230,6 +254,10 @@ bool Search::grow() {
 bool Search::simplify() {
   bool changed = false;
   for (std::size_t m = 0; m < fit_.members.size() && fit_.members.size() > 1;) {
+    if (fit_.members[m].fixed) {
+      ++m;
+      continue;
+    }
     const JointFit rest = without(m);
     const double rise = rest.chi2 - fit_.chi2;
     if (rise >= kPerParameter * fit_.members[m].parameters() + kLeastNetGain) {
@@ -266,10 +294,8 @@ bool Search::swap() {
   return false;
 }
 
-void Search::run() {
-  choose_cutoff({});
-  settle({});
-  chi2_before_ = fit_.residual.squaredNorm();
+/// Adds, exchanges and leaves out effects until nothing gains.
+void Search::explore() {
   bool recut = false;
   for (int round = 0; round < 12; ++round) {
     if (grow()) {
@@ -277,18 +303,123 @@ void Search::run() {
       }
       continue;
     }
-    if (fit_.members.empty()) break;
+    if (fit_.members.size() == apart_.size()) return;
     say("trying other effects in place of those found");
     if (swap()) continue;
     if (replace_pairs()) continue;
-    if (recut || study_.is_static()) break;
+    if (recut || study_.is_static()) return;
     recut = true;
+    const bool lag = std::any_of(fit_.members.begin(), fit_.members.end(),
+                                 [](const Member& m) { return m.kind->stage == Stage::kDynamics; });
     const double before = study_.derivative.cutoff_hz;
+    if (!lag && before > 9.0 && before < 13.0) return;
     choose_cutoff(fit_.members);
     settle(fit_.members);
-    if (std::abs(study_.derivative.cutoff_hz / before - 1.0) < 0.1) break;
+    if (std::abs(study_.derivative.cutoff_hz / before - 1.0) < 0.1) return;
   }
+}
+
+/// What tests of their own find in the raw force and at the log's rate.
+void Search::detect() {
+  for (const Clipping& clip : clipping(study_)) {
+    const EffectKind& kind = *find_effect("saturation");
+    Member member = make_member(kind, kind.fits[0],
+                                admitted_axes(AxisRule::kSensor)[static_cast<std::size_t>(
+                                    study_.channels[static_cast<std::size_t>(clip.channel)])],
+                                study_.has_torque(), Eigen::VectorXd::Constant(1, clip.limit));
+    member.fixed = true;
+    apart_.push_back(member);
+    masked_.insert(masked_.end(), clip.spans.begin(), clip.spans.end());
+  }
+  if (const double step = rounding_step(study_); step > 0.0) {
+    const EffectKind& kind = *find_effect("quantisation");
+    Member member = make_member(kind, kind.fits[0], "", study_.has_torque(),
+                                Eigen::VectorXd::Constant(1, step));
+    member.fixed = true;
+    rounding_ = member;
+    for (Case* study : {&study_, &softer_, &harder_}) {
+      study->rounding_step = step;
+      // The floor holds the rounding's own variance too.
+      const double all = floors_.front().deviation();
+      study->rounding_noise =
+          std::sqrt(std::max(all * all - step * step / 12.0, 1e-4 * step * step));
+    }
+  }
+  if (study_.is_static()) return;
+  if (const auto hum = find_fast_hum(study_, left_, floors_)) apart_.push_back(*hum);
+  const Knocks knocks = find_knocks(study_, left_, floors_);
+  if (knocks.member) {
+    knocking_ = knocks.member;
+    masked_.insert(masked_.end(), knocks.spans.begin(), knocks.spans.end());
+  }
+}
+
+/// Takes back what a remainder nobody can name makes doubtful: events, and members that fit in some
+/// places and not in others.
+void Search::judge() {
+  bands_ = band_tests(*setting_, fit_.residual);
+  const double explained = std::max(0.0, chi2_before_ - fit_.chi2);
+  remains_ = is_alarming(bands_, explained);
+  if (!remains_) return;
+  say("something is left that no effect explains: names are tested again");
+  if (events_allowed_) {
+    events_allowed_ = false;
+    std::vector<Member> rest;
+    for (const Member& m : fit_.members) {
+      if (!m.interval_s) rest.push_back(m);
+    }
+    if (rest.size() < fit_.members.size()) {
+      settle(rest);
+      explore();
+    }
+  }
+  for (bool changed = true; changed && !fit_.members.empty();) {
+    changed = false;
+    const auto tests = constancy(*setting_, fit_);
+    std::size_t worst = 0;
+    for (std::size_t m = 1; m < tests.size(); ++m) {
+      if (tests[m].z > tests[worst].z) worst = m;
+    }
+    if (!tests[worst].refutes()) break;
+    std::vector<Member> rest = fit_.members;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(worst));
+    settle(rest);
+    changed = true;
+  }
+  bands_ = band_tests(*setting_, fit_.residual);
+}
+
+void Search::run() {
+  choose_cutoff({});
+  settle({});
+  detect();
+  settle(apart_);
   chi2_before_ = joint_fit(*setting_, {}).chi2;
+  explore();
+  chi2_before_ = joint_fit(*setting_, {}).chi2;
+  judge();
+}
+
+std::vector<std::vector<std::string>> Search::alternatives() const {
+  constexpr double kNear = 12.0;
+  std::vector<std::vector<std::string>> all(fit_.members.size());
+  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+    const Member& own = fit_.members[m];
+    if (own.fixed) continue;
+    const JointFit rest = without(m);
+    const double net = rest.chi2 - fit_.chi2 - kPerParameter * own.parameters();
+    for (const Trial& trial : additions(rest)) {
+      if (trial.member.kind == own.kind || trial.net_gain() < net - 2.0 * kNear) continue;
+      std::vector<Member> members = rest.members;
+      members.push_back(trial.member);
+      const JointFit other = joint_fit(*setting_, members);
+      if (rest.chi2 - other.chi2 - kPerParameter * trial.member.parameters() > net - kNear &&
+          std::find(all[m].begin(), all[m].end(), trial.member.name()) == all[m].end()) {
+        all[m].push_back(trial.member.name());
+      }
+    }
+  }
+  return all;
 }
 
 }  // namespace dcnn

@@ -6,14 +6,22 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/judgement.h"
 #include "diagnosis/scan.h"
 
 namespace dcnn {
 
+/// Rows of one recording that must not decide about anything.
+struct Span {
+  std::size_t log;
+  double begin, end;  ///< s
+};
+
 class Search {
  public:
   /// `progress` is told in words what is being done; it may be empty.
-  Search(Case study, std::function<void(const std::string&)> progress);
+  /// Rows in `held_out` are not looked at.
+  Search(Case study, std::vector<Span> held_out, std::function<void(const std::string&)> progress);
 
   void run();
 
@@ -24,6 +32,13 @@ class Search {
   const Signals& left() const { return left_; }  ///< measured - predicted, at the log's rate
   /// chi-square of the simulator as given, in the final whitening.
   double chi2_before() const { return chi2_before_; }
+  /// Something is left that no effect of the catalogue explains.
+  bool remains() const { return remains_; }
+  const std::optional<Member>& rounding() const { return rounding_; }
+  const std::optional<Member>& knocking() const { return knocking_; }
+  const std::vector<BandTest>& bands() const { return bands_; }
+  /// For each member, other effects that the recordings cannot exclude in its place.
+  std::vector<std::vector<std::string>> alternatives() const;
 
   /// Whitens again for what these members leave, and fits them.
   void settle(const std::vector<Member>& members);
@@ -39,6 +54,9 @@ class Search {
   bool simplify();
   bool swap();
   bool replace_pairs();
+  void explore();
+  void detect();
+  void judge();
   void say(const std::string& text) const;
 
   Case study_, softer_, harder_;  // the two others smooth more and less: what smoothing alone does
@@ -48,6 +66,11 @@ class Search {
   JointFit fit_;
   Signals left_;
   double chi2_before_ = 0.0;
+  std::vector<Span> held_out_, masked_;
+  std::vector<Member> apart_;                  // members found by tests of their own
+  std::optional<Member> rounding_, knocking_;  // named, but no part of what is fitted
+  std::vector<BandTest> bands_;
+  bool events_allowed_ = true, remains_ = false;
 };
 
 /// measured - predicted per recording.

@@ -1,0 +1,255 @@
+#include "diagnosis/detectors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "diagnosis/candidates.h"
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kFinestStep = 0.9e-3;  // N
+constexpr Index kFewestClipped = 20;
+constexpr double kFastHz = 25.0;  // half the rate of the block means
+
+/// The finest difference between neighbouring values, if all differences are multiples of it.
+double lattice(const Signals& measured, Index channel) {
+  std::vector<double> values;
+  for (const auto& m : measured) {
+    for (Index i = 0; i < m.rows(); ++i) values.push_back(m(i, channel));
+  }
+  std::sort(values.begin(), values.end());
+  const double size = std::max(std::abs(values.front()), std::abs(values.back()));
+  double step = 0.0;
+  std::vector<double> gaps;
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    const double gap = values[k] - values[k - 1];
+    if (gap > 1e-9 * size) gaps.push_back(gap);
+  }
+  if (gaps.size() < 8 || gaps.size() > values.size() / 4) return 0.0;  // hardly a value repeats
+  step = *std::min_element(gaps.begin(), gaps.end());
+  double sum = 0.0, count = 0.0;
+  for (const double gap : gaps) {
+    const double n = std::round(gap / step);
+    if (std::abs(gap / step - n) > 0.02) return 0.0;
+    sum += gap;
+    count += n;
+  }
+  return sum / count;  // over the whole range: decimals of the log average out
+}
+
+Signals measured_of(const Case& study) {
+  Signals measured;
+  for (const Log& log : study.logs) measured.push_back(log.measured);
+  return measured;
+}
+
+/// Samples where the channel knocks, strongest of each 60 ms.
+std::vector<Index> spikes(const Eigen::VectorXd& r, double sigma, double dt) {
+  const Index half = std::max<Index>(2, std::llround(0.025 / dt));
+  const Index apart = std::max<Index>(1, std::llround(0.06 / dt));
+  std::vector<Index> found;
+  std::vector<double> window;
+  for (Index i = half; i + half < r.size(); ++i) {
+    if (std::abs(r(i)) < 3.0 * sigma) continue;
+    window.assign(r.data() + i - half, r.data() + i + half + 1);
+    std::nth_element(window.begin(), window.begin() + half, window.end());
+    const double above = std::abs(r(i) - window[static_cast<std::size_t>(half)]);
+    const double mean = r.segment(i - half, 2 * half + 1).mean();
+    if (above < 5.0 * sigma || std::abs(r(i) - mean) < 6.0 * sigma * 0.9) continue;
+    if (!found.empty() && i - found.back() < apart) {
+      if (std::abs(r(i)) > std::abs(r(found.back()))) found.back() = i;
+    } else {
+      found.push_back(i);
+    }
+  }
+  return found;
+}
+
+/// When the field last changed its sign before sample i, at most 2 s earlier; -1 if it did not.
+Index turned_before(const Eigen::VectorXd& field, Index i, double dt) {
+  const Index least = std::max<Index>(1, i - std::llround(2.0 / dt));
+  for (Index k = i; k >= least; --k) {
+    if (field(k) * field(k - 1) <= 0.0) return k;
+  }
+  return -1;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+double rounding_step(const Case& study) {
+  const Signals measured = measured_of(study);
+  double least = 0.0;
+  for (Index j = 0; j < study.channel_count(); ++j) {
+    if (study.channels[static_cast<std::size_t>(j)] > 2) continue;
+    const double step = lattice(measured, j);
+    if (step < kFinestStep) return 0.0;
+    least = least == 0.0 ? step : std::min(least, step);
+  }
+  return least;
+}
+
+std::vector<Clipping> clipping(const Case& study) {
+  std::vector<Clipping> list;
+  for (Index j = 0; j < study.channel_count(); ++j) {
+    double high = -1e300, low = 1e300;
+    for (const Log& log : study.logs) {
+      high = std::max(high, log.measured.col(j).maxCoeff());
+      low = std::min(low, log.measured.col(j).minCoeff());
+    }
+    Clipping clip{j, std::max(std::abs(high), std::abs(low)), {}};
+    // Held at a limit means in a row; a value on a coarse lattice repeats without being one.
+    Index longest = 0, total = 0;
+    for (std::size_t k = 0; k < study.logs.size(); ++k) {
+      const Eigen::VectorXd x = study.logs[k].measured.col(j);
+      Index run = 0;
+      for (Index i = 0; i < x.size(); ++i) {
+        const bool held = std::abs(std::abs(x(i)) - clip.limit) <= 1e-9 * clip.limit;
+        run = held ? run + 1 : 0;
+        longest = std::max(longest, run);
+        if (!held) continue;
+        ++total;
+        const double t = study.logs[k].motion.t(i);
+        if (clip.spans.empty() || clip.spans.back().log != k || t > clip.spans.back().end) {
+          clip.spans.push_back({k, t - 0.05, t + 0.05});
+        }
+        clip.spans.back().end = t + 0.05;
+      }
+    }
+    if (total >= kFewestClipped && longest >= 5) list.push_back(clip);
+  }
+  return list;
+}
+
+Knocks find_knocks(const Case& study, const Signals& left, const std::vector<Floor>& floors) {
+  const EffectKind& kind = *find_effect("loose_load");
+  ToolModel moving = study.simulator.model;
+  moving.inertial = ToolModel::Inertial::kLinear;
+  Knocks best;
+  double most = 0.0;
+  for (std::size_t j = 0; j < study.channels.size(); ++j) {
+    const int axis = study.channels[j];
+    if (axis > 2) continue;
+    const double sigma = floors[j].deviation();
+    int right = 0, wrong = 0;
+    double strength = 0.0;
+    std::vector<double> gaps, slugs;
+    std::vector<Span> spans;
+    for (std::size_t k = 0; k < study.logs.size(); ++k) {
+      const Motion& motion = study.logs[k].motion;
+      if (motion.a_B.rows() != motion.samples()) return {};
+      const Eigen::VectorXd field = felt_acceleration(moving, motion).col(axis);
+      const Eigen::VectorXd r = left[k].col(static_cast<Index>(j));
+      for (const Index i : spikes(r, sigma, study.dt())) {
+        (r(i) * field(i) > 0.0 ? right : wrong)++;
+        strength += r(i) * r(i) / (sigma * sigma);
+        spans.push_back({k, motion.t(i) - 0.5, motion.t(i) + 0.12});
+        const Index from = turned_before(field, i, study.dt());
+        if (from < 0 || r(i) * field(i) <= 0.0) continue;
+        double speed = 0.0, way = 0.0, momentum = 0.0;
+        for (Index s = from; s <= i; ++s) {
+          speed += field(s) * study.dt();
+          way += speed * study.dt();
+        }
+        const Index reach = std::max<Index>(1, std::llround(0.02 / study.dt()));
+        for (Index s = std::max<Index>(0, i - reach); s < std::min(r.size(), i + reach + 1); ++s) {
+          momentum += r(s) * study.dt();
+        }
+        gaps.push_back(std::abs(way));
+        if (std::abs(speed) > 1e-6) slugs.push_back(momentum / speed);
+      }
+    }
+    if (right < 3 || right < 0.85 * (right + wrong) || strength < most || slugs.size() < 2)
+      continue;
+    most = strength;
+    Member member = make_member(kind, kind.fits[0],
+                                admitted_axes(AxisRule::kSensor)[static_cast<std::size_t>(axis)],
+                                false, Eigen::VectorXd::Constant(1, median(gaps)));
+    member.amplitudes(0) = std::max(1e-6, median(slugs));
+    member.fixed = true;
+    const auto spread = [](const std::vector<double>& v) {
+      const double centre = median(v);
+      std::vector<double> away;
+      for (const double x : v) away.push_back(std::abs(x - centre));
+      return 1.86 * median(away) / std::sqrt(static_cast<double>(v.size()));  // of a median
+    };
+    member.fixed_deviation = Eigen::Vector2d(spread(slugs), spread(gaps));
+    best.member = member;
+    best.spans = spans;
+  }
+  return best;
+}
+
+std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
+                                    const std::vector<Floor>& floors) {
+  const double top = 0.49 / study.dt();
+  if (top < kFastHz) return std::nullopt;
+  std::vector<Peak> peaks;
+  for (Index j = 0; j < study.channel_count(); ++j) {
+    for (const Peak& p : spectral_lines(study, left, floors, kFastHz, top, j, 1))
+      peaks.push_back(p);
+  }
+  const auto strongest = std::max_element(peaks.begin(), peaks.end(),
+                                          [](auto& a, auto& b) { return a.ratio < b.ratio; });
+  if (strongest == peaks.end() || strongest->ratio < 20.0) return std::nullopt;
+
+  const Index channels = study.channel_count();
+  Eigen::MatrixXd sine(1, channels), cosine(1, channels);
+  double samples = 0.0;
+  for (const auto& r : left) samples += static_cast<double>(r.rows());
+  // Gain in chi-square of the line at hz, with its amplitudes.
+  const auto gain_at = [&](double hz) {
+    sine.setZero();
+    cosine.setZero();
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * hz * study.logs[k].motion.t.array();
+      sine += angle.sin().matrix().transpose() * left[k];
+      cosine += angle.cos().matrix().transpose() * left[k];
+    }
+    sine *= 2.0 / samples;
+    cosine *= 2.0 / samples;
+    double gain = 0.0;
+    for (Index j = 0; j < channels; ++j) {
+      const double density = floors[static_cast<std::size_t>(j)].density(hz, study.dt());
+      gain += 0.5 * samples * (sine(0, j) * sine(0, j) + cosine(0, j) * cosine(0, j)) / density;
+    }
+    return gain;
+  };
+  double longest = 0.0;
+  for (const Log& log : study.logs) {
+    longest = std::max(longest, log.motion.t(log.motion.samples() - 1) - log.motion.t(0));
+  }
+  const Eigen::VectorXd hz = simplex_search(
+      [&](const Eigen::VectorXd& f) { return -gain_at(f(0)); },
+      Eigen::VectorXd::Constant(1, strongest->hz), Eigen::VectorXd::Constant(1, 0.2 / longest), 40);
+  const double gain = gain_at(hz(0));
+  const EffectKind& kind = *find_effect("hum");
+  Member member = make_member(kind, kind.fits[0], "", study.has_torque(), hz);
+  if (gain - 10.0 * member.parameters() < 30.0) return std::nullopt;
+  const Index half = member.amplitudes.size() / 2;
+  member.amplitudes.setZero();
+  member.fixed_deviation.setZero(member.amplitudes.size() + 1);
+  for (Index j = 0; j < channels; ++j) {
+    const int c = study.channels[static_cast<std::size_t>(j)];
+    member.amplitudes(c) = sine(0, j);
+    member.amplitudes(half + c) = cosine(0, j);
+    const double density = floors[static_cast<std::size_t>(j)].density(hz(0), study.dt());
+    member.fixed_deviation(c) = member.fixed_deviation(half + c) =
+        std::sqrt(2.0 * density / samples);
+  }
+  // Rife and Boorstyn 1974: of the frequency, from the gain as signal-to-noise ratio.
+  member.fixed_deviation(member.amplitudes.size()) =
+      std::sqrt(3.0 / std::max(gain, 1.0)) / (std::numbers::pi * longest);
+  member.fixed = true;
+  return member;
+}
+
+}  // namespace dcnn

@@ -1,0 +1,36 @@
+// Tests for what has no column in a linear model: rounding, clipping, knocks, lines above the
+// blocks' band.
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/search.h"
+
+namespace dcnn {
+
+/// Step of a lattice on which the values of every force channel lie, 0 for none above 0.9 mN (what
+/// a log's own decimals make is finer).
+double rounding_step(const Case& study);
+
+/// A limit at which at least 20 samples of a channel stand, and the rows they disturb.
+struct Clipping {
+  Index channel = -1;
+  double limit = 0.0;
+  std::vector<Span> spans;
+};
+std::vector<Clipping> clipping(const Case& study);
+
+/// A load that slides between stops: knocks in the sense of the acceleration field they come with,
+/// at least three, 85 % of them of the right sign. Its gap follows from when each comes after the
+/// field has turned, the slug from the momentum it hands over.
+struct Knocks {
+  std::optional<Member> member;
+  std::vector<Span> spans;
+};
+Knocks find_knocks(const Case& study, const Signals& left, const std::vector<Floor>& floors);
+
+/// The strongest line above what block means can show, fitted at the log's rate.
+std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
+                                    const std::vector<Floor>& floors);
+
+}  // namespace dcnn

@@ -1,0 +1,236 @@
+#include "diagnosis/judgement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "dcnn/data/fourier.h"
+
+namespace dcnn {
+namespace {
+
+constexpr int kFlips = 999;
+constexpr double kFlipSeconds = 3.0;
+constexpr double kConstancySeconds = 8.0;
+constexpr double kSandwichSeconds = 1.0;
+constexpr double kSelection = 1.2;  // how much the choice among many widens an interval
+
+/// Rows of a whitened vector in blocks of time, all channels together.
+std::vector<std::vector<Index>> time_blocks(const Setting& setting, double seconds) {
+  std::map<std::pair<std::uint32_t, std::int64_t>, std::vector<Index>> blocks;
+  const auto& info = setting.whitener.row_info();
+  for (std::size_t row = 0; row < info.size(); ++row) {
+    if (setting.mask(static_cast<Index>(row)) == 0.0) continue;
+    const auto number = static_cast<std::int64_t>(std::floor(info[row].t / seconds));
+    blocks[{info[row].log, number}].push_back(static_cast<Index>(row));
+  }
+  std::vector<std::vector<Index>> list;
+  for (auto& [key, rows] : blocks) list.push_back(std::move(rows));
+  return list;
+}
+
+Eigen::MatrixXd normal_inverse(const Eigen::MatrixXd& gram) {
+  const Eigen::VectorXd scale =
+      gram.diagonal().unaryExpr([](double g) { return g > 0.0 ? 1.0 / std::sqrt(g) : 0.0; });
+  Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
+  scaled.diagonal().array() += 1e-11;
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(gram.rows(), gram.cols());
+  return scale.asDiagonal() * scaled.ldlt().solve(identity) * scale.asDiagonal();
+}
+
+/// Numbers of a member's published parameters at given coordinates.
+Eigen::VectorXd published(const Member& member, const std::vector<std::string>& names) {
+  const Json parameters = member.form->parameters(member.amplitudes, member.shapes);
+  Eigen::VectorXd values(static_cast<Index>(names.size()));
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    values(static_cast<Index>(k)) = parameters.at(names[k]).get<double>();
+  }
+  return values;
+}
+
+/// d(published)/d(coordinates) by differences.
+Eigen::MatrixXd published_gradient(const Member& member, const std::vector<std::string>& names) {
+  const Index amplitudes = member.amplitudes.size(), shapes = member.shapes.size();
+  const Eigen::VectorXd here = published(member, names);
+  Eigen::MatrixXd gradient(here.size(), amplitudes + shapes);
+  for (Index k = 0; k < amplitudes + shapes; ++k) {
+    Member moved = member;
+    double step = 1e-6;
+    if (k < amplitudes) {
+      step = std::max(1e-9, 1e-5 * member.amplitudes.cwiseAbs().maxCoeff());
+      moved.amplitudes(k) += step;
+    } else {
+      const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(k - amplitudes)];
+      double& value = moved.shapes(k - amplitudes);
+      if (search_scale(shape, value) + step > search_scale(shape, shape.high)) step = -step;
+      value = from_search_scale(shape, search_scale(shape, value) + step);
+    }
+    gradient.col(k) = (published(moved, names) - here) / step;
+  }
+  return gradient;
+}
+
+}  // namespace
+
+std::pair<Index, Index> tangent_columns(const JointFit& fit, std::size_t member) {
+  Index first = 0;
+  for (std::size_t m = 0; m < member; ++m) {
+    if (fit.members[m].fixed) continue;
+    first += fit.members[m].amplitudes.size() + fit.members[m].shapes.size();
+  }
+  const Member& own = fit.members[member];
+  return {first, own.fixed ? 0 : own.amplitudes.size() + own.shapes.size()};
+}
+
+std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& residual) {
+  std::vector<BandTest> bands{
+      {0.0, 0.5, 0, 0}, {0.5, 2, 0, 0}, {2, 5, 0, 0}, {5, 12, 0, 0}, {12, 25.5, 0, 0}};
+  std::vector<double> sum(bands.size(), 0.0), dof(bands.size(), 0.0);
+  const auto& info = setting.whitener.row_info();
+  const double dt = setting.whitener.block_seconds();
+  // Runs of rows of one channel that follow each other in time.
+  for (std::size_t begin = 0; begin < info.size();) {
+    std::size_t end = begin + 1;
+    while (end < info.size() && info[end].channel == info[begin].channel &&
+           info[end].log == info[begin].log && info[end].t - info[end - 1].t < 1.5 * dt) {
+      ++end;
+    }
+    const auto n = static_cast<Index>(end - begin);
+    const Eigen::VectorXd x = residual.segment(static_cast<Index>(begin), n);
+    const double kept = setting.mask.segment(static_cast<Index>(begin), n).sum();
+    if (n >= 16 && kept > 8.0) {
+      const Eigen::VectorXd power = fourier(x).cwiseAbs2() / kept;
+      for (Index k = 0; k < power.size(); ++k) {
+        const bool single = k == 0 || 2 * k == n;
+        const double hz = static_cast<double>(k) / (static_cast<double>(n) * dt);
+        for (std::size_t b = 0; b < bands.size(); ++b) {
+          if (hz < bands[b].from_hz || hz >= bands[b].to_hz) continue;
+          sum[b] += (single ? 1.0 : 2.0) * power(k);
+          dof[b] += single ? 1.0 : 2.0;
+        }
+      }
+    }
+    begin = end;
+  }
+  for (std::size_t b = 0; b < bands.size(); ++b) {
+    bands[b].excess = sum[b] - dof[b];
+    bands[b].z = dof[b] > 0.0 ? bands[b].excess / std::sqrt(2.0 * dof[b]) : 0.0;
+  }
+  return bands;
+}
+
+bool is_alarming(const std::vector<BandTest>& bands, double explained) {
+  return std::any_of(bands.begin(), bands.end(), [&](const BandTest& band) {
+    const bool much = band.excess > 0.004 * explained ||
+                      (band.excess > 2000.0 && band.excess > 0.002 * explained);
+    return band.z > 5.0 && much;
+  });
+}
+
+std::vector<Constancy> constancy(const Setting& setting, const JointFit& fit) {
+  std::vector<Constancy> list(fit.members.size());
+  const auto blocks = time_blocks(setting, kConstancySeconds);
+  for (std::size_t m = 0; m < fit.members.size(); ++m) {
+    const auto [first, count] = tangent_columns(fit, m);
+    if (count == 0) continue;
+    double score = 0.0, dof = -static_cast<double>(count);
+    const Eigen::MatrixXd columns = fit.tangent.middleCols(first, count);
+    const Eigen::VectorXd whole = columns.colwise().squaredNorm();
+    for (const auto& rows : blocks) {
+      const Eigen::MatrixXd J = columns(rows, Eigen::all);
+      const Eigen::VectorXd g = J.transpose() * fit.residual(rows);
+      for (Index k = 0; k < count; ++k) {  // column by column: a block rarely tells them apart
+        const double energy = J.col(k).squaredNorm();
+        if (energy < 1e-4 * whole(k) / static_cast<double>(blocks.size())) continue;
+        score += g(k) * g(k) / energy;
+        dof += 1.0;
+      }
+    }
+    if (dof < 3.0) continue;
+    list[m].ratio = score / dof;
+    list[m].z = (score - dof) / std::sqrt(2.0 * dof);
+  }
+  return list;
+}
+
+std::vector<std::vector<Estimate>> estimates(const Setting& setting, const JointFit& fit) {
+  const Eigen::MatrixXd inverse = normal_inverse(fit.tangent.transpose() * fit.tangent);
+  Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(inverse.rows(), inverse.cols());
+  for (const auto& rows : time_blocks(setting, kSandwichSeconds)) {
+    const Eigen::VectorXd g = fit.tangent(rows, Eigen::all).transpose() * fit.residual(rows);
+    middle += g * g.transpose();
+  }
+  const Eigen::MatrixXd sandwich = inverse * middle * inverse;
+  std::vector<std::vector<Estimate>> all;
+  for (std::size_t m = 0; m < fit.members.size(); ++m) {
+    const Member& member = fit.members[m];
+    const auto [first, count] = tangent_columns(fit, m);
+    std::vector<std::string> names;
+    const Json parameters = member.form->parameters(member.amplitudes, member.shapes);
+    for (const auto& [name, value] : parameters.items()) names.push_back(name);
+    const Eigen::VectorXd values = published(member, names);
+    Eigen::VectorXd deviation = Eigen::VectorXd::Zero(values.size());
+    if (member.fixed && member.fixed_deviation.size() > 0) {
+      // Its coordinates are on the plain scale here.
+      const Eigen::MatrixXd gradient = published_gradient(member, names);
+      Eigen::VectorXd sd = member.fixed_deviation;
+      for (Index k = 0; k < member.shapes.size(); ++k) {
+        if (member.form->shapes[static_cast<std::size_t>(k)].low > 0.0) {
+          sd(member.amplitudes.size() + k) /= member.shapes(k);  // of its logarithm
+        }
+      }
+      deviation = (gradient * sd.asDiagonal()).rowwise().norm() * kSelection;
+    }
+    if (count > 0) {
+      const Eigen::MatrixXd gradient = published_gradient(member, names);
+      const auto spread = [&](const Eigen::MatrixXd& covariance) {
+        const Eigen::MatrixXd part = covariance.block(first, first, count, count);
+        return Eigen::VectorXd((gradient * part * gradient.transpose()).diagonal().cwiseMax(0.0));
+      };
+      deviation = spread(inverse).cwiseMax(spread(sandwich)).cwiseSqrt() * kSelection;
+    }
+    all.emplace_back();
+    for (Index k = 0; k < values.size(); ++k) {
+      const std::string& name = names[static_cast<std::size_t>(k)];
+      all.back().push_back({name, unit_of_parameter(name), values(k),
+                            values(k) - 1.96 * deviation(k), values(k) + 1.96 * deviation(k)});
+    }
+  }
+  return all;
+}
+
+double flip_p_value(const Setting& setting, const JointFit& fit, std::size_t member) {
+  const auto [first, count] = tangent_columns(fit, member);
+  if (count == 0) return 1.0 / (kFlips + 1.0);
+  Eigen::MatrixXd others(fit.tangent.rows(), fit.tangent.cols() - count);
+  others << fit.tangent.leftCols(first), fit.tangent.rightCols(fit.tangent.cols() - first - count);
+  const Eigen::MatrixXd basis = orthonormal(others), own = fit.tangent.middleCols(first, count);
+  const Eigen::MatrixXd c = own - basis * (basis.transpose() * own);
+  // The residual as if the member were not there: back along its own amplitudes.
+  Eigen::VectorXd back = Eigen::VectorXd::Zero(count);
+  const Member& m = fit.members[member];
+  back.head(m.amplitudes.size()) = m.amplitudes;
+  if (m.amplitudes.size() == 0) back.setOnes();
+  const Eigen::VectorXd r = fit.residual + c * back;
+  const auto blocks = time_blocks(setting, kFlipSeconds);
+  Eigen::MatrixXd scores(static_cast<Index>(blocks.size()), count);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    scores.row(static_cast<Index>(b)) =
+        (c(blocks[b], Eigen::all).transpose() * r(blocks[b])).transpose();
+  }
+  const Eigen::MatrixXd inverse = normal_inverse(scores.transpose() * scores);
+  const auto statistic = [&](const Eigen::VectorXd& sum) { return sum.dot(inverse * sum); };
+  const double actual = statistic(scores.colwise().sum().transpose());
+  Rng rng({0x5167u, static_cast<std::uint64_t>(member)});
+  int above = 0;
+  for (int flip = 0; flip < kFlips; ++flip) {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(count);
+    for (Index b = 0; b < scores.rows(); ++b) {
+      sum += (rng.bits() & 1u ? 1.0 : -1.0) * scores.row(b).transpose();
+    }
+    above += statistic(sum) >= actual;
+  }
+  return (above + 1.0) / (kFlips + 1.0);
+}
+
+}  // namespace dcnn

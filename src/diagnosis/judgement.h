@@ -1,0 +1,49 @@
+// Whether a model that was found may be believed: what it leaves, how constant its members are, how
+// well their numbers are known, and what could stand in their place.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/joint_fit.h"
+
+namespace dcnn {
+
+/// What is left in one band of frequencies, against the floor.
+struct BandTest {
+  double from_hz, to_hz;
+  double z;       ///< (sum - dof)/sqrt(2 dof) of the whitened periodogram
+  double excess;  ///< sum - dof
+};
+/// The floor comes from another band, so nothing has to be simulated for it.
+std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& residual);
+
+/// Something is left that no member explains: above 5 deviations in a band, and more than a
+/// remainder of what was explained.
+bool is_alarming(const std::vector<BandTest>& bands, double explained);
+
+/// Whether a member explains the recordings throughout: its score over blocks of 8 s, per degree of
+/// freedom. A surrogate of something else fits some blocks and not others.
+struct Constancy {
+  double ratio = 1.0, z = 0.0;
+  bool refutes() const { return ratio > 2.5 && z > 8.0; }
+};
+std::vector<Constancy> constancy(const Setting& setting, const JointFit& fit);
+
+/// A published number with its 95 % interval.
+struct Estimate {
+  std::string name, unit;
+  double value = 0.0, low = 0.0, high = 0.0;
+};
+/// Of all members, in their order: the larger of the model's and the sandwich's deviation over
+/// blocks of 1 s, widened for the selection.
+std::vector<std::vector<Estimate>> estimates(const Setting& setting, const JointFit& fit);
+
+/// Sign-flip p value of one member with all others in the model: block scores keep their size and
+/// lose their sign if it is nothing but noise of any colour.
+double flip_p_value(const Setting& setting, const JointFit& fit, std::size_t member);
+
+/// First column of a member in the tangent, and how many it has.
+std::pair<Index, Index> tangent_columns(const JointFit& fit, std::size_t member);
+
+}  // namespace dcnn
