@@ -11,6 +11,51 @@ Eigen::MatrixXd measured_part(const Case& study, const Wrench& wrench) {
   return part;
 }
 
+namespace {
+
+Eigen::MatrixXd rows_of(const Eigen::MatrixXd& all, const std::vector<Index>& rows) {
+  return all.rows() == 0 ? all : Eigen::MatrixXd(all(rows, Eigen::all));
+}
+
+Motion thinned(const Motion& motion, Index stride) {
+  Motion thin;
+  thin.recording = motion.recording;
+  thin.dt = motion.dt * static_cast<double>(stride);
+  std::vector<Index> rows;
+  for (const Segment& s : motion.segments) {
+    const auto begin = static_cast<Index>(rows.size());
+    for (Index k = s.begin + stride / 2; k < s.end; k += stride) rows.push_back(k);
+    thin.segments.push_back({begin, static_cast<Index>(rows.size())});
+  }
+  thin.t = motion.t(rows);
+  for (const Index k : rows) thin.R_BS.push_back(motion.R_BS[static_cast<std::size_t>(k)]);
+  thin.euler = rows_of(motion.euler, rows);
+  thin.v_B = rows_of(motion.v_B, rows);
+  thin.a_B = rows_of(motion.a_B, rows);
+  thin.w_S = rows_of(motion.w_S, rows);
+  thin.dw_S = rows_of(motion.dw_S, rows);
+  if (motion.temperature.size() > 0) thin.temperature = motion.temperature(rows);
+  return thin;
+}
+
+}  // namespace
+
+Case thinned(const Case& study, Index stride) {
+  Case thin = study;
+  thin.logs.clear();
+  for (const Log& log : study.logs) {
+    Log coarse;
+    coarse.motion = thinned(log.motion, stride);
+    std::vector<Index> rows;
+    for (const Segment& s : log.motion.segments) {
+      for (Index k = s.begin + stride / 2; k < s.end; k += stride) rows.push_back(k);
+    }
+    coarse.base = {rows_of(log.base.force, rows), rows_of(log.base.torque, rows)};
+    thin.logs.push_back(std::move(coarse));
+  }
+  return thin;
+}
+
 void set_derivative(Case& study, const DerivativeSpec& derivative) {
   study.derivative = derivative;
   for (Log& log : study.logs) {

@@ -40,6 +40,9 @@ struct Case {
 /// The columns of a wrench that the case measures, (T, channels).
 Eigen::MatrixXd measured_part(const Case& study, const Wrench& wrench);
 
+/// The same case seen at every stride-th sample, for searches: motions, and no measurements.
+Case thinned(const Case& study, Index stride);
+
 /// Motions of all logs by this estimator, which becomes the case's.
 void set_derivative(Case& study, const DerivativeSpec& derivative);
 

@@ -11,6 +11,8 @@ namespace dcnn {
 struct Setting {
   const Case& study;
   Whitener whitener;
+  Case coarse;               ///< the case at a stride at which searches are quick
+  Whitener coarse_whitener;  ///< with the same rows
   Signals measured;
   Eigen::MatrixXd nuisance;  ///< whitened columns that are always fitted beside the members
   Eigen::VectorXd mask;      ///< 0 for rows that a knock disturbs, else 1

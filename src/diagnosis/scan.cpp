@@ -20,7 +20,9 @@ bool is_itself(const Member& member) {
 Scan::Scan(const Setting& setting, const JointFit& fit)
     : setting_(setting),
       chain_(setting.study, fit.members),
+      coarse_chain_(setting.coarse, fit.members),
       here_(setting.whitened(chain_.prediction())),
+      coarse_here_(setting.coarse_whitener(coarse_chain_.prediction()).cwiseProduct(setting.mask)),
       basis_(orthonormal(fit.tangent)) {
   residual_ = off_model(fit.residual);
 }
@@ -29,29 +31,37 @@ Eigen::MatrixXd Scan::off_model(const Eigen::MatrixXd& columns) const {
   return columns - basis_ * (basis_.transpose() * columns);
 }
 
-Eigen::MatrixXd Scan::columns(const Member& member) const {
+Eigen::MatrixXd Scan::columns(const Member& member, Detail detail) const {
+  const bool coarse = detail == Detail::kCoarse;
+  const Chain& chain = coarse ? coarse_chain_ : chain_;
+  const Eigen::VectorXd& here = coarse ? coarse_here_ : here_;
+  const auto with = [&](const Member& extra) -> Eigen::VectorXd {
+    const Signals signals = chain.with(extra);
+    if (!coarse) return setting_.whitened(signals);
+    return setting_.coarse_whitener(signals).cwiseProduct(setting_.mask);
+  };
   Member unit = member;
-  if (member.amplitudes.size() == 0) return setting_.whitened(chain_.with(unit)) - here_;
-  Eigen::MatrixXd columns(here_.size(), member.amplitudes.size());
+  if (member.amplitudes.size() == 0) return with(unit) - here;
+  Eigen::MatrixXd columns(here.size(), member.amplitudes.size());
   // From a common point with all amplitudes alike, since some laws divide by one of them.
   const bool needs_origin = member.amplitudes.size() == 2;
-  Eigen::VectorXd origin = here_;
+  Eigen::VectorXd origin = here;
   if (needs_origin) {
     unit.amplitudes.setConstant(kUnit);
-    origin = setting_.whitened(chain_.with(unit));
+    origin = with(unit);
   }
   for (Index j = 0; j < columns.cols(); ++j) {
     unit.amplitudes.setConstant(needs_origin ? kUnit : 0.0);
     unit.amplitudes(j) += kUnit;
-    columns.col(j) = (setting_.whitened(chain_.with(unit)) - origin) / kUnit;
+    columns.col(j) = (with(unit) - origin) / kUnit;
   }
   return columns;
 }
 
-Trial Scan::evaluate(const Member& member) const {
+Trial Scan::evaluate(const Member& member, Detail detail) const {
   Trial trial;
   trial.member = member;
-  const Eigen::MatrixXd raw = columns(member), c = off_model(raw);
+  const Eigen::MatrixXd raw = columns(member, detail), c = off_model(raw);
   const double energy = raw.squaredNorm();
   trial.kept = energy > 0.0 ? c.squaredNorm() / energy : 0.0;
   const Eigen::VectorXd match = c.transpose() * residual_;
@@ -70,7 +80,7 @@ Trial Scan::evaluate(const Member& member) const {
   return trial;
 }
 
-Trial Scan::refine(const Trial& start, int evaluations) const {
+Trial Scan::refine(const Trial& start, Detail detail, int evaluations) const {
   const auto& shapes = start.member.form->shapes;
   const Index n = start.member.shapes.size();
   if (n == 0) return start;
@@ -79,6 +89,7 @@ Trial Scan::refine(const Trial& start, int evaluations) const {
     const ShapeParameter& shape = shapes[static_cast<std::size_t>(i)];
     x(i) = search_scale(shape, start.member.shapes(i));
     size(i) = shape.low > 0.0 ? 0.4 : 0.15 * (shape.high - shape.low);
+    if (detail == Detail::kFine) size(i) *= 0.2;
     if (start.member.name() == "hum" || start.member.name() == "cogging") size(i) = 0.01;
     if (start.member.name() == "flexible_resonance" && i == 0) size(i) = 0.05;
   }
@@ -88,7 +99,7 @@ Trial Scan::refine(const Trial& start, int evaluations) const {
     for (Index i = 0; i < n; ++i) {
       member.shapes(i) = from_search_scale(shapes[static_cast<std::size_t>(i)], at(i));
     }
-    const Trial trial = evaluate(member);
+    const Trial trial = evaluate(member, detail);
     if (trial.gain > best.gain) best = trial;
     return -trial.gain;
   };

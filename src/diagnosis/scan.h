@@ -19,16 +19,19 @@ struct Trial {
   double net_gain() const { return gain - 10.0 * member.parameters(); }
 };
 
+/// At which samples a candidate's columns are computed: all, or as many as a search needs.
+enum class Detail { kFine, kCoarse };
+
 class Scan {
  public:
   Scan(const Setting& setting, const JointFit& fit);
 
   /// Best amplitudes of the member at its shapes, linear in the prediction of the model at hand.
-  Trial evaluate(const Member& member) const;
+  Trial evaluate(const Member& member, Detail detail = Detail::kFine) const;
   /// Shapes improved from where they are (Nelder and Mead 1965 on their search scales).
-  Trial refine(const Trial& start, int evaluations = 40) const;
+  Trial refine(const Trial& start, Detail detail = Detail::kFine, int evaluations = 40) const;
   /// Its whitened columns, (rows, amplitudes), or one column for an effect without amplitudes.
-  Eigen::MatrixXd columns(const Member& member) const;
+  Eigen::MatrixXd columns(const Member& member, Detail detail = Detail::kFine) const;
   Eigen::MatrixXd off_model(const Eigen::MatrixXd& columns) const;
   const Eigen::VectorXd& residual() const { return residual_; }
   const Setting& setting() const { return setting_; }
@@ -37,7 +40,8 @@ class Scan {
  private:
   const Setting& setting_;
   Chain chain_;
-  Eigen::VectorXd here_;  // whitened prediction
+  Chain coarse_chain_;
+  Eigen::VectorXd here_, coarse_here_;  // whitened predictions
   Eigen::MatrixXd basis_;
   Eigen::VectorXd residual_;  // off the basis
 };

@@ -15,6 +15,7 @@ constexpr double kLeastNetGain = 30.0;  // of chi-square after 10 per number, to
 constexpr double kLeastShare = 0.002;   // of what the model explains already
 constexpr double kPerParameter = 10.0;
 constexpr std::size_t kMostMembers = 6;  // more only ever fed what is not in the catalogue
+constexpr Index kFine = 6;               // of these, looked at in full detail
 constexpr std::size_t kRefined = 10;     // candidates whose shapes are refined before a decision
 
 /// dF/dt and d2F/dt2 of the prediction: what a delay or a low-pass looks like when small.
@@ -52,7 +53,8 @@ double linear_misfit(const Case& study, const std::vector<Member>& members) {
   }
   Case unsmoothed = study;  // its whitener must not depend on the cut-off
   unsmoothed.derivative.kind = DerivativeSpec::Kind::kSavitzkyGolay;
-  Setting setting{unsmoothed, Whitener(unsmoothed, floors, levels), measured, {}, {}};
+  const Whitener whitener(unsmoothed, floors, levels);
+  Setting setting{unsmoothed, whitener, unsmoothed, whitener, measured, {}, {}};
   setting.mask = Eigen::VectorXd::Ones(setting.whitener.rows());
   setting.nuisance.resize(setting.whitener.rows(), 0);
   for (const auto& column : lag_columns(study, prediction)) {
@@ -154,8 +156,10 @@ void Search::make_setting(const std::vector<Member>& members) {
   for (const Log& log : study_.logs) measured.push_back(log.measured);
   floors_ = noise_floor(study_, left_);
   add_pose_noise(study_, floors_);
-  setting_ = std::make_unique<Setting>(
-      Setting{study_, Whitener(study_, floors_, noise_level(study_, left_)), measured, {}, {}});
+  const Whitener whitener(study_, floors_, noise_level(study_, left_));
+  const Index stride = whitener.coarse_stride();
+  setting_ = std::make_unique<Setting>(Setting{
+      study_, whitener, thinned(study_, stride), whitener.at_stride(stride), measured, {}, {}});
   const Index rows = setting_->whitener.rows();
   setting_->mask = mask_of(setting_->whitener, held_out_, masked_);
   setting_->nuisance.resize(rows, 0);
@@ -200,7 +204,7 @@ std::vector<Trial> Search::additions(const JointFit& fit) const {
     const Member& member = list[static_cast<std::size_t>(k)];
     const bool taken = std::any_of(fit.members.begin(), fit.members.end(),
                                    [&](const Member& m) { return same_place(m, member); });
-    if (!taken) trials[static_cast<std::size_t>(k)] = scan.evaluate(member);
+    if (!taken) trials[static_cast<std::size_t>(k)] = scan.evaluate(member, Detail::kCoarse);
   });
   // The best seed of each effect and axis, then the best axes of each effect.
   std::map<std::string, Trial> places;
@@ -221,17 +225,24 @@ std::vector<Trial> Search::additions(const JointFit& fit) const {
     chosen.push_back(trial);
     if (chosen.size() >= 2 * kRefined) break;
   }
+  const auto by_net_gain = [](const Trial& a, const Trial& b) {
+    return a.net_gain() > b.net_gain();
+  };
   for_each_piece(static_cast<Index>(chosen.size()), [&](Index k) {
     Trial& trial = chosen[static_cast<std::size_t>(k)];
-    trial = scan.refine(trial);
+    trial = scan.refine(trial, Detail::kCoarse, 40);
+  });
+  std::stable_sort(chosen.begin(), chosen.end(), by_net_gain);
+  for_each_piece(std::min<Index>(kFine, static_cast<Index>(chosen.size())), [&](Index k) {
+    Trial& trial = chosen[static_cast<std::size_t>(k)];
+    trial = scan.refine(scan.evaluate(trial.member, Detail::kFine), Detail::kFine, 14);
   });
   if (!study_.is_static() && events_allowed_) {
     chosen.push_back(find_contact(scan));
     chosen.push_back(find_step(scan));
   }
   std::erase_if(chosen, [](const Trial& trial) { return trial.gain <= 0.0; });
-  std::stable_sort(chosen.begin(), chosen.end(),
-                   [](const Trial& a, const Trial& b) { return a.net_gain() > b.net_gain(); });
+  std::stable_sort(chosen.begin(), chosen.end(), by_net_gain);
   return chosen;
 }
 

@@ -34,6 +34,7 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
   const bool moving = !study.is_static();
   const double dt = moving ? study.dt() : 1.0;
   block_ = moving ? std::max<Index>(1, std::llround(kBlockSeconds / dt)) : 1;
+  if (block_ > 3) block_ += block_ % 2;  // two halves: coarse_stride()
   block_seconds_ = static_cast<double>(block_) * dt;
   const double cutoff = study.derivative.kind == DerivativeSpec::Kind::kSpectral && moving
                             ? study.derivative.cutoff_hz
@@ -68,12 +69,14 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
     }
     filters_.push_back(filter);
   }
-  const Index margin = moving ? std::llround(kEndSeconds / dt) : 0;
+  const Index margin = moving ? std::llround(kEndSeconds / block_seconds_) * block_ : 0;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
+    std::vector<Index> before;  // sizes of the segments before this one
     for (const Segment& s : study.logs[k].motion.segments) {
       const Index count = (s.size() - 2 * margin) / block_;
+      if (count > 0) runs_.push_back({k, s.begin + margin, count, margin, before});
+      before.push_back(s.size());
       if (count <= 0) continue;
-      runs_.push_back({k, s.begin + margin, count});
       rows_ += count * channels_;
     }
   }
@@ -90,6 +93,21 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
       }
     }
   }
+}
+
+Index Whitener::Run::thin_begin(Index stride) const {
+  Index samples = 0;
+  for (const Index size : before) samples += (size - stride / 2 + stride - 1) / stride;
+  return samples + margin / stride;
+}
+
+Whitener Whitener::at_stride(Index stride) const {
+  Whitener coarse = *this;
+  coarse.block_ /= stride;
+  for (Run& run : coarse.runs_) {
+    run.first = run.thin_begin(stride);
+  }
+  return coarse;
 }
 
 Eigen::VectorXd Whitener::operator()(const Signals& signals) const {

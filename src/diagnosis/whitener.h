@@ -13,6 +13,11 @@ class Whitener {
   Whitener(const Case& study, const std::vector<Floor>& floors,
            const std::vector<Eigen::VectorXd>& levels);
 
+  /// The same map for signals seen at every stride-th sample (thinned()).
+  Whitener at_stride(Index stride) const;
+  /// A stride at which a block still holds two samples.
+  Index coarse_stride() const { return block_ % 2 == 0 ? block_ / 2 : 1; }
+
   Index rows() const { return rows_; }
   Eigen::VectorXd operator()(const Signals& signals) const;
 
@@ -29,7 +34,11 @@ class Whitener {
  private:
   struct Run {  // the blocks of one segment
     std::size_t log;
-    Index first, count;  // first sample, number of blocks
+    Index first, count;         // first sample, number of blocks
+    Index margin;               // samples left out at its beginning
+    std::vector<Index> before;  // sizes of the recording's segments before this one
+    /// `first` in a recording of which every stride-th sample is seen.
+    Index thin_begin(Index stride) const;
   };
   /// Predictors of orders 0 … 8 and their innovation deviations.
   struct Filter {
