@@ -1,6 +1,6 @@
 #include <iostream>
 
-#include "dcnn/diagnosis/diagnose.h"
+#include "dcnn/experiment/diagnosis_report.h"
 #include "support/progress.h"
 #include "support/tool.h"
 
@@ -9,24 +9,48 @@ namespace {
 using namespace dcnn;
 
 constexpr const char* kExamples =
-    "  dcnn-diagnose --sim sim.json --fit a.csv b.csv --holdout c.csv --out report\n";
+    "  dcnn-diagnose --sim sim.json --fit a.csv b.csv --holdout c.csv --out report\n"
+    "  dcnn-diagnose --sim sim.json --fit a.csv --out report       # holds out blocks of a.csv\n"
+    "  dcnn-diagnose --fit log.csv --out report                    # log.csv has "
+    "fx_sim,fy_sim,fz_sim\n"
+    "  dcnn-sim --sim report/model.json --motion c.csv --out corrected.csv\n";
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool("dcnn-diagnose", "Names the physics that a simulator leaves out.", kExamples);
+  Tool tool("dcnn-diagnose",
+            "Compares a simulator with recordings: says where they differ, names the physics that "
+            "is missing, models it, and shows the error on held-out data fall.",
+            kExamples);
   DiagnosisRequest request;
   std::filesystem::path out;
+  std::string clock = "auto";
   auto& app = tool.app();
-  app.add_option("--sim", request.simulator, "simulator of the tool (JSON)");
+  app.add_option("--sim", request.simulator,
+                 "simulator of the tool (JSON); without it the recordings need columns *_sim");
   app.add_option("--fit", request.fit, "recordings to learn from")->required();
-  app.add_option("--holdout", request.holdout, "recordings to judge by");
-  app.add_option("--out", out, "folder to write")->required();
+  app.add_option("--holdout", request.holdout,
+                 "recordings to judge by (default: every fifth block of 5 s of the others)");
+  app.add_option("--clock", clock, "whether the recordings share one clock: auto, shared, own")
+      ->check(CLI::IsMember({"auto", "shared", "own"}))
+      ->capture_default_str();
+  app.add_option("--out", out, "folder for report.json, report.html, model.json and predictions")
+      ->required();
   const ReadFlags read(app);
+
   return tool.run(argc, argv, [&] {
     request.read = read.options();
-    const Json report = diagnose(request, [&](const std::string& text) { tool.note(text); });
-    std::cout << report.dump(2) << "\n";
+    if (clock != "auto") request.shared_clock = clock == "shared";
+    Progress bar(tool.common().quiet);
+    const Diagnosis diagnosis = diagnose(request, [&](const std::string& text) { bar.line(text); });
+    bar.clear();
+    write_diagnosis(out, diagnosis);
+    tool.note("report      " + (out / "report.html").string());
+    if (tool.common().json) {
+      Tool::print(diagnosis.report);
+    } else {
+      std::cout << to_text(diagnosis);
+    }
     return Exit::kDone;
   });
 }

@@ -138,7 +138,43 @@ double Floor::pose_density(double hz, double cutoff_hz) const {
 
 double quiet_band(double dt) { return std::min(kMotionFree, 0.2 / dt); }
 
+namespace {
+
+/// Of poses at rest: what a free matrix on the direction of gravity and an offset leave, which
+/// holds every linear fault of tool and sensor.
+std::vector<Floor> floor_at_rest(const Case& study, const Signals& residual) {
+  std::vector<Eigen::RowVector4d> rows;
+  Eigen::MatrixXd y(0, study.channel_count());
+  for (std::size_t k = 0; k < study.logs.size(); ++k) {
+    for (const auto& R : study.logs[k].motion.R_BS) {
+      rows.emplace_back(R(2, 0), R(2, 1), R(2, 2), 1.0);
+    }
+    const Index before = y.rows();
+    y.conservativeResize(before + residual[k].rows(), Eigen::NoChange);
+    y.bottomRows(residual[k].rows()) = residual[k];
+  }
+  Eigen::MatrixXd A(static_cast<Index>(rows.size()), 4);
+  for (std::size_t i = 0; i < rows.size(); ++i) A.row(static_cast<Index>(i)) = rows[i];
+  const double dof = static_cast<double>(A.rows() - 4);
+  require(dof >= 3.0, Exit::kData, study.logs.front().recording.name, ": ", A.rows(),
+          " poses cannot tell noise from faults; record at least 7");
+  Eigen::Matrix4d gram = A.transpose() * A;
+  gram.diagonal().array() += 1e-9;
+  std::vector<Floor> floors;
+  for (Index j = 0; j < y.cols(); ++j) {
+    const Eigen::VectorXd left = y.col(j) - A * gram.ldlt().solve(A.transpose() * y.col(j));
+    Floor floor;
+    floor.white = left.squaredNorm() / dof;
+    floor.source = "poses at rest, beside a free matrix on gravity and an offset";
+    floors.push_back(floor);
+  }
+  return floors;
+}
+
+}  // namespace
+
 std::vector<Floor> noise_floor(const Case& study, const Signals& residual) {
+  if (study.is_static()) return floor_at_rest(study, residual);
   const double dt = study.dt(), from = quiet_band(dt), to = 0.49 / dt;
   std::vector<Floor> floors;
   for (Index channel = 0; channel < study.channel_count(); ++channel) {
@@ -200,6 +236,11 @@ void add_pose_noise(const Case& study, std::vector<Floor>& floors) {
 }
 
 std::vector<Eigen::VectorXd> noise_level(const Case& study, const Signals& residual) {
+  if (study.is_static()) {
+    std::vector<Eigen::VectorXd> ones;
+    for (const auto& r : residual) ones.push_back(Eigen::VectorXd::Ones(r.rows()));
+    return ones;
+  }
   constexpr double kSeconds = 1.0, kSpread = 2.5;
   const Index n = std::max<Index>(8, std::llround(kSeconds / study.dt()));
   std::vector<Eigen::VectorXd> levels;

@@ -80,6 +80,35 @@ Trial Scan::evaluate(const Member& member, Detail detail) const {
   return trial;
 }
 
+std::optional<double> Scan::least_detectable(const Member& member) const {
+  constexpr double kTestable = 0.002;  // share of the energy that must be its own
+  constexpr double kPower = 1.28;      // of a normal at 90 %
+  const Eigen::MatrixXd raw = columns(member, Detail::kCoarse), own = off_model(raw);
+  Index best = 0;
+  own.colwise().squaredNorm().maxCoeff(&best);
+  const double energy = own.col(best).squaredNorm();
+  if (!(energy > kTestable * raw.col(best).squaredNorm()) || energy == 0.0) return std::nullopt;
+  const double needed = std::sqrt(30.0 + 10.0 * member.parameters()) + kPower;
+  Member unit = member;
+  double scale = 1.0;
+  if (member.amplitudes.size() > 0) {
+    unit.amplitudes.setConstant(member.amplitudes.size() == 2 ? kUnit : 0.0);
+    unit.amplitudes(best) += kUnit;
+    scale = kUnit;
+  }
+  double most = 0.0;
+  const Signals with = coarse_chain_.with(unit), &without = coarse_chain_.prediction();
+  for (Index j = 0; j < setting_.study.channel_count(); ++j) {
+    double square = 0.0, count = 0.0;
+    for (std::size_t k = 0; k < with.size(); ++k) {
+      square += (with[k].col(j) - without[k].col(j)).squaredNorm();
+      count += static_cast<double>(with[k].rows());
+    }
+    most = std::max(most, std::sqrt(square / count));
+  }
+  return most / scale * needed / std::sqrt(energy);
+}
+
 Trial Scan::refine(const Trial& start, Detail detail, int evaluations) const {
   const auto& shapes = start.member.form->shapes;
   const Index n = start.member.shapes.size();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ class Scan {
   Trial refine(const Trial& start, Detail detail = Detail::kFine, int evaluations = 40) const;
   /// Its whitened columns, (rows, amplitudes), or one column for an effect without amplitudes.
   Eigen::MatrixXd columns(const Member& member, Detail detail = Detail::kFine) const;
+  /// The least rms, in the unit of the channel it shows on most, at which the effect would be named
+  /// with a probability of 90 %; none where the model at hand can imitate it entirely.
+  std::optional<double> least_detectable(const Member& member) const;
   Eigen::MatrixXd off_model(const Eigen::MatrixXd& columns) const;
   const Eigen::VectorXd& residual() const { return residual_; }
   const Setting& setting() const { return setting_; }

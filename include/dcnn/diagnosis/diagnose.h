@@ -1,4 +1,4 @@
-// What is missing in a simulator, by the difference between it and recordings.
+// What is missing in a simulator: located, named, modelled, and shown on recordings held out.
 #pragma once
 
 #include <filesystem>
@@ -20,8 +20,35 @@ struct DiagnosisRequest {
   std::optional<bool> shared_clock;  ///< none: shared where the times do not overlap
 };
 
-/// Names what is missing. Error(kData) for recordings or simulators that cannot be used.
-Json diagnose(const DiagnosisRequest& request,
-              const std::function<void(const std::string&)>& progress);
+/// A recording on which nothing was decided, or with blocks on which nothing was.
+struct HeldOut {
+  std::string recording;
+  Eigen::VectorXd t;
+  Eigen::MatrixXd measured, before, after;  ///< (T, targets)
+  std::vector<char> held;                   ///< (T) 1 where the row was held out
+};
+
+/// A finding in the coordinate in which its law is a curve: (x, y) of what is left without it.
+struct Portrait {
+  std::string title, x_label, y_label;
+  std::vector<double> x, left, law;
+};
+
+struct Diagnosis {
+  Json report;          ///< report.json (contract.md section 5)
+  Simulator corrected;  ///< model.json
+  std::vector<HeldOut> holdout;
+  std::vector<Portrait> portraits;  ///< one per finding that has a natural coordinate
+};
+
+/// Error(kData) for recordings or simulators that cannot be used. `progress` is told in words what
+/// is being done; it may be empty.
+Diagnosis diagnose(const DiagnosisRequest& request,
+                   const std::function<void(const std::string&)>& progress);
+
+/// What was found, in one plain sentence.
+std::string headline(const Json& report);
+/// The headline, then ten lines: what the terminal shows.
+std::string to_text(const Diagnosis& diagnosis);
 
 }  // namespace dcnn

@@ -1,0 +1,80 @@
+#include "diagnosis/holdout.h"
+
+#include <cmath>
+
+namespace dcnn {
+namespace {
+
+constexpr double kBlock = 5.0, kGuard = 0.5, kEnds = 0.5;  // s
+constexpr int kEvery = 5;
+
+}  // namespace
+
+std::vector<Span> held_out_blocks(const Case& study, bool with_guards) {
+  std::vector<Span> spans;
+  const double guard = with_guards ? kGuard : 0.0;
+  for (std::size_t k = 0; k < study.logs.size(); ++k) {
+    const Motion& motion = study.logs[k].motion;
+    if (motion.is_static()) continue;
+    const double first = motion.t(0), last = motion.t(motion.samples() - 1);
+    for (double t = first + (kEvery - 3) * kBlock; t + kBlock <= last; t += kEvery * kBlock) {
+      spans.push_back({k, t - guard, t + kBlock + guard});
+    }
+  }
+  return spans;
+}
+
+HoldOut::HoldOut(const Case& fitted, const Case& recordings) {
+  const bool own = !recordings.logs.empty();
+  study_ = own ? recordings : fitted;
+  if (own && !study_.is_static()) set_derivative(study_, fitted.derivative);
+  const auto blocks = held_out_blocks(study_, false);
+  for (std::size_t k = 0; k < study_.logs.size(); ++k) {
+    const Motion& motion = study_.logs[k].motion;
+    std::vector<char> held(static_cast<std::size_t>(motion.samples()), own ? 1 : 0);
+    for (Index i = 0; i < motion.samples() && !motion.is_static(); ++i) {
+      const double t = motion.t(i);
+      char& row = held[static_cast<std::size_t>(i)];
+      for (const Span& span : blocks) {
+        if (!own && span.log == k && t >= span.begin && t < span.end) row = 1;
+      }
+      if (t < motion.t(0) + kEnds || t > motion.t(motion.samples() - 1) - kEnds) row = 0;
+    }
+    held_.push_back(held);
+  }
+}
+
+Signals HoldOut::prediction(const std::vector<Member>& members) const {
+  return predict(study_, members);
+}
+
+std::vector<double> HoldOut::rmse(const std::vector<Member>& members) const {
+  const Signals predicted = prediction(members);
+  std::vector<double> result;
+  for (Index j = 0; j < study_.channel_count(); ++j) {
+    double square = 0.0, count = 0.0;
+    for (std::size_t k = 0; k < predicted.size(); ++k) {
+      for (Index i = 0; i < predicted[k].rows(); ++i) {
+        if (!held_[k][static_cast<std::size_t>(i)]) continue;
+        const double error = predicted[k](i, j) - study_.logs[k].measured(i, j);
+        square += error * error;
+        count += 1.0;
+      }
+    }
+    result.push_back(count > 0.0 ? std::sqrt(square / count) : 0.0);
+  }
+  return result;
+}
+
+std::vector<HeldOut> HoldOut::records(const std::vector<Member>& members) const {
+  const Signals before = prediction({}), after = prediction(members);
+  std::vector<HeldOut> records;
+  for (std::size_t k = 0; k < after.size(); ++k) {
+    const Log& log = study_.logs[k];
+    records.push_back(
+        {log.recording.name, log.motion.t, log.measured, before[k], after[k], held_[k]});
+  }
+  return records;
+}
+
+}  // namespace dcnn

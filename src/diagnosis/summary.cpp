@@ -1,0 +1,89 @@
+// The diagnosis in a sentence and ten lines.
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "dcnn/diagnosis/diagnose.h"
+#include "diagnosis/words.h"
+
+namespace dcnn {
+namespace {
+
+double mean_of(const Json& list) {
+  double sum = 0.0;
+  for (const Json& v : list) sum += v.get<double>();
+  return list.empty() ? 0.0 : sum / static_cast<double>(list.size());
+}
+
+/// The channel on which the findings gain most.
+std::size_t telling_channel(const Json& fit) {
+  std::size_t best = 0;
+  double most = -1.0;
+  for (std::size_t j = 0; j < fit["holdout_rmse_before"].size(); ++j) {
+    const double gain = fit["holdout_rmse_before"][j].get<double>() /
+                        std::max(1e-12, fit["holdout_rmse_after"][j].get<double>());
+    if (gain > most) most = gain, best = j;
+  }
+  return best;
+}
+
+std::string capitalised(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+}  // namespace
+
+std::string headline(const Json& report) {
+  const Json& fit = report["fit"];
+  const std::size_t j = telling_channel(fit);
+  const auto unit = report["units"][j].get<std::string>();
+  const auto at = [&](const char* key) { return brief(fit[key][j].get<double>()); };
+  if (report["verdict"] == "consistent") {
+    return "Nothing is missing: the simulator leaves " + at("holdout_rmse_before") + " " + unit +
+           " on held-out data, the sensor's noise is " + at("noise_floor") + " " + unit + ".";
+  }
+  std::string text;
+  for (const Json& finding : report["findings"]) {
+    text += (text.empty() ? "" : "; ") + finding["words"].get<std::string>();
+  }
+  if (!report["unnamed"]["words"].is_null()) {
+    text += (text.empty() ? "" : "; and ") + report["unnamed"]["words"].get<std::string>();
+  }
+  return capitalised(text) + ". The hold-out error of " + report["targets"][j].get<std::string>() +
+         " falls from " + at("holdout_rmse_before") + " to " + at("holdout_rmse_after") + " " +
+         unit + ", the sensor's noise is " + at("noise_floor") + " " + unit + ".";
+}
+
+std::string to_text(const Diagnosis& diagnosis) {
+  const Json& report = diagnosis.report;
+  const Json& fit = report["fit"];
+  std::ostringstream out;
+  out << headline(report) << "\n\n";
+  out << "verdict     " << report["verdict"].get<std::string>() << "\n";
+  for (const Json& finding : report["findings"]) {
+    out << "found       " << finding["effect"].get<std::string>();
+    if (!finding["axis"].is_null()) out << " " << finding["axis"].get<std::string>();
+    for (const auto& [name, number] : finding["parameters"].items()) {
+      out << "  " << name << " " << brief(number["value"].get<double>()) << " ["
+          << brief(number["ci95"][0].get<double>()) << ", "
+          << brief(number["ci95"][1].get<double>()) << "]";
+    }
+    if (!finding["alternatives"].empty()) out << "  or " << finding["alternatives"].dump();
+    out << "\n";
+  }
+  out << "hold-out    before " << brief(mean_of(fit["holdout_rmse_before"]));
+  if (!fit["holdout_rmse_parameters"].is_null()) {
+    out << ", own numbers refitted " << brief(mean_of(fit["holdout_rmse_parameters"]));
+  }
+  out << ", after " << brief(mean_of(fit["holdout_rmse_after"])) << ", noise "
+      << brief(mean_of(fit["noise_floor"])) << " (mean of the axes)\n";
+  if (!report["next_motion"].is_null()) {
+    out << "next        to tell " << report["next_motion"]["separates"][0].get<std::string>()
+        << " from " << report["next_motion"]["separates"][1].get<std::string>() << ": "
+        << report["next_motion"]["words"].get<std::string>() << "\n";
+  }
+  return out.str();
+}
+
+}  // namespace dcnn

@@ -1,0 +1,148 @@
+#include "diagnosis/words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+namespace dcnn {
+namespace {
+
+using Numbers = std::vector<Estimate>;
+
+double value_of(const Numbers& numbers, const std::string& name) {
+  for (const Estimate& e : numbers) {
+    if (e.name == name) return e.value;
+  }
+  return 0.0;
+}
+
+/// Length of a vector among the numbers: all whose names begin so and end so.
+double length_of(const Numbers& numbers, const std::string& begin, const std::string& end) {
+  double square = 0.0;
+  for (const Estimate& e : numbers) {
+    if (e.name.starts_with(begin) && e.name.ends_with(end)) square += e.value * e.value;
+  }
+  return std::sqrt(square);
+}
+
+std::string place(const std::string& axis) {
+  if (axis == "tool_z") return " along the tool";
+  if (axis.starts_with("base_")) return " along the base's " + axis.substr(5) + " axis";
+  if (axis.starts_with("w_sensor_"))
+    return " against turning about the sensor's " + axis.substr(9) + " axis";
+  if (axis.starts_with("sensor_")) return " along the sensor's " + axis.substr(7) + " axis";
+  const auto colon = axis.find(':');
+  if (colon == std::string::npos) return "";
+  return place(axis.substr(colon + 1)) + " in the angle " + axis.substr(0, colon);
+}
+
+std::string milli(double value, const char* unit) { return brief(1e3 * value) + " " + unit; }
+
+}  // namespace
+
+std::string brief(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string in_words(const Member& member, const Numbers& n) {
+  const std::string id = member.name(), where = place(member.axis);
+  const auto number = [&](const char* name) { return brief(value_of(n, name)); };
+  if (id == "mass") {
+    const double d = value_of(n, "delta_mass_kg");
+    return "the tool is " + milli(std::abs(d), "g") + (d > 0 ? " heavier" : " lighter") +
+           " than simulated";
+  }
+  if (id == "com")
+    return "the centre of mass is " + milli(length_of(n, "delta_com", "_m"), "mm") +
+           " away from where it is simulated";
+  if (id == "gravity_tilt")
+    return "the robot's base is tilted by " + milli(length_of(n, "tilt", "_rad"), "mrad");
+  if (id == "inertial_terms")
+    return "the simulation leaves out inertial terms that the recordings show";
+  if (id == "coulomb_friction") return "dry friction of " + number("fc_n") + " N" + where;
+  if (id == "viscous_friction") return "viscous friction of " + number("c_nspm") + " N s/m" + where;
+  if (id == "stribeck_friction")
+    return "friction that falls from " + number("fs_n") + " to " + number("fc_n") +
+           " N with speed" + where;
+  if (id == "quadratic_drag") return "drag of " + number("c2_ns2pm2") + " N s^2/m^2" + where;
+  if (id == "lugre_friction")
+    return "friction of " + number("fc_n") + " N that first gives way elastically" + where;
+  if (id == "hysteresis")
+    return "a cable with hysteresis of " + brief(std::abs(value_of(n, "force_n"))) + " N" + where;
+  if (id == "cable_spring")
+    return "a cable or hose that pulls with " + number("k_nprad") + " N/rad" + where;
+  if (id == "cogging")
+    return "a force of " + number("amp_n") + " N that repeats " + number("order") +
+           " times a turn" + where;
+  if (id == "loose_load")
+    return "a part of about " + milli(value_of(n, "slug_kg"), "g") + " that slides between stops" +
+           where;
+  if (id == "flexible_resonance") return "the tool rings at " + number("freq_hz") + " Hz" + where;
+  if (id == "contact") return "a foreign force of " + brief(length_of(n, "force", "_n")) + " N";
+  if (id == "bias") return "a constant offset of " + brief(length_of(n, "delta_bias", "_n")) + " N";
+  if (id == "misalignment")
+    return "the sensor's axes are turned by " + milli(length_of(n, "rot", "_rad"), "mrad");
+  if (id == "gain")
+    return "the sensor's scale is off by up to " +
+           brief(100.0 * std::max({std::abs(value_of(n, "gain_x")), std::abs(value_of(n, "gain_y")),
+                                   std::abs(value_of(n, "gain_z"))})) +
+           " %";
+  if (id == "crosstalk")
+    return "the sensor's axes leak into each other, by " + brief(100.0 * length_of(n, "c_", "")) +
+           " % in all";
+  if (id == "time_delay")
+    return "the force lags the pose by " + milli(value_of(n, "delay_s"), "ms");
+  if (id == "lowpass")
+    return "the sensor smooths with a time constant of " + milli(value_of(n, "tau_s"), "ms");
+  if (id == "thermal_drift") return "the sensor's offset drifts with its temperature";
+  if (id == "linear_drift")
+    return "the sensor's offset grows by " + milli(60.0 * length_of(n, "rate", "_nps"), "mN") +
+           " a minute";
+  if (id == "step_bias")
+    return "the sensor's offset jumps by " + brief(length_of(n, "step", "_n")) + " N";
+  if (id == "saturation") return "the reading is clipped at " + number("limit_n") + " N" + where;
+  if (id == "quantisation")
+    return "the reading comes in steps of " + milli(value_of(n, "step_n"), "mN");
+  if (id == "hum") return "a hum at " + number("freq_hz") + " Hz";
+  return std::string(member.kind->meaning) + where;
+}
+
+std::string separating_motion(const std::string& one, const std::string& other) {
+  static const std::map<std::string, std::string> kMotions{
+      {"mass",
+       "tilt the tool slowly through all directions and lift it quickly: weight and inertia scale "
+       "alike, a gain does not"},
+      {"com", "turn the tool quickly in place, about all three axes"},
+      {"gravity_tilt",
+       "hold still in poses all over the sphere of orientations, above all with the tool sideways"},
+      {"coulomb_friction", "move along the axis at three speeds over a decade, to and fro"},
+      {"viscous_friction", "move along the axis at three speeds over a decade, to and fro"},
+      {"stribeck_friction", "creep along the axis, from 0.5 to 50 mm/s"},
+      {"quadratic_drag", "make fast and slow strokes along the axis"},
+      {"lugre_friction", "reverse many times, with small and large strokes at one speed"},
+      {"hysteresis", "turn to and fro in place over small and large angles"},
+      {"cable_spring", "turn slowly through the whole range of the angle and stop on the way"},
+      {"cogging", "turn through the whole range of the angle at two speeds"},
+      {"time_delay",
+       "shake the tool with content above 5 Hz: a delay keeps the amplitude, a low-pass does not"},
+      {"lowpass",
+       "shake the tool with content above 5 Hz: a delay keeps the amplitude, a low-pass does not"},
+      {"flexible_resonance", "tap the tool, or sweep from 1 to 20 Hz"},
+      {"bias", "turn the tool by 180 degrees: an offset stays, a weight or a spring turns"},
+      {"thermal_drift", "record three times as long, and again when warm"},
+      {"linear_drift", "record three times as long, and again when warm"},
+      {"hum", "hold still for a while"},
+      {"misalignment", "load one axis of the sensor after the other"},
+      {"crosstalk", "load one axis of the sensor after the other"},
+      {"gain", "hang a known weight on the tool in several orientations"}};
+  for (const auto& id : {one, other}) {
+    const auto found = kMotions.find(id);
+    if (found != kMotions.end()) return found->second;
+  }
+  return "record longer, with a richer motion";
+}
+
+}  // namespace dcnn

@@ -1,0 +1,206 @@
+#include "dcnn/experiment/diagnosis_report.h"
+
+#include <algorithm>
+
+#include "dcnn/core/file.h"
+#include "dcnn/data/csv.h"
+#include "dcnn/experiment/report.h"
+
+namespace dcnn {
+namespace {
+
+std::vector<double> list_of(const Eigen::VectorXd& v) { return {v.begin(), v.end()}; }
+
+std::string number(const Json& value) {
+  if (value.is_null()) return "";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value.get<double>());
+  return text;
+}
+
+std::string text_of(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump();
+}
+
+void add_errors(const Json& report, HtmlReport& page) {
+  page.heading("Error on held-out data");
+  const Json& fit = report["fit"];
+  std::vector<std::vector<std::string>> rows;
+  Chart chart{"RMSE on held-out data", "", "RMSE", {}, {}, false, 720, 280, true};
+  const std::vector<std::pair<const char*, const char*>> stages{
+      {"holdout_rmse_before", "as given"},
+      {"holdout_rmse_parameters", "own numbers refitted"},
+      {"holdout_rmse_after", "with all findings"},
+      {"noise_floor", "sensor's noise"}};
+  for (const auto& [key, label] : stages) {
+    if (fit[key].is_null()) continue;
+    Series series{label, {}, {}, {}, Series::Style::kMarkers};
+    std::vector<std::string> row{label};
+    for (std::size_t j = 0; j < fit[key].size(); ++j) {
+      series.x.push_back(static_cast<double>(j));
+      series.y.push_back(fit[key][j].get<double>());
+      row.push_back(number(fit[key][j]));
+    }
+    rows.push_back(row);
+    chart.series.push_back(series);
+  }
+  std::vector<std::string> header{"RMSE"};
+  for (std::size_t j = 0; j < report["targets"].size(); ++j) {
+    const auto name = report["targets"][j].get<std::string>();
+    header.push_back(name + " [" + report["units"][j].get<std::string>() + "]");
+    chart.categories.push_back(name);
+  }
+  page.table(header, rows);
+  page.chart(chart, "The first and last 0.5 s of each recording are left out.");
+}
+
+void add_findings(const Json& report, HtmlReport& page) {
+  page.heading("Findings");
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& f : report["findings"]) {
+    std::string parameters;
+    for (const auto& [name, p] : f["parameters"].items()) {
+      parameters += (parameters.empty() ? "" : "; ") + name + " = " + number(p["value"]) + " [" +
+                    number(p["ci95"][0]) + ", " + number(p["ci95"][1]) + "] " +
+                    p["unit"].get<std::string>();
+    }
+    std::string alternatives;
+    for (const Json& a : f["alternatives"]) {
+      alternatives += (alternatives.empty() ? "" : ", ") + a.get<std::string>();
+    }
+    rows.push_back({text_of(f["effect"]), text_of(f["axis"]), parameters, number(f["confidence"]),
+                    number(f["holdout_gain"]), alternatives});
+  }
+  if (rows.empty()) {
+    page.paragraph("No effect is named.");
+    return;
+  }
+  page.table({"effect", "axis", "parameters with 95 % intervals", "confidence", "hold-out gain",
+              "cannot be excluded"},
+             rows);
+}
+
+void add_portraits(const Diagnosis& diagnosis, HtmlReport& page) {
+  if (diagnosis.portraits.empty()) return;
+  page.heading("Each finding in its own coordinate");
+  for (const Portrait& p : diagnosis.portraits) {
+    Chart chart{p.title, p.x_label, p.y_label, {}, {}, false, 720, 320};
+    chart.series.push_back({"left without it", p.x, p.left, {}, Series::Style::kMarkers});
+    std::vector<std::size_t> order(p.x.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return p.x[a] < p.x[b]; });
+    Series law{"the law", {}, {}, {}, Series::Style::kMarkers};
+    for (const std::size_t i : order) {
+      law.x.push_back(p.x[i]);
+      law.y.push_back(p.law[i]);
+    }
+    chart.series.push_back(law);
+    page.chart(chart, "Means over 20 ms of what the model without this finding leaves.");
+  }
+}
+
+void add_traces(const Diagnosis& diagnosis, HtmlReport& page) {
+  if (diagnosis.holdout.empty()) return;
+  page.heading("Held-out recording, before and after");
+  const HeldOut& record = diagnosis.holdout.front();
+  for (Eigen::Index j = 0; j < record.measured.cols(); ++j) {
+    const auto& target = diagnosis.report["targets"][static_cast<std::size_t>(j)];
+    const auto& unit = diagnosis.report["units"][static_cast<std::size_t>(j)];
+    Chart chart{target.get<std::string>() + ": measured - simulated",
+                "time [s]",
+                "difference [" + unit.get<std::string>() + "]",
+                {},
+                {},
+                false,
+                720,
+                240};
+    const Eigen::VectorXd before = record.measured.col(j) - record.before.col(j);
+    const Eigen::VectorXd after = record.measured.col(j) - record.after.col(j);
+    chart.series.push_back({"as given", list_of(record.t), list_of(before), {}});
+    chart.series.push_back({"with all findings", list_of(record.t), list_of(after), {}});
+    page.chart(chart, record.recording);
+  }
+}
+
+void add_places(const Json& report, HtmlReport& page) {
+  page.heading("Where the simulator as given differs");
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& a : report["where"]["axes"]) {
+    rows.push_back({"axis " + text_of(a["axis"]), number(a["share"]), number(a["excess_rms"])});
+  }
+  for (const Json& s : report["where"]["segments"]) {
+    rows.push_back(
+        {"time " + number(s["interval_s"][0]) + " to " + number(s["interval_s"][1]) + " s",
+         number(s["share"]), number(s["excess_rms"])});
+  }
+  for (const Json& r : report["where"]["regimes"]) {
+    rows.push_back({text_of(r["signal"]) + ": " + text_of(r["condition"]), number(r["share"]), ""});
+  }
+  for (const Json& b : report["where"]["bands"]) {
+    rows.push_back(
+        {number(b["hz"][0]) + " to " + number(b["hz"][1]) + " Hz", number(b["share"]), ""});
+  }
+  page.table({"place", "share of the excess", "excess rms"}, rows);
+}
+
+void add_limits(const Json& report, HtmlReport& page) {
+  page.heading("What was not found, and from which size on it would have been");
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& n : report["not_detected"]) {
+    rows.push_back({text_of(n["effect"]), number(n["minimum_detectable_rms"]), ""});
+  }
+  for (const Json& n : report["not_testable"]) {
+    rows.push_back({text_of(n["effect"]), "", text_of(n["why"])});
+  }
+  page.table({"effect", "least detectable rms [unit of the target]", "not testable because"}, rows);
+}
+
+}  // namespace
+
+std::string to_html(const Diagnosis& diagnosis) {
+  const Json& report = diagnosis.report;
+  HtmlReport page("Diagnosis: what the simulator leaves out");
+  page.paragraph(headline(report));
+  page.paragraph("Verdict: " + report["verdict"].get<std::string>() + ".");
+  add_findings(report, page);
+  add_errors(report, page);
+  add_portraits(diagnosis, page);
+  add_traces(diagnosis, page);
+  add_places(report, page);
+  add_limits(report, page);
+  if (!report["next_motion"].is_null()) {
+    page.heading("Next motion");
+    page.paragraph("To tell " + text_of(report["next_motion"]["separates"][0]) + " from " +
+                   text_of(report["next_motion"]["separates"][1]) + ": " +
+                   text_of(report["next_motion"]["words"]) + ".");
+  }
+  return page.html();
+}
+
+void write_diagnosis(const std::filesystem::path& folder, const Diagnosis& diagnosis) {
+  const auto targets = diagnosis.report["targets"].get<std::vector<std::string>>();
+  const bool blocks = diagnosis.report["holdout_recordings"].empty();
+  for (std::size_t k = 0; k < diagnosis.holdout.size(); ++k) {
+    const HeldOut& record = diagnosis.holdout[k];
+    Table table;
+    table.columns = {"t"};
+    table.columns.insert(table.columns.end(), targets.begin(), targets.end());
+    const Eigen::Index width = record.after.cols();
+    table.values.resize(record.after.rows(), 1 + width + (blocks ? 1 : 0));
+    table.values.col(0) = record.t;
+    table.values.middleCols(1, width) = record.after;
+    if (blocks) {
+      table.columns.push_back("held_out");
+      for (Eigen::Index i = 0; i < record.after.rows(); ++i) {
+        table.values(i, 1 + width) = record.held[static_cast<std::size_t>(i)];
+      }
+    }
+    write_csv(folder / ("holdout_" + std::to_string(k) + "_pred.csv"), table);
+  }
+  write_file(folder / "model.json", to_json(diagnosis.corrected).dump(2) + "\n");
+  write_file(folder / "report.json", diagnosis.report.dump(2) + "\n");
+  write_file(folder / "report.html", to_html(diagnosis));
+}
+
+}  // namespace dcnn
