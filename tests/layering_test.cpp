@@ -19,10 +19,10 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"data", {"core"}},
     {"physics", {"core", "data"}},
     {"models", {"core", "nn", "data", "physics"}},
-    {"diagnose", {"core", "data", "physics"}},
+    {"diagnosis", {"core", "data", "physics"}},
     {"runtime", {"core", "nn", "data", "models"}},
-    {"experiment", {"core", "nn", "data", "physics", "models", "diagnose", "runtime"}},
-    {"tools", {"core", "nn", "data", "physics", "models", "diagnose", "runtime", "experiment"}}};
+    {"experiment", {"core", "nn", "data", "physics", "models", "diagnosis", "runtime"}},
+    {"tools", {"core", "nn", "data", "physics", "models", "diagnosis", "runtime", "experiment"}}};
 
 /// The includes in `text` that a file of `room` may not have.
 std::vector<std::string> wrong_includes(const std::string& room, const std::string& text) {
@@ -70,7 +70,7 @@ TEST(Layering, CheckerSeesAWrongInclude) {
       wrong_includes("core", "#include <sys/stat.h>\n#include \"dcnn/core/file.h\"").empty());
   EXPECT_EQ(wrong_includes("core", "//\n#include \"dcnn/nn/layer.h\"").size(), 1U);
   EXPECT_EQ(wrong_includes("nn", "# include <dcnn/data/csv.h>").size(), 1U);
-  EXPECT_EQ(wrong_includes("diagnose", "#include \"models/a.h\"\n#include \"nn/b.h\"").size(), 2U);
+  EXPECT_EQ(wrong_includes("diagnosis", "#include \"models/a.h\"\n#include \"nn/b.h\"").size(), 2U);
   EXPECT_EQ(wrong_includes("unlisted", "#include \"dcnn/core/file.h\"").size(), 1U);
 }
 

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kFinestStep = 0.9e-3;  // N
 constexpr Index kFewestClipped = 20;
-constexpr double kFastHz = 25.0;  // half the rate of the block means
+constexpr double kNearLimit = 0.25;  // s, in which noise is clipped and the mean is not the force
+constexpr double kFastHz = 25.0;     // half the rate of the block means
 
 /// The finest difference between neighbouring values, if all differences are multiples of it.
 double lattice(const Signals& measured, Index channel) {
@@ -119,9 +120,9 @@ std::vector<Clipping> clipping(const Case& study) {
         ++total;
         const double t = study.logs[k].motion.t(i);
         if (clip.spans.empty() || clip.spans.back().log != k || t > clip.spans.back().end) {
-          clip.spans.push_back({k, t - 0.05, t + 0.05});
+          clip.spans.push_back({k, t - kNearLimit, t + kNearLimit});
         }
-        clip.spans.back().end = t + 0.05;
+        clip.spans.back().end = t + kNearLimit;
       }
     }
     if (total >= kFewestClipped && longest >= 5) list.push_back(clip);

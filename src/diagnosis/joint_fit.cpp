@@ -77,6 +77,12 @@ Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b
   return scale.cwiseProduct(gram.ldlt().solve(scaled.transpose() * b));
 }
 
+Eigen::MatrixXd appended(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd both(b.rows(), a.cols() + b.cols());
+  both << a, b;
+  return both;
+}
+
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
   Eigen::MatrixXd basis(columns.rows(), columns.cols());
   Index count = 0;

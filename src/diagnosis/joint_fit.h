@@ -39,6 +39,9 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members);
 /// data leave open.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
+/// The columns of a, then those of b.
+Eigen::MatrixXd appended(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
 /// An orthonormal basis of the columns.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
 

@@ -15,8 +15,8 @@ struct DerivativeSpec {
   enum class Kind { kSavitzkyGolay, kCausalSavitzkyGolay, kCentral, kSpline, kSpectral };
   Kind kind = Kind::kSavitzkyGolay;
   double window_s = 0.1;
-  double cutoff_hz = 11.0;  ///< spectral: |H| = 1/(1 + (f/cutoff)^8), zero phase
   int order = 3;            ///< degree of the local polynomial (sg: 3, sg_causal: 2 by default)
+  double cutoff_hz = 11.0;  ///< spectral: |H| = 1/(1 + (f/cutoff)^8), zero phase
 
   /// Number of samples in the window: 2·round(window_s/(2·dt)) + 1, at least order + 4 (odd).
   int window(double dt) const;

@@ -1,0 +1,72 @@
+// The effects that would gain most next to a model.
+#include <algorithm>
+#include <map>
+
+#include "diagnosis/candidates.h"
+#include "diagnosis/events.h"
+#include "diagnosis/search.h"
+
+namespace dcnn {
+namespace {
+
+constexpr Index kFine = 6;            // of these, looked at in full detail
+constexpr std::size_t kRefined = 10;  // candidates whose shapes are refined before a decision
+
+bool same_place(const Member& a, const Member& b) {
+  return a.kind == b.kind && a.axis == b.axis && !a.interval_s && !b.interval_s;
+}
+
+}  // namespace
+
+std::vector<Trial> Search::additions(const JointFit& fit) const {
+  const Scan scan(*setting_, fit);
+  const Signals left = difference(study_, scan.chain().prediction());
+  const std::vector<Member> list = candidates(scan, left, floors_);
+  std::vector<Trial> trials(list.size());
+  for_each_piece(static_cast<Index>(list.size()), [&](Index k) {
+    const Member& member = list[static_cast<std::size_t>(k)];
+    const bool taken = std::any_of(fit.members.begin(), fit.members.end(),
+                                   [&](const Member& m) { return same_place(m, member); });
+    if (!taken) trials[static_cast<std::size_t>(k)] = scan.evaluate(member, Detail::kCoarse);
+  });
+  // The best seed of each effect and axis, then the best axes of each effect.
+  std::map<std::string, Trial> places;
+  for (const Trial& trial : trials) {
+    if (!trial.member.kind || trial.gain <= 0.0) continue;
+    Trial& best = places[trial.member.name() + " " + trial.member.axis];
+    if (trial.gain > best.gain) best = trial;
+  }
+  std::vector<Trial> ranked;
+  for (const auto& [place, trial] : places) ranked.push_back(trial);
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const Trial& a, const Trial& b) { return a.gain > b.gain; });
+  std::map<std::string, int> seen;
+  std::vector<Trial> chosen;
+  for (const Trial& trial : ranked) {
+    if (seen[trial.member.name()]++ >= 2) continue;
+    if (chosen.size() >= kRefined && trial.gain < 0.3 * ranked.front().gain) break;
+    chosen.push_back(trial);
+    if (chosen.size() >= 2 * kRefined) break;
+  }
+  const auto by_net_gain = [](const Trial& a, const Trial& b) {
+    return a.net_gain() > b.net_gain();
+  };
+  for_each_piece(static_cast<Index>(chosen.size()), [&](Index k) {
+    Trial& trial = chosen[static_cast<std::size_t>(k)];
+    trial = scan.refine(trial, Detail::kCoarse, 40);
+  });
+  std::stable_sort(chosen.begin(), chosen.end(), by_net_gain);
+  for_each_piece(std::min<Index>(kFine, static_cast<Index>(chosen.size())), [&](Index k) {
+    Trial& trial = chosen[static_cast<std::size_t>(k)];
+    trial = scan.refine(scan.evaluate(trial.member, Detail::kFine), Detail::kFine, 14);
+  });
+  if (!study_.is_static() && events_allowed_) {
+    chosen.push_back(find_contact(scan));
+    chosen.push_back(find_step(scan));
+  }
+  std::erase_if(chosen, [](const Trial& trial) { return trial.gain <= 0.0; });
+  std::stable_sort(chosen.begin(), chosen.end(), by_net_gain);
+  return chosen;
+}
+
+}  // namespace dcnn

@@ -1,0 +1,66 @@
+// Floor, whitening and nuisance for what a set of members leaves.
+#include "diagnosis/search.h"
+
+namespace dcnn {
+namespace {
+
+/// 0 for blocks within one of the spans.
+Eigen::VectorXd mask_of(const Whitener& whitener, const std::vector<Span>& a,
+                        const std::vector<Span>& b) {
+  Eigen::VectorXd mask = Eigen::VectorXd::Ones(whitener.rows());
+  for (const auto* list : {&a, &b}) {
+    for (const Span& span : *list) {
+      for (std::size_t row = 0; row < whitener.row_info().size(); ++row) {
+        const auto& at = whitener.row_info()[row];
+        if (at.log == span.log && at.t >= span.begin && at.t <= span.end) {
+          mask(static_cast<Index>(row)) = 0.0;
+        }
+      }
+    }
+  }
+  return mask;
+}
+
+}  // namespace
+
+void Search::make_setting(const std::vector<Member>& members) {
+  const Signals prediction = predict(study_, members);
+  left_ = difference(study_, prediction);
+  Signals measured;
+  for (const Log& log : study_.logs) measured.push_back(log.measured);
+  floors_ = noise_floor(study_, left_);
+  add_pose_noise(study_, floors_);
+  const Whitener whitener(study_, floors_, noise_level(study_, left_));
+  const Index stride = whitener.coarse_stride();
+  setting_ = std::make_unique<Setting>(Setting{
+      study_, whitener, thinned(study_, stride), whitener.at_stride(stride), measured, {}, {}});
+  const Index rows = setting_->whitener.rows();
+  setting_->mask = mask_of(setting_->whitener, held_out_, masked_);
+  setting_->nuisance.resize(rows, 0);
+  for (std::size_t k = 0; k < study_.logs.front().regressors.size(); ++k) {
+    Signals column;
+    for (const Log& log : study_.logs) column.push_back(log.regressors[k]);
+    setting_->nuisance = appended(setting_->nuisance, setting_->whitened(column));
+  }
+  if (study_.is_static()) return;
+  // What a little more or less smoothing changes, per channel.
+  for (const Case* other : {&softer_, &harder_}) {
+    const Signals there = predict(*other, members);
+    for (Index j = 0; j < study_.channel_count(); ++j) {
+      Signals change;
+      for (std::size_t k = 0; k < there.size(); ++k) {
+        change.push_back(Eigen::MatrixXd::Zero(there[k].rows(), there[k].cols()));
+        change.back().col(j) = there[k].col(j) - prediction[k].col(j);
+      }
+      setting_->nuisance = appended(setting_->nuisance, setting_->whitened(change));
+    }
+  }
+}
+
+void Search::settle(const std::vector<Member>& members) {
+  make_setting(members);
+  fit_ = joint_fit(*setting_, members);
+  left_ = difference(study_, predict(study_, fit_.members));
+}
+
+}  // namespace dcnn

@@ -1,0 +1,100 @@
+// The zero-phase smoother of the pose, chosen on the force (never on the pose: on slow scans motion
+// lies below the pose's noise that still stands in the force).
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/candidates.h"
+#include "diagnosis/search.h"
+
+namespace dcnn {
+namespace {
+
+/// dF/dt and d2F/dt2 of the prediction: what a delay or a low-pass looks like when small.
+std::vector<Signals> lag_columns(const Case& study, const Signals& prediction) {
+  std::vector<Signals> columns(2);
+  for (std::size_t k = 0; k < prediction.size(); ++k) {
+    const Eigen::MatrixXd& f = prediction[k];
+    Eigen::MatrixXd first = Eigen::MatrixXd::Zero(f.rows(), f.cols()), second = first;
+    for (Index i = 1; i + 1 < f.rows(); ++i) {
+      first.row(i) = (f.row(i + 1) - f.row(i - 1)) / (2.0 * study.dt());
+      second.row(i) = (f.row(i + 1) - 2.0 * f.row(i) + f.row(i - 1)) / (study.dt() * study.dt());
+    }
+    columns[0].push_back(first);
+    columns[1].push_back(second);
+  }
+  return columns;
+}
+
+/// Chi-square that a small linear model (tool, sensor matrix, lag, offset) beside `members` leaves.
+double linear_misfit(const Case& study, const std::vector<Member>& members) {
+  const Signals prediction = predict(study, members);
+  std::vector<Floor> floors(static_cast<std::size_t>(study.channel_count()));
+  for (auto& floor : floors) floor.white = 1.0;
+  std::vector<Eigen::VectorXd> levels;
+  Signals measured;
+  for (const Log& log : study.logs) {
+    levels.push_back(Eigen::VectorXd::Ones(log.motion.samples()));
+    measured.push_back(log.measured);
+  }
+  Case unsmoothed = study;  // its whitener must not depend on the cut-off
+  unsmoothed.derivative.kind = DerivativeSpec::Kind::kSavitzkyGolay;
+  const Whitener whitener(unsmoothed, floors, levels);
+  Setting setting{unsmoothed, whitener, unsmoothed, whitener, measured, {}, {}};
+  setting.mask = Eigen::VectorXd::Ones(setting.whitener.rows());
+  setting.nuisance.resize(setting.whitener.rows(), 0);
+  for (const auto& column : lag_columns(study, prediction)) {
+    setting.nuisance = appended(setting.nuisance, setting.whitened(column));
+  }
+  JointFit empty;
+  empty.members = members;
+  empty.tangent = setting.nuisance;
+  empty.residual = setting.whitened(difference(study, prediction));
+  const Scan scan(setting, empty);
+  Eigen::MatrixXd A = setting.nuisance;
+  for (const char* name : {"mass", "com", "gain", "crosstalk", "bias"}) {
+    const EffectKind& kind = *find_effect(name);
+    if (!is_testable(study, kind)) continue;
+    A = appended(A, scan.columns(make_member(kind, kind.fits[0], "", study.has_torque(),
+                                             Eigen::VectorXd(0))));
+  }
+  return (empty.residual - A * least_squares(A, empty.residual)).squaredNorm();
+}
+
+}  // namespace
+
+void Search::choose_cutoff(const std::vector<Member>& members) {
+  if (study_.is_static()) {
+    softer_ = harder_ = study_;
+    return;
+  }
+  say("choosing the smoother");
+  std::vector<double> grid;
+  for (double hz = 5.0; hz < std::min(45.0, 0.2 / study_.dt()); hz *= 1.4) grid.push_back(hz);
+  if (grid.empty()) grid.push_back(0.1 / study_.dt());
+  std::vector<double> misfit(grid.size());
+  const auto at = [&](double hz) {
+    Case trial = study_;
+    set_derivative(trial, {.kind = DerivativeSpec::Kind::kSpectral, .cutoff_hz = hz});
+    return linear_misfit(trial, members);
+  };
+  for_each_piece(static_cast<Index>(grid.size()), [&](Index k) {
+    misfit[static_cast<std::size_t>(k)] = at(grid[static_cast<std::size_t>(k)]);
+  });
+  const auto best =
+      static_cast<std::size_t>(std::min_element(misfit.begin(), misfit.end()) - misfit.begin());
+  double cutoff = grid[best];
+  if (best > 0 && best + 1 < grid.size()) {  // vertex of the parabola through the three
+    const double below = misfit[best - 1] - misfit[best], above = misfit[best + 1] - misfit[best];
+    cutoff *= std::pow(1.4, 0.5 * (below - above) / (below + above));
+  }
+  const auto smoothed = [&](double hz) {
+    Case other = study_;
+    set_derivative(other, {.kind = DerivativeSpec::Kind::kSpectral, .cutoff_hz = hz});
+    return other;
+  };
+  softer_ = smoothed(0.75 * cutoff);
+  harder_ = smoothed(1.4 * cutoff);
+  study_ = smoothed(cutoff);
+}
+
+}  // namespace dcnn

@@ -1,0 +1,104 @@
+// What tests of their own find, what is taken back, and what cannot be excluded.
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/detectors.h"
+#include "diagnosis/search.h"
+
+namespace dcnn {
+
+/// What tests of their own find in the raw force and at the log's rate.
+void Search::detect() {
+  for (const Clipping& clip : clipping(study_)) {
+    const EffectKind& kind = *find_effect("saturation");
+    Member member = make_member(kind, kind.fits[0],
+                                admitted_axes(AxisRule::kSensor)[static_cast<std::size_t>(
+                                    study_.channels[static_cast<std::size_t>(clip.channel)])],
+                                study_.has_torque(), Eigen::VectorXd::Constant(1, clip.limit));
+    member.fixed = true;
+    apart_.push_back(member);
+    masked_.insert(masked_.end(), clip.spans.begin(), clip.spans.end());
+  }
+  if (const double step = rounding_step(study_); step > 0.0) {
+    const EffectKind& kind = *find_effect("quantisation");
+    Member member = make_member(kind, kind.fits[0], "", study_.has_torque(),
+                                Eigen::VectorXd::Constant(1, step));
+    member.fixed = true;
+    rounding_ = member;
+    for (Case* study : {&study_, &softer_, &harder_}) {
+      study->rounding_step = step;
+      // The floor holds the rounding's own variance too.
+      const double all = floors_.front().deviation();
+      study->rounding_noise =
+          std::sqrt(std::max(all * all - step * step / 12.0, 1e-4 * step * step));
+    }
+  }
+  if (study_.is_static()) return;
+  if (const auto hum = find_fast_hum(study_, left_, floors_)) apart_.push_back(*hum);
+  const Knocks knocks = find_knocks(study_, left_, floors_);
+  if (knocks.member) {
+    knocking_ = knocks.member;
+    masked_.insert(masked_.end(), knocks.spans.begin(), knocks.spans.end());
+  }
+}
+
+/// Takes back what a remainder nobody can name makes doubtful: events, and members that fit in some
+/// places and not in others.
+void Search::judge() {
+  bands_ = band_tests(*setting_, fit_.residual);
+  const double explained = std::max(0.0, chi2_before_ - fit_.chi2);
+  remains_ = is_alarming(bands_, explained);
+  if (!remains_) return;
+  say("something is left that no effect explains: names are tested again");
+  if (events_allowed_) {
+    events_allowed_ = false;
+    std::vector<Member> rest;
+    for (const Member& m : fit_.members) {
+      if (!m.interval_s) rest.push_back(m);
+    }
+    if (rest.size() < fit_.members.size()) {
+      settle(rest);
+      explore();
+    }
+  }
+  for (bool changed = true; changed && !fit_.members.empty();) {
+    changed = false;
+    const auto tests = constancy(*setting_, fit_);
+    std::size_t worst = 0;
+    for (std::size_t m = 1; m < tests.size(); ++m) {
+      if (tests[m].z > tests[worst].z) worst = m;
+    }
+    if (!tests[worst].refutes()) break;
+    std::vector<Member> rest = fit_.members;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(worst));
+    settle(rest);
+    changed = true;
+  }
+  bands_ = band_tests(*setting_, fit_.residual);
+}
+
+std::vector<std::vector<std::string>> Search::alternatives() const {
+  constexpr double kNear = 12.0, kPerNumber = 10.0;  // of chi-square
+  std::vector<std::vector<std::string>> all(fit_.members.size());
+  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+    const Member& own = fit_.members[m];
+    if (own.fixed) continue;
+    const JointFit rest = without(m);
+    const double net = rest.chi2 - fit_.chi2 - kPerNumber * own.parameters();
+    for (const Trial& trial : additions(rest)) {
+      if (trial.member.kind == own.kind || trial.net_gain() < net - 2.0 * kNear) continue;
+      std::vector<Member> members = rest.members;
+      members.push_back(trial.member);
+      const JointFit other = joint_fit(*setting_, members);
+      // One that needs more numbers holds the named one as a special case, or it would have won.
+      const int more = std::max(0, trial.member.parameters() - own.parameters());
+      if (rest.chi2 - other.chi2 - kPerNumber * (trial.member.parameters() + more) > net - kNear &&
+          std::find(all[m].begin(), all[m].end(), trial.member.name()) == all[m].end()) {
+        all[m].push_back(trial.member.name());
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace dcnn
