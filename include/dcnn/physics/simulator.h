@@ -18,8 +18,8 @@ namespace dcnn {
 struct Simulator {
   ToolModel model;
   std::vector<EffectSpec> effects;
-  std::optional<DerivativeSpec>
-      derivative;  ///< how it was fitted to poses; else the caller's choice
+  /// How it was fitted to poses; else the caller's choice.
+  std::optional<DerivativeSpec> derivative = std::nullopt;
 };
 
 /// sim.json with an optional list `effects` and an optional `derivative`.
