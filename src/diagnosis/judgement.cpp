@@ -183,8 +183,8 @@ std::vector<std::vector<Estimate>> estimates(const Setting& setting, const Joint
     }
     if (count > 0) {
       const Eigen::MatrixXd gradient = published_gradient(member, names);
-      const auto spread = [&](const Eigen::MatrixXd& covariance) {
-        const Eigen::MatrixXd part = covariance.block(first, first, count, count);
+      const auto spread = [&, begin = first, size = count](const Eigen::MatrixXd& covariance) {
+        const Eigen::MatrixXd part = covariance.block(begin, begin, size, size);
         return Eigen::VectorXd((gradient * part * gradient.transpose()).diagonal().cwiseMax(0.0));
       };
       deviation = spread(inverse).cwiseMax(spread(sandwich)).cwiseSqrt() * kSelection;

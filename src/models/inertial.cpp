@@ -17,10 +17,9 @@ using Wrench6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kGravity = 9.81;  // m/s^2
 constexpr Index kCount = InertialParameters::RowsAtCompileTime;
-constexpr Index kBody = 10;        // of them describe the body
-constexpr double kLargest = 10.0;  // as in least_squares.cpp
-constexpr double kExact = 1e-9;    // no scatter is taken for less than this share of its target
-constexpr double kLength = 0.1;    // m: the pseudo-inertia in units in which its parts compare
+constexpr Index kBody = 10;      // of them describe the body
+constexpr double kExact = 1e-9;  // no scatter is taken for less than this share of its target
+constexpr double kLength = 0.1;  // m: the pseudo-inertia in units in which its parts compare
 const std::array<Index, kCount> kKinds{0, 1, 1, 1, 2, 2, 2, 2, 2, 2, 3, 3, 3, 4, 4, 4};
 
 Matrix3d inertia_of(const InertialParameters& p) {
