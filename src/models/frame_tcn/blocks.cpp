@@ -1,6 +1,7 @@
 #include "models/frame_tcn/blocks.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace dcnn::frame_tcn {
 
@@ -22,7 +23,10 @@ BlockMeans::BlockMeans(const Eigen::MatrixXd& x, const std::vector<Segment>& seg
 
 void BlockMeans::write(Index row, Index channel, double* out) const {
   const Index begin = begin_[static_cast<std::size_t>(row)];
-  const double first = x_(begin, channel);
+  static const Index kFirst = getenv("MFIRST") ? atol(getenv("MFIRST")) : 16;
+  const Index known_first = std::min(begin + kFirst, row + 1);
+  const double first = (sum_(known_first, channel) - sum_(begin, channel)) /
+                       static_cast<double>(known_first - begin);
   Index high = row + 1;
   for (Index k = 0; k < kBlocks; ++k) {
     const Index size = block_size(k), low = high - size;
@@ -35,7 +39,7 @@ void BlockMeans::write(Index row, Index channel, double* out) const {
 
 Eigen::MatrixXd roughness(const Eigen::MatrixXd& u, const Eigen::MatrixXd& w,
                           const std::vector<Segment>& segments) {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(u.cols(), u.rows());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Constant(u.cols(), u.rows(), kUnknown);
   for (const Segment& s : stretches(u.rows(), segments)) {
     Eigen::VectorXd sum(s.size() + 1);
     for (Index j = 0; j < u.cols(); ++j) {

@@ -13,6 +13,7 @@ constexpr Index kChannels = 15;  ///< theta, v, theta', a, theta'', three each
 constexpr Index kBlocks = 48;    ///< 8 each of 1, 2, 4, 8, 16 and 32 samples
 constexpr Index kSpan = 504;     ///< samples that the blocks cover
 constexpr Index kLevelSpan = 256;
+constexpr double kUnknown = -1.0;
 
 /// Samples of block k; k = 0 is the newest sample.
 constexpr Index block_size(Index k) { return Index{1} << (k / 8); }
@@ -33,7 +34,7 @@ class BlockMeans {
 };
 
 /// Mean over the last 256 rows of the segment of the product of the second differences of u and w,
-/// (C, N); 0 where a row has no two before it.
+/// (C, N); kUnknown where a row has no two before it.
 Eigen::MatrixXd roughness(const Eigen::MatrixXd& u, const Eigen::MatrixXd& w,
                           const std::vector<Segment>& segments);
 

@@ -11,7 +11,7 @@ namespace dcnn {
 namespace frame_tcn {
 namespace {
 
-constexpr Index kMostExperts = 64;
+constexpr Index kMostExperts = 64, kMostClouds = 256;
 
 /// Row-major, as files hold matrices.
 StoredTensor stored(const std::string& name, const Eigen::MatrixXd& m) {
@@ -40,11 +40,6 @@ Front empty_front(Index experts) {
   return front;
 }
 
-Eigen::MatrixXd standard_levels(const Net& net, const Eigen::MatrixXd& mean_square) {
-  return ((levels(mean_square).colwise() - net.level_mean).array().colwise() /
-          net.level_scale.array());
-}
-
 }  // namespace
 
 FrameTcn::FrameTcn(const Problem& problem)
@@ -68,6 +63,7 @@ FrameTcn::FrameTcn(const Container& file, const std::string& where) {
   Options options(plan, where, Exit::kModel);
   const auto experts = static_cast<Index>(options.number("experts", 0, 1, kMostExperts));
   const auto triples = static_cast<Index>(options.number("triples", 0, 1, 2));
+  const auto clouds = static_cast<Index>(options.number("clouds", 0, 1, kMostClouds));
   const bool saturation = options.get<bool>("saturation");
   options.finish();
   map_ = InputMap::parse(parse_json(stored_text(file, "map", where), where, Exit::kModel), where,
@@ -77,13 +73,13 @@ FrameTcn::FrameTcn(const Container& file, const std::string& where) {
   Rng rng(0);
   net_ = Net({experts, triples, saturation}, rng);
   spread_ = Eigen::VectorXd::Ones(triples);
+  novelty_ = Novelty(clouds);
   auto all = slots();
   for (Slot& slot : all) slot.value = loaded(file, slot.name, slot.value, where);
   assign(all);
   require((net_.scale.array() > 0.0).all() && (net_.level_scale.array() > 0.0).all() &&
               (net_.unit.array() > 0.0).all() && (spread_.array() > 0.0).all() &&
-              novelty_.calibration > 0.0 && (novelty_.limits.array() > 0.0).all() &&
-              (novelty_.range.array() > 0.0).all(),
+              (novelty_.limit.array() > 0.0).all(),
           Exit::kModel, where, ": a scale is not positive");
   require(predict({map_.mean().transpose(), {}}).allFinite(), Exit::kModel, where,
           ": its prediction at the mean of the training is not finite");
@@ -94,18 +90,16 @@ std::vector<FrameTcn::Slot> FrameTcn::slots() const {
   for (std::size_t g = 0; g < kGroups; ++g) {
     all.push_back({"convolution." + std::to_string(g), front_.weights[g]});
   }
-  Eigen::MatrixXd channels(kChannels, 4), calibration(1, 1);
+  Eigen::MatrixXd channels(kChannels, 4);
   channels << net_.mean, net_.scale, net_.level_mean, net_.level_scale;
-  calibration(0, 0) = novelty_.calibration;
   all.push_back({"parameters", net_.parameters});
   all.push_back({"channels", channels});
   all.push_back({"unit", net_.unit});
   all.push_back({"mounting", net_.mounting});
   all.push_back({"spread", spread_});
-  all.push_back({"novelty.bend", novelty_.limits});
-  all.push_back({"novelty.range", novelty_.range});
-  all.push_back({"novelty.levels", novelty_.level_span});
-  all.push_back({"novelty.calibration", calibration});
+  all.push_back({"novelty.mean", novelty_.mean});
+  all.push_back({"novelty.whiten", novelty_.whiten});
+  all.push_back({"novelty.limit", novelty_.limit});
   return all;
 }
 
@@ -121,10 +115,9 @@ void FrameTcn::assign(const std::vector<Slot>& all) {
   net_.unit = (next++)->value;
   net_.mounting = (next++)->value;
   spread_ = (next++)->value;
-  novelty_.limits = (next++)->value;
-  novelty_.range = (next++)->value;
-  novelty_.level_span = (next++)->value;
-  novelty_.calibration = (next++)->value(0, 0);
+  novelty_.mean = (next++)->value;
+  novelty_.whiten = (next++)->value;
+  novelty_.limit = (next++)->value;
 }
 
 void FrameTcn::save(Container& file) const {
@@ -132,6 +125,7 @@ void FrameTcn::save(Container& file) const {
   file.metadata["map"] = map_.to_json().dump();
   file.metadata["plan"] = Json{{"experts", net_.plan().experts},
                                {"triples", net_.plan().triples},
+                               {"clouds", novelty_.clouds()},
                                {"saturation", net_.plan().saturation}}
                               .dump();
   for (const Slot& slot : slots()) file.tensors.push_back(stored(slot.name, slot.value));
@@ -158,7 +152,7 @@ Eigen::MatrixXd FrameTcn::predict(const Stream& stream) const {
   for_each_piece((stream.rows() + kBatch - 1) / kBatch, [&](Index k) {
     const Index first = k * kBatch, count = std::min(kBatch, stream.rows() - first);
     Pass pass;
-    pass.levels = standard_levels(net_, rough.middleCols(first, count));
+    pass.levels = net_.standard_levels(rough.middleCols(first, count));
     pass.experts = front_.apply(blocks, first, count);
     net_.denoise(pass);
     net_.features(pass);
@@ -172,7 +166,8 @@ Eigen::MatrixXd FrameTcn::predict(const Stream& stream) const {
 }
 
 Eigen::VectorXd FrameTcn::novelty(const Stream& stream) const {
-  return novelty_.score(Signs(normalised(stream.x, net_.mean, net_.scale), stream.segments));
+  return novelty_.score(
+      motion_signs(normalised(stream.x, net_.mean, net_.scale), stream.segments));
 }
 
 }  // namespace frame_tcn

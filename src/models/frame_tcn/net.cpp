@@ -62,6 +62,12 @@ Eigen::Map<const Eigen::MatrixXd> Net::sensor(Index triple) const {
   return {parameters.data() + world_begin(triple) + 3 * columns_z(), columns_z(), 3};
 }
 
+Eigen::MatrixXd Net::standard_levels(const Eigen::MatrixXd& roughness) const {
+  const Eigen::ArrayXXd standard =
+      (levels(roughness).colwise() - level_mean).array().colwise() / level_scale.array();
+  return (roughness.array() < 0.5 * kUnknown).select(0.0, standard);
+}
+
 void Net::denoise(Pass& pass) const {
   const Index n = pass.columns(), experts = plan_.experts;
   if (gate_size() == 0) {

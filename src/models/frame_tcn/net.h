@@ -39,6 +39,8 @@ class Net {
   Index columns_z() const { return kSmooth + (plan_.saturation ? kSaturating : 0); }
   const Plan& plan() const { return plan_; }
 
+  /// Standardised levels of a roughness (15, n); 0 where it is not known.
+  Eigen::MatrixXd standard_levels(const Eigen::MatrixXd& roughness) const;
   /// Shares of the experts by the levels of noise, and the channels they make.
   void denoise(Pass& pass) const;
   /// z of the denoised channels: everything before the last linear map.

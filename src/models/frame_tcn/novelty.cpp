@@ -6,85 +6,86 @@
 namespace dcnn::frame_tcn {
 namespace {
 
-constexpr Index kCoarse = 8;  // blocks of 32 samples, the oldest of the 48
+constexpr Index kKinds = kChannels / 3;
+constexpr Index kFirstLong = 24;    // blocks of 8 samples and more
+constexpr Index kFirstCoarse = 40;  // the 8 blocks of 32 samples
+constexpr double kShrink = 0.1, kLeastVariance = 1e-3;
+constexpr double kRareShare = 1e-4, kMargin = 1.25;
+
+/// Mean square over the last second, the newest 56 samples aside.
+double strength(const double* means) {
+  double sum = 0.0, samples = 0.0;
+  for (Index k = kFirstLong; k < kBlocks; ++k) {
+    sum += static_cast<double>(block_size(k)) * means[k] * means[k];
+    samples += static_cast<double>(block_size(k));
+  }
+  return sum / samples;
+}
+
+/// Mean square of the second differences of the coarse means.
+double bend(const double* means) {
+  double sum = 0.0;
+  for (Index k = kFirstCoarse + 1; k + 1 < kBlocks; ++k) {
+    const double second = means[k - 1] - 2.0 * means[k] + means[k + 1];
+    sum += second * second;
+  }
+  return sum / static_cast<double>(kBlocks - kFirstCoarse - 2);
+}
 
 }  // namespace
 
-Signs::Signs(const Eigen::MatrixXd& x, const std::vector<Segment>& segments)
-    : bend(kChannels, x.rows()),
-      range(kChannels, x.rows()),
-      level(levels(roughness(x, x, segments))) {
+Eigen::MatrixXd motion_signs(const Eigen::MatrixXd& x, const std::vector<Segment>& segments) {
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(3 * kKinds, x.rows());
+  const Eigen::MatrixXd rough = roughness(x, x, segments);
   const BlockMeans blocks(x, segments);
   double means[kBlocks];
   for (Index i = 0; i < x.rows(); ++i) {
     for (Index c = 0; c < kChannels; ++c) {
       blocks.write(i, c, means);
-      const double* m = means + kBlocks - kCoarse;
-      double sum = 0.0;
-      for (Index k = 1; k + 1 < kCoarse; ++k) {
-        const double second = m[k - 1] - 2.0 * m[k] + m[k + 1];
-        sum += second * second;
-      }
-      bend(c, i) = std::sqrt(sum / (kCoarse - 2));
-      range(c, i) = std::abs(m[0]);
+      square(c / 3, i) += strength(means) / 3.0;
+      square(kKinds + c / 3, i) += bend(means) / 3.0;
+      square(2 * kKinds + c / 3, i) += std::max(rough(c, i), 0.0) / 3.0;
     }
   }
+  // At rest the logarithms would fall without end.
+  square.topRows(kKinds).array() += 1e-2;
+  square.middleRows(kKinds, kKinds).array() += 1e-6;
+  square.bottomRows(kKinds).array() += 1e-12;
+  return 0.5 * square.array().log10();
 }
 
-Novelty::Novelty()
-    : limits(Eigen::MatrixXd::Zero(kChannels, kBins)),
-      range(Eigen::MatrixXd::Zero(kChannels, kBins)),
-      level_span(kChannels, 2) {
-  level_span.col(0).setConstant(100.0);
-  level_span.col(1).setConstant(-100.0);
+Novelty::Novelty(Index clouds)
+    : mean(Eigen::MatrixXd::Zero(kSigns, clouds)),
+      whiten(Eigen::MatrixXd::Zero(kSigns, kSigns * clouds)),
+      limit(Eigen::VectorXd::Ones(clouds)) {}
+
+void Novelty::learn(Index cloud, const Eigen::MatrixXd& seen, const Eigen::MatrixXd& held_out) {
+  mean.col(cloud) = seen.rowwise().mean();
+  const Eigen::MatrixXd centred = seen.colwise() - mean.col(cloud);
+  Eigen::MatrixXd covariance = centred * centred.transpose() / static_cast<double>(seen.cols());
+  const Eigen::VectorXd variance = covariance.diagonal();
+  covariance *= 1.0 - kShrink;
+  covariance.diagonal() = variance.array() + kLeastVariance;
+  whiten.middleCols(cloud * kSigns, kSigns) =
+      Eigen::MatrixXd(covariance.llt().matrixL())
+          .triangularView<Eigen::Lower>()
+          .solve(Eigen::MatrixXd::Identity(kSigns, kSigns));
+  Eigen::VectorXd far = distance(cloud, held_out);
+  const auto rare = static_cast<Index>(kRareShare * static_cast<double>(far.size()));
+  std::nth_element(far.begin(), far.end() - 1 - rare, far.end());
+  limit[cloud] = kMargin * std::max(far[far.size() - 1 - rare], 1.0);
 }
 
-void Novelty::learn_levels(const Signs& signs) {
-  level_span.col(0) = level_span.col(0).cwiseMin(signs.level.rowwise().minCoeff());
-  level_span.col(1) = level_span.col(1).cwiseMax(signs.level.rowwise().maxCoeff());
+Eigen::VectorXd Novelty::distance(Index cloud, const Eigen::MatrixXd& signs) const {
+  return (whiten.middleCols(cloud * kSigns, kSigns) * (signs.colwise() - mean.col(cloud)))
+      .colwise()
+      .norm();
 }
 
-Index Novelty::bin(Index channel, double level) const {
-  const double low = level_span(channel, 0), high = level_span(channel, 1);
-  const double place = (level - low) / std::max(high - low, 1e-6) * static_cast<double>(kBins);
-  return std::clamp<Index>(static_cast<Index>(std::floor(place)), 0, kBins - 1);
-}
-
-void Novelty::learn(const Signs& signs) {
-  for (Index i = 0; i < signs.bend.cols(); ++i) {
-    for (Index c = 0; c < kChannels; ++c) {
-      const Index b = bin(c, signs.level(c, i));
-      limits(c, b) = std::max(limits(c, b), signs.bend(c, i));
-      range(c, b) = std::max(range(c, b), signs.range(c, i));
-    }
-  }
-}
-
-void Novelty::finish() {
-  for (Eigen::MatrixXd* m : {&limits, &range}) {
-    for (Index c = 0; c < kChannels; ++c) {
-      // More noise never lowers a limit; what was never seen counts as the least noisy one seen.
-      for (Index b = 1; b < kBins; ++b) (*m)(c, b) = std::max((*m)(c, b), (*m)(c, b - 1));
-      for (Index b = kBins - 1; b-- > 0;) {
-        if ((*m)(c, b) <= 0.0) (*m)(c, b) = (*m)(c, b + 1);
-      }
-    }
-    *m = m->cwiseMax(1e-6);
-  }
-}
-
-Eigen::VectorXd Novelty::score(const Signs& signs) const {
-  Eigen::VectorXd result(signs.bend.cols());
-  for (Index i = 0; i < result.size(); ++i) {
-    double worst = 0.0;
-    for (Index c = 0; c < kChannels; ++c) {
-      const Index b = bin(c, signs.level(c, i));
-      const double above = std::pow(10.0, signs.level(c, i) - level_span(c, 1));
-      worst = std::max({worst, signs.bend(c, i) / limits(c, b), signs.range(c, i) / range(c, b), above});
-    }
-    result[i] = worst / calibration;
-  }
-  return result;
+Eigen::VectorXd Novelty::score(const Eigen::MatrixXd& signs) const {
+  Eigen::VectorXd least = distance(0, signs) / limit[0];
+  for (Index k = 1; k < clouds(); ++k) least = least.cwiseMin(distance(k, signs) / limit[k]);
+  return least;
 }
 
 }  // namespace dcnn::frame_tcn

@@ -5,32 +5,30 @@
 
 namespace dcnn::frame_tcn {
 
-/// Of each channel and row: how strongly the means over 32 samples bend, their range, and the level.
-struct Signs {
-  Eigen::MatrixXd bend, range, level;  ///< (15, N)
-  Signs(const Eigen::MatrixXd& x, const std::vector<Segment>& segments);
-};
+/// (15, N) of each row's last second, all log10 and over the three axes of a kind (theta, v, theta',
+/// a, theta''): strength of the motion, how sharply its means over 32 samples bend, how rough it is.
+Eigen::MatrixXd motion_signs(const Eigen::MatrixXd& x, const std::vector<Segment>& segments);
 
-/// The largest bend of each channel depends on its noise: limits by bins of the level.
+/// Mahalanobis distance of the signs from the nearest of some clouds, one per range of noise.
 class Novelty {
  public:
-  static constexpr Index kBins = 8;
-  Eigen::MatrixXd limits;      ///< (15, kBins) of the bend
-  Eigen::MatrixXd range;       ///< (15, kBins) of the range
-  Eigen::MatrixXd level_span;  ///< (15, 2) least and largest level
-  double calibration = 1.0;    ///< score of one row in 10^4
+  static constexpr Index kSigns = 15;
+  Novelty() = default;
+  explicit Novelty(Index clouds);
 
-  Novelty();
-  /// Widens the limits to what these rows show.
-  void learn(const Signs& signs);
-  /// After all rows are learned: spans of levels must have been set before (see learn_levels).
-  void learn_levels(const Signs& signs);
-  /// Bins that no row fell into take the limit of their neighbour.
-  void finish();
-  Eigen::VectorXd score(const Signs& signs) const;
+  /// Cloud k: mean and shrunken covariance of `seen` (15, N); its limit is what one column in 10^4
+  /// of `held_out` exceeds, with a margin.
+  void learn(Index cloud, const Eigen::MatrixXd& seen, const Eigen::MatrixXd& held_out);
+  /// (N) distances over the limit: above 1 is outside of every cloud.
+  Eigen::VectorXd score(const Eigen::MatrixXd& signs) const;
+  Index clouds() const { return limit.size(); }
+
+  Eigen::MatrixXd mean;    ///< (15, clouds)
+  Eigen::MatrixXd whiten;  ///< (15, 15·clouds): inverses of the Cholesky factors
+  Eigen::VectorXd limit;   ///< (clouds)
 
  private:
-  Index bin(Index channel, double level) const;
+  Eigen::VectorXd distance(Index cloud, const Eigen::MatrixXd& signs) const;
 };
 
 }  // namespace dcnn::frame_tcn

@@ -50,6 +50,7 @@ Recipe::Recipe(FrameTcn& model, const Samples& training, const Samples& validati
 bool Recipe::run() {
   scale_channels();
   make_noise();
+  calibrate_novelty();
   make_filters();
   make_material();
   scale_levels();
@@ -60,7 +61,6 @@ bool Recipe::run() {
     if (!run_epoch()) return false;
   }
   model_.net_.parameters = adam_.average;
-  calibrate_novelty();
   return true;
 }
 
@@ -276,32 +276,6 @@ double Recipe::head_step(Index step) {
   const Index steps = spec_.steps * (spec_.epochs - spec_.epochs / 2);
   adam_.step(net.parameters, gradient, cosine(spec_.head_rate, step, steps), kClip, spec_.ema);
   return error.array().square().colwise().sum().matrix().dot(w);
-}
-
-void Recipe::calibrate_novelty() {
-  Novelty novelty;
-  std::vector<Signs> all;
-  const auto add = [&](const Eigen::MatrixXd& x, const std::vector<Segment>& segments) {
-    all.emplace_back(x, segments);
-  };
-  add(x_, training_.segments);
-  for (const UnitNoise& noise : noise_) {
-    for (const SnrLevel& level : spec_.noise.levels) {
-      if (level) add(x_ + std::pow(10.0, -*level / 20.0) * noise.x, training_.segments);
-    }
-  }
-  for (const Signs& signs : all) novelty.learn_levels(signs);
-  for (const Signs& signs : all) novelty.learn(signs);
-  novelty.finish();
-  if (validation_.rows() > 0) {
-    const Signs seen(normalised(validation_.x, model_.net_.mean, model_.net_.scale),
-                     validation_.segments);
-    Eigen::VectorXd score = novelty.score(seen);
-    const Index place = score.size() - 1 - static_cast<Index>(1e-4 * static_cast<double>(score.size()));
-    std::nth_element(score.begin(), score.begin() + place, score.end());
-    novelty.calibration = std::max(1.0, score[place]);
-  }
-  model_.novelty_ = novelty;
 }
 
 void Recipe::save_checkpoint() const {

@@ -54,6 +54,8 @@ class Recipe {
   bool run_epoch();
   void finish_epoch(double loss);
   void calibrate_novelty();
+  Eigen::MatrixXd signs_at(const Eigen::MatrixXd& x, const std::vector<Segment>& segments,
+                           Index first, const UnitNoise* noise, double snr) const;
   void save_checkpoint() const;
   void restore_checkpoint(const Container& file);
 

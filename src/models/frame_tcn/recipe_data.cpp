@@ -212,8 +212,7 @@ void Recipe::fill(Batch& b) const {
     if (d.source == 0) rough.col(i) += 2.0 * d.factor * noise_cross_[k].col(row).cast<double>();
   }
   const Net& net = model_.net_;
-  b.pass.levels = (levels(rough).colwise() - net.level_mean).array().colwise() /
-                  net.level_scale.array();
+  b.pass.levels = net.standard_levels(rough);
 }
 
 /// Of the expert made for this level, between its neighbours in the list.
