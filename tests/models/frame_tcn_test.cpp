@@ -30,8 +30,10 @@ Samples draw_motion(Index rows, double hz, std::uint64_t seed) {
   s.y.resize(rows, 3);
   for (Index i = 0; i < rows; ++i) {
     const Frame f(s.x.row(i).transpose(), Eigen::Matrix3d::Identity());
-    const Eigen::Vector3d world = Eigen::Vector3d(0, 0, -5.0) - 0.6 * s.x.row(i).segment<3>(9).transpose();
-    s.y.row(i) = (f.to_sensor * world - f.alpha.cross(Eigen::Vector3d(0.01, -0.02, 0.1))).transpose();
+    const Eigen::Vector3d world =
+        Eigen::Vector3d(0, 0, -5.0) - 0.6 * s.x.row(i).segment<3>(9).transpose();
+    s.y.row(i) =
+        (f.to_sensor * world - f.alpha.cross(Eigen::Vector3d(0.01, -0.02, 0.1))).transpose();
   }
   return s;
 }
@@ -41,9 +43,9 @@ Problem problem(const Json& patch = Json::object()) {
   for (int j = 0; j < 15; ++j) result.layout.names.push_back("x" + std::to_string(j));
   result.layout.units.assign(15, "");
   result.targets = {{"fx", "fy", "fz"}, {"N", "N", "N"}};
-  result.configuration = {{"model", {{"name", "frame-tcn"}, {"time_scales", {1.0}},
-                                     {"experts_x_db", {10, 25, 60}}}},
-                          {"training", {{"epochs", 4}, {"steps", 20}}}};
+  result.configuration = {
+      {"model", {{"name", "frame-tcn"}, {"time_scales", {1.0}}, {"experts_x_db", {10, 25, 60}}}},
+      {"training", {{"epochs", 4}, {"steps", 20}}}};
   for (const auto& [section, keys] : patch.items()) result.configuration[section].update(keys);
   result.where = "test";
   result.seed = 3;

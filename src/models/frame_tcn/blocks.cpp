@@ -1,9 +1,13 @@
 #include "models/frame_tcn/blocks.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace dcnn::frame_tcn {
+namespace {
+
+constexpr Index kFirst = 16;  // rows whose mean stands for those before a segment
+
+}  // namespace
 
 std::vector<Segment> stretches(Index rows, const std::vector<Segment>& segments) {
   return segments.empty() ? std::vector<Segment>{{0, rows}} : segments;
@@ -23,7 +27,7 @@ BlockMeans::BlockMeans(const Eigen::MatrixXd& x, const std::vector<Segment>& seg
 
 void BlockMeans::write(Index row, Index channel, double* out) const {
   const Index begin = begin_[static_cast<std::size_t>(row)];
-  static const Index kFirst = getenv("MFIRST") ? atol(getenv("MFIRST")) : 16;
+
   const Index known_first = std::min(begin + kFirst, row + 1);
   const double first = (sum_(known_first, channel) - sum_(begin, channel)) /
                        static_cast<double>(known_first - begin);

@@ -9,8 +9,8 @@ namespace dcnn::frame_tcn {
 using Instant = Eigen::Matrix<double, 15, 1>;
 
 /// R_BS^T, angular velocity and acceleration in S, and the velocity turned into S.
-/// omega = W(theta)·theta', alpha = W·theta'' + dW/dt·theta', dR^T u/dtheta_i = (R^T u) x w_i with w_i
-/// the columns of W.
+/// omega = W(theta)·theta', alpha = W·theta'' + dW/dt·theta', dR^T u/dtheta_i = (R^T u) x w_i with
+/// w_i the columns of W.
 class Frame {
  public:
   /// `mounting` is R_ES.

@@ -91,7 +91,8 @@ Eigen::VectorXd expected_error(const Moments& signal, const Eigen::MatrixXd& noi
 }
 
 Eigen::MatrixXd line_fit(Index channels) {
-  // Over n samples the newest point's weight of lag l is (4n - 2 - 6l)/(n(n+1)); a block has the sum.
+  // Over n samples the newest point's weight of lag l is (4n - 2 - 6l)/(n(n+1)); a block has the
+  // sum.
   constexpr double kSamples = 64.0;
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(channels, channels * kBlocks);
   Index lag = 0;

@@ -1,5 +1,5 @@
-// The convolutions: per kinematic axis a bank of causal filters, each the best linear estimate of the
-// clean newest sample at one level of noise (Wiener).
+// The convolutions: per kinematic axis a bank of causal filters, each the best linear estimate of
+// the clean newest sample at one level of noise (Wiener).
 #pragma once
 
 #include <array>

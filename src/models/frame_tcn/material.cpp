@@ -18,8 +18,8 @@ Stream at_speed(const Stream& motion, double speed) {
       const double share = place - std::floor(place);
       part.row(i) = (1.0 - share) * motion.x.row(low) + share * motion.x.row(high);
     }
-    part.middleCols<6>(3) *= speed;              // v, theta'
-    part.rightCols<6>() *= speed * speed;        // a, theta''
+    part.middleCols<6>(3) *= speed;        // v, theta'
+    part.rightCols<6>() *= speed * speed;  // a, theta''
     out.segments.push_back({total, total + rows});
     total += rows;
     parts.push_back(std::move(part));

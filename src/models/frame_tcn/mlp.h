@@ -20,8 +20,7 @@ struct Mlp {
   /// Adds dLoss/dp to g; x has no gradient.
   void backward(const double* p, const Eigen::MatrixXd& x, const Eigen::MatrixXd& h,
                 const Eigen::MatrixXd& dy, double* g) const {
-    const Eigen::MatrixXd dh =
-        (W2(p).transpose() * dy).array() * (1.0 - h.array().square());
+    const Eigen::MatrixXd dh = (W2(p).transpose() * dy).array() * (1.0 - h.array().square());
     Eigen::Map<Eigen::MatrixXd>(g, hidden, inputs) += dh * x.transpose();
     g += hidden * inputs;
     Eigen::Map<Eigen::VectorXd>(g, hidden) += dh.rowwise().sum();

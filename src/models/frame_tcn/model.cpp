@@ -158,16 +158,14 @@ Eigen::MatrixXd FrameTcn::predict(const Stream& stream) const {
     net_.features(pass);
     net_.product(pass);
     for (Index t = 0; t < spread_.size(); ++t) {
-      result.block(first, 3 * t, count, 3) =
-          spread_[t] * pass.out.middleRows(3 * t, 3).transpose();
+      result.block(first, 3 * t, count, 3) = spread_[t] * pass.out.middleRows(3 * t, 3).transpose();
     }
   });
   return result;
 }
 
 Eigen::VectorXd FrameTcn::novelty(const Stream& stream) const {
-  return novelty_.score(
-      motion_signs(normalised(stream.x, net_.mean, net_.scale), stream.segments));
+  return novelty_.score(motion_signs(normalised(stream.x, net_.mean, net_.scale), stream.segments));
 }
 
 }  // namespace frame_tcn

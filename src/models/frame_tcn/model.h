@@ -14,13 +14,13 @@ namespace dcnn::frame_tcn {
 
 /// Configuration of the model and of its training.
 struct Spec {
-  bool line = false;       ///< a fixed line fit in place of the learned convolutions
-  bool gates = true;       ///< else one filter per channel
-  bool saturation = true;  ///< tanh units in the head
-  std::vector<double> speeds;             ///< paces of the motion that the filters are made for
-  std::vector<double> x_snr, pose_snr;    ///< dB, one expert each; empty where not trained for
+  bool line = false;                    ///< a fixed line fit in place of the learned convolutions
+  bool gates = true;                    ///< else one filter per channel
+  bool saturation = true;               ///< tanh units in the head
+  std::vector<double> speeds;           ///< paces of the motion that the filters are made for
+  std::vector<double> x_snr, pose_snr;  ///< dB, one expert each; empty where not trained for
   NoiseSpec noise;
-  Index epochs = 30, steps = 100;         ///< half of the epochs for the gates, half for the head
+  Index epochs = 30, steps = 100;  ///< half of the epochs for the gates, half for the head
   double gate_rate = 5e-3, head_rate = 2e-3, ema = 0.998;
   Eigen::Matrix3d mounting = Eigen::Matrix3d::Identity();  ///< R_ES
   std::uint64_t seed = 0;

@@ -60,10 +60,10 @@ class Net {
   Eigen::Map<const Eigen::MatrixXd> sensor(Index triple) const;
   Index world_begin(Index triple) const;
 
-  Eigen::VectorXd parameters;  ///< gate, gain, log scales, then world and sensor of each triple
-  Eigen::VectorXd mean, scale;              ///< (15) of the channels, SI
-  Eigen::VectorXd level_mean, level_scale;  ///< (15)
-  Eigen::VectorXd unit;                     ///< (22) divides the smooth part of z
+  Eigen::VectorXd parameters;   ///< gate, gain, log scales, then world and sensor of each triple
+  Eigen::VectorXd mean, scale;  ///< (15) of the channels, SI
+  Eigen::VectorXd level_mean, level_scale;                 ///< (15)
+  Eigen::VectorXd unit;                                    ///< (22) divides the smooth part of z
   Eigen::Matrix3d mounting = Eigen::Matrix3d::Identity();  ///< R_ES
   /// Sets the saturating scales to a log grid .004 to .3 of the given rms of v, R^T v, omega (9).
   void start_scales(const Eigen::VectorXd& rms);
@@ -72,8 +72,9 @@ class Net {
   Index gain_begin() const { return gate_size(); }
   Index scale_begin() const { return gain_begin() + (plan_.saturation ? gain_.size() : 0); }
   Index head_begin() const { return scale_begin() + (plan_.saturation ? kSaturating : 0); }
-  void pull_back_units(const Pass& pass, Index column, const Eigen::VectorXd& dz, Eigen::MatrixXd& d_gain,
-                       Eigen::VectorXd& gradient, Eigen::Matrix<double, 9, 1>& du) const;
+  void pull_back_units(const Pass& pass, Index column, const Eigen::VectorXd& dz,
+                       Eigen::MatrixXd& d_gain, Eigen::VectorXd& gradient,
+                       Eigen::Matrix<double, 9, 1>& du) const;
 
   Plan plan_;
   Mlp gate_, gain_;

@@ -66,10 +66,9 @@ void Novelty::learn(Index cloud, const Eigen::MatrixXd& seen, const Eigen::Matri
   const Eigen::VectorXd variance = covariance.diagonal();
   covariance *= 1.0 - kShrink;
   covariance.diagonal() = variance.array() + kLeastVariance;
-  whiten.middleCols(cloud * kSigns, kSigns) =
-      Eigen::MatrixXd(covariance.llt().matrixL())
-          .triangularView<Eigen::Lower>()
-          .solve(Eigen::MatrixXd::Identity(kSigns, kSigns));
+  whiten.middleCols(cloud * kSigns, kSigns) = Eigen::MatrixXd(covariance.llt().matrixL())
+                                                  .triangularView<Eigen::Lower>()
+                                                  .solve(Eigen::MatrixXd::Identity(kSigns, kSigns));
   Eigen::VectorXd far = distance(cloud, held_out);
   const auto rare = static_cast<Index>(kRareShare * static_cast<double>(far.size()));
   std::nth_element(far.begin(), far.end() - 1 - rare, far.end());

@@ -5,8 +5,9 @@
 
 namespace dcnn::frame_tcn {
 
-/// (15, N) of each row's last second, all log10 and over the three axes of a kind (theta, v, theta',
-/// a, theta''): strength of the motion, how sharply its means over 32 samples bend, how rough it is.
+/// (15, N) of each row's last second, all log10 and over the three axes of a kind (theta, v,
+/// theta', a, theta''): strength of the motion, how sharply its means over 32 samples bend, how
+/// rough it is.
 Eigen::MatrixXd motion_signs(const Eigen::MatrixXd& x, const std::vector<Segment>& segments);
 
 /// Mahalanobis distance of the signs from the nearest of some clouds, one per range of noise.

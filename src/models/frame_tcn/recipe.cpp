@@ -9,12 +9,9 @@
 namespace dcnn::frame_tcn {
 namespace {
 
-enum RandomStream : std::uint64_t { kGates = 112, kHead, kUnits, kRidgeDraw, kBins };
+enum RandomStream : std::uint64_t { kGates = 112, kHead = 113 };
 constexpr Index kGateBatch = 500, kHeadBatch = 250;
-constexpr Index kRidgeBatches = 80, kRidgeBatch = 500;
-constexpr double kRidge = 3e-4, kClip = 5.0;
-constexpr Index kLevelBins = 16;   // of 5 dB from -5 dB on, of each kind of noise; the last is clean
-constexpr double kLeastResidual = 1e-3;
+constexpr double kClip = 5.0;
 
 double cosine(double rate, Index step, Index steps) {
   const double share = static_cast<double>(step) / static_cast<double>(steps);
@@ -94,7 +91,12 @@ void Recipe::finish_epoch(double loss) {
     record.best = epoch_ > spec_.epochs / 2;  // the average of the weights only gets better
     if (validation_.rows() > 0 && record.best) {
       const Eigen::VectorXd rmse = (model_.predict(validation_) - validation_.y)
-                                       .array().square().colwise().mean().sqrt().transpose();
+                                       .array()
+                                       .square()
+                                       .colwise()
+                                       .mean()
+                                       .sqrt()
+                                       .transpose();
       record.validation_rmse.assign(rmse.data(), rmse.data() + rmse.size());
     }
     session_.epoch_done(record);
@@ -103,8 +105,8 @@ void Recipe::finish_epoch(double loss) {
   save_checkpoint();
 }
 
-/// MSE to the clean channels in units of what the matching expert leaves: else the noisiest level owns
-/// the loss.
+/// MSE to the clean channels in units of what the matching expert leaves: else the noisiest level
+/// owns the loss.
 double Recipe::gate_step(Index step) {
   Net& net = model_.net_;
   if (net.gate_size() == 0) return 0.0;
@@ -127,137 +129,6 @@ double Recipe::gate_step(Index step) {
              cosine(spec_.gate_rate, step, spec_.steps * std::max<Index>(1, spec_.epochs / 2)),
              kClip, spec_.ema);
   return loss;
-}
-
-Eigen::MatrixXd Recipe::targets(const Batch& b) const {
-  Eigen::MatrixXd y(training_.y.cols(), static_cast<Index>(b.draws.size()));
-  for (Index i = 0; i < y.cols(); ++i) {
-    y.col(i) = training_.y.row(b.draws[static_cast<std::size_t>(i)].row).transpose();
-  }
-  for (Index t = 0; t < model_.spread_.size(); ++t) y.middleRows(3 * t, 3) /= model_.spread_[t];
-  return y;
-}
-
-std::size_t Recipe::bin(const Draw& d) const {
-  if (d.noise < 0) return 2 * kLevelBins;
-  const auto k = std::clamp<Index>(static_cast<Index>((d.snr + 5.0) / 5.0), 0, kLevelBins - 1);
-  return static_cast<std::size_t>(noise_[static_cast<std::size_t>(d.noise)].on_pose ? kLevelBins + k : k);
-}
-
-Eigen::VectorXd Recipe::weights(const Batch& b) const {
-  Eigen::VectorXd w(static_cast<Index>(b.draws.size()));
-  for (Index i = 0; i < w.size(); ++i) {
-    const double sigma = bins_[static_cast<Index>(bin(b.draws[static_cast<std::size_t>(i)]))];
-    w[i] = 1.0 / (sigma * sigma);
-  }
-  return w;
-}
-
-void Recipe::begin_head() {
-  if (adam_.steps > 0) model_.net_.parameters = adam_.average;
-  for (Index t = 0; t < model_.spread_.size(); ++t) {
-    const auto y = training_.y.middleCols(3 * t, 3);
-    const Eigen::RowVectorXd mean = y.colwise().mean();
-    model_.spread_[t] =
-        std::max(std::sqrt((y.rowwise() - mean).squaredNorm() / static_cast<double>(y.size())), 1e-9);
-  }
-  measure_units();
-  solve_head(false);
-  measure_bins();
-  solve_head(true);
-  measure_bins();
-  adam_ = Adam(model_.net_.parameters);
-}
-
-/// Scales of z and of the saturating units, on clean rows.
-void Recipe::measure_units() {
-  Net& net = model_.net_;
-  Rng rng({spec_.seed, kUnits});
-  Batch b;
-  for (Index i = 0; i < 4000; ++i) {
-    Draw d;
-    d.row = static_cast<Index>(rng.below(static_cast<std::uint64_t>(x_.rows())));
-    b.draws.push_back(d);
-  }
-  fill(b);
-  net.unit.setOnes();
-  net.denoise(b.pass);
-  net.features(b.pass);
-  const Eigen::VectorXd rms = b.pass.z.topRows(kSmooth).array().square().rowwise().mean().sqrt();
-  net.unit = rms.cwiseMax(1e-6);
-  Eigen::VectorXd u(9);  // v, R^T v, omega
-  u << rms.segment<3>(4), rms.segment<3>(7), rms.segment<3>(10);
-  net.start_scales(u);
-}
-
-/// Weighted ridge of R·y = World^T z + R·Sensor^T z, whose normal equations are sums of z z^T.
-void Recipe::solve_head(bool weighted) {
-  Net& net = model_.net_;
-  const Index size = net.columns_z(), outputs = training_.y.cols();
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(6 * size, 6 * size);
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(6 * size, outputs / 3);
-  Eigen::MatrixXd plain = Eigen::MatrixXd::Zero(size, size), scaled;
-  double total = 0.0;
-  for (Index k = 0; k < kRidgeBatches; ++k) {
-    Rng rng({spec_.seed, kRidgeDraw, static_cast<std::uint64_t>(k)});
-    Batch b = batch(rng, kRidgeBatch, false);
-    net.denoise(b.pass);
-    net.features(b.pass);
-    const Eigen::MatrixXd& z = b.pass.z;
-    const Eigen::MatrixXd y = targets(b);
-    const Eigen::VectorXd w = weighted ? weights(b) : Eigen::VectorXd(Eigen::VectorXd::Ones(kRidgeBatch));
-    total += w.sum();
-    scaled = z * w.asDiagonal();
-    plain.noalias() += scaled * z.transpose();
-    for (Index world = 0; world < 3; ++world) {
-      Eigen::MatrixXd in_world = Eigen::MatrixXd::Zero(outputs / 3, kRidgeBatch);
-      for (Index axis = 0; axis < 3; ++axis) {
-        Eigen::VectorXd turn(kRidgeBatch);
-        for (Index i = 0; i < kRidgeBatch; ++i) {
-          turn[i] = b.pass.frames[static_cast<std::size_t>(i)].to_sensor(axis, world);
-          for (Index t = 0; t < outputs / 3; ++t) in_world(t, i) += turn[i] * y(3 * t + axis, i);
-        }
-        normal.block(world * size, (3 + axis) * size, size, size).noalias() +=
-            scaled * turn.asDiagonal() * z.transpose();
-      }
-      right.middleRows(world * size, size) += scaled * in_world.transpose();
-    }
-    for (Index axis = 0; axis < 3; ++axis) {
-      for (Index t = 0; t < outputs / 3; ++t) {
-        right.col(t).segment((3 + axis) * size, size) += scaled * y.row(3 * t + axis).transpose();
-      }
-    }
-  }
-  for (Index k = 0; k < 6; ++k) normal.block(k * size, k * size, size, size) = plain;
-  normal.bottomLeftCorner(3 * size, 3 * size) =
-      normal.topRightCorner(3 * size, 3 * size).transpose().eval();
-  normal.diagonal().array() += kRidge * total;
-  const Eigen::MatrixXd solution = normal.llt().solve(right);
-  for (Index t = 0; t < outputs / 3; ++t) {
-    net.parameters.segment(net.world_begin(t), 6 * size) = solution.col(t);
-  }
-}
-
-/// Residual rms of each level of noise; where none was drawn, that of all.
-void Recipe::measure_bins() {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(bins_.size()), count = sum;
-  for (Index k = 0; k < kRidgeBatches / 2; ++k) {
-    Rng rng({spec_.seed, kBins, static_cast<std::uint64_t>(k)});
-    Batch b = batch(rng, kRidgeBatch, false);
-    model_.net_.denoise(b.pass);
-    model_.net_.features(b.pass);
-    model_.net_.product(b.pass);
-    const Eigen::MatrixXd error = b.pass.out - targets(b);
-    for (Index i = 0; i < error.cols(); ++i) {
-      const auto j = static_cast<Index>(bin(b.draws[static_cast<std::size_t>(i)]));
-      sum[j] += error.col(i).squaredNorm() / static_cast<double>(error.rows());
-      count[j] += 1.0;
-    }
-  }
-  const double all = std::sqrt(sum.sum() / std::max(1.0, count.sum()));
-  for (Index j = 0; j < bins_.size(); ++j) {
-    bins_[j] = std::max(count[j] > 20.0 ? std::sqrt(sum[j] / count[j]) : all, kLeastResidual);
-  }
 }
 
 double Recipe::head_step(Index step) {

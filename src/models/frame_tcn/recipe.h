@@ -1,4 +1,5 @@
-// How frame-tcn learns: filters in closed form, gates by Adam, head by ridge, gates and head by Adam.
+// How frame-tcn learns: filters in closed form, gates by Adam, head by ridge, gates and head by
+// Adam.
 #pragma once
 
 #include <vector>
@@ -8,6 +9,9 @@
 #include "models/frame_tcn/model.h"
 
 namespace dcnn::frame_tcn {
+
+/// Bins of 5 dB from -5 dB on, of each kind of noise; one more is clean.
+constexpr Index kLevelBins = 16;
 
 class Recipe {
  public:
@@ -45,6 +49,7 @@ class Recipe {
   Eigen::VectorXd weights(const Batch& batch) const;
   Eigen::MatrixXd targets(const Batch& batch) const;
 
+  Index ridge_batches() const;
   void begin_head();
   void measure_units();
   void solve_head(bool weighted);
@@ -66,9 +71,9 @@ class Recipe {
   Eigen::MatrixXd x_;  // normalised
   std::vector<UnitNoise> noise_;
   std::vector<Eigen::MatrixXf> noise_experts_, noise_roughness_, noise_cross_;
-  std::vector<Material> material_;     // the training itself, then copies at other speeds
-  Eigen::MatrixXd errors_;             // (experts, 15) expected squared error, each at its own level
-  Eigen::VectorXd bins_;               // residual rms by level of noise
+  std::vector<Material> material_;  // the training itself, then copies at other speeds
+  Eigen::MatrixXd errors_;          // (experts, 15) expected squared error, each at its own level
+  Eigen::VectorXd bins_;            // residual rms by level of noise
   Adam adam_;
   Index epoch_ = 0;
   double x_low_ = 0, x_high_ = 0, pose_low_ = 0, pose_high_ = 0, clean_share_ = 0.15;

@@ -11,7 +11,8 @@ constexpr int kDraws = 3;           // of unit noise of each kind
 constexpr Index kMomentStride = 6;  // neighbours are nearly equal
 constexpr Index kCopyStride = 4;
 constexpr double kLeastShare = 0.01;  // of the largest scale among an axis' sisters
-constexpr double kBelow = 2.0, kAboveX = 8.0, kAbovePose = 15.0;  // dB around the levels of the tests
+constexpr double kBelow = 2.0, kAboveX = 8.0,
+                 kAbovePose = 15.0;  // dB around the levels of the tests
 
 }  // namespace
 
@@ -217,7 +218,8 @@ void Recipe::fill(Batch& b) const {
 
 /// Of the expert made for this level, between its neighbours in the list.
 double Recipe::wanted_error(const Draw& d, Index channel) const {
-  const bool pose = d.noise < 0 ? spec_.x_snr.empty() : noise_[static_cast<std::size_t>(d.noise)].on_pose;
+  const bool pose =
+      d.noise < 0 ? spec_.x_snr.empty() : noise_[static_cast<std::size_t>(d.noise)].on_pose;
   const auto& list = pose ? spec_.pose_snr : spec_.x_snr;
   const Index begin = pose ? static_cast<Index>(spec_.x_snr.size()) : 0;
   const auto last = static_cast<Index>(list.size()) - 1;
@@ -225,7 +227,8 @@ double Recipe::wanted_error(const Draw& d, Index channel) const {
   Index k = 0;
   while (k < last && list[static_cast<std::size_t>(k + 1)] < d.snr) ++k;
   if (k == last) return errors_(begin + last, channel);
-  const double low = list[static_cast<std::size_t>(k)], high = list[static_cast<std::size_t>(k + 1)];
+  const double low = list[static_cast<std::size_t>(k)],
+               high = list[static_cast<std::size_t>(k + 1)];
   const double share = std::clamp((d.snr - low) / (high - low), 0.0, 1.0);
   return std::exp((1.0 - share) * std::log(errors_(begin + k, channel)) +
                   share * std::log(errors_(begin + k + 1, channel)));

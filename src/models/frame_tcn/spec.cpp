@@ -10,8 +10,8 @@ namespace {
 std::vector<double> read_numbers(Options& options, const std::string& key,
                                  std::vector<double> fallback, double low, double high) {
   const auto list = options.get(key, std::move(fallback));
-  const bool good = std::all_of(list.begin(), list.end(),
-                                [=](double v) { return v >= low && v <= high; });
+  const bool good =
+      std::all_of(list.begin(), list.end(), [=](double v) { return v >= low && v <= high; });
   if (list.empty() || list.size() > 16 || !good) {
     options.reject(key, "must hold 1 to 16 numbers between ", low, " and ", high);
   }
