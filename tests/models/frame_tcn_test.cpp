@@ -86,22 +86,56 @@ TEST(FrameTcn, FiltersOfWhiteSignalsAreTheScalarWienerGain) {
   EXPECT_LT(rest.cwiseAbs().maxCoeff(), 0.15);
 }
 
-TEST(FrameTcn, BlocksAreMeansOfTheRowsAndRepeatTheFirstBeforeIt) {
+TEST(FrameTcn, BlocksAreMeansOfTheRows) {
   Eigen::MatrixXd x(1200, 1);
   Rng rng(2);
   for (Index i = 0; i < x.rows(); ++i) x(i, 0) = rng.normal();
   const BlockMeans blocks(x, {{0, 600}, {600, 1200}});
   double out[kBlocks];
-  for (const Index row : {0, 3, 599, 600, 700, 1199}) {
-    const Index begin = row < 600 ? 0 : 600;
-    blocks.write(row, 0, out);
-    Index lag = 0;
+  for (const Index row : {0, 3, 25, 599, 600, 610, 700, 1199}) {
+    const Index begin = row < 600 ? 0 : 600, padding = std::min<Index>(16, row + 1 - begin);
+    const double before = x.col(0).segment(begin, padding).mean();
+    blocks.write(row, 0, kBlocks, out);
+    Index lag = 0, whole = 0;
     for (Index k = 0; k < kBlocks; ++k) {
       double sum = 0.0;
-      for (Index i = 0; i < block_size(k); ++i, ++lag) sum += x(std::max(begin, row - lag), 0);
+      for (Index i = 0; i < block_size(k); ++i, ++lag) {
+        sum += row - lag < begin ? before : x(row - lag, 0);
+      }
       EXPECT_NEAR(out[k], sum / static_cast<double>(block_size(k)), 1e-12);
+      if (row - lag + 1 >= begin) whole = k + 1;
     }
     EXPECT_EQ(lag, kSpan);
+    EXPECT_EQ(blocks.known(row), whole);
+  }
+}
+
+/// Of a random walk in noise the best estimate is the steady state of a Kalman filter, from the
+/// first row on: no filter whose history is made up reaches it.
+TEST(FrameTcn, YoungSegmentsGetTheBestEstimateOfTheBlocksTheyHave) {
+  Moments walk;
+  const Index n = 8;  // single samples
+  walk.blocks = Eigen::MatrixXd::Identity(2 * kBlocks, 2 * kBlocks);
+  walk.newest = Eigen::MatrixXd::Zero(2 * kBlocks, 2);
+  walk.power = Eigen::Vector2d::Constant(100.0);
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < n; ++j) {
+      walk.blocks(i, j) = 100.0 - static_cast<double>(std::max(i, j));  // variance 100 - age
+    }
+    walk.newest(i, 0) = walk.blocks(0, i);
+  }
+  const Eigen::MatrixXd noise = 4.0 * Eigen::MatrixXd::Identity(2 * kBlocks, 2 * kBlocks);
+  for (const Index known : {1, 2, 4, 8}) {
+    double variance = 100.0 - static_cast<double>(known - 1), gain = 0.0;
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(known);
+    for (Index i = known - 1; i >= 0; --i) {  // the scalar Kalman filter, oldest sample first
+      gain = variance / (variance + 4.0);
+      weights *= 1.0 - gain;
+      weights[i] = gain;
+      variance = (1.0 - gain) * variance + 1.0;
+    }
+    const Eigen::MatrixXd w = wiener(walk, noise, known);
+    EXPECT_LT((w.row(0).head(known).transpose() - weights).norm(), 1e-5) << known << " samples";
   }
 }
 

@@ -25,14 +25,23 @@ BlockMeans::BlockMeans(const Eigen::MatrixXd& x, const std::vector<Segment>& seg
   }
 }
 
-void BlockMeans::write(Index row, Index channel, double* out) const {
-  const Index begin = begin_[static_cast<std::size_t>(row)];
+Index BlockMeans::known(Index row) const {
+  const Index rows = row + 1 - begin_[static_cast<std::size_t>(row)];
+  Index count = 0;
+  for (Index covered = 0; count < kBlocks; ++count) {
+    covered += block_size(count);
+    if (covered > rows) break;
+  }
+  return count;
+}
 
+void BlockMeans::write(Index row, Index channel, Index count, double* out) const {
+  const Index begin = begin_[static_cast<std::size_t>(row)];
   const Index known_first = std::min(begin + kFirst, row + 1);
   const double first = (sum_(known_first, channel) - sum_(begin, channel)) /
                        static_cast<double>(known_first - begin);
   Index high = row + 1;
-  for (Index k = 0; k < kBlocks; ++k) {
+  for (Index k = 0; k < count; ++k) {
     const Index size = block_size(k), low = high - size;
     const Index missing = std::clamp<Index>(begin - low, 0, size);
     const double known = sum_(std::max(high, begin), channel) - sum_(std::max(low, begin), channel);

@@ -18,13 +18,16 @@ constexpr double kUnknown = -1.0;
 /// Samples of block k; k = 0 is the newest sample.
 constexpr Index block_size(Index k) { return Index{1} << (k / 8); }
 
-/// Block means of any row in constant time. Before its first row a segment repeats it.
+/// Block means of any row in constant time.
 class BlockMeans {
  public:
   /// x (N, C); segments cover the rows, none given is one segment.
   BlockMeans(const Eigen::MatrixXd& x, const std::vector<Segment>& segments);
-  /// The 48 means of one channel that end at `row`, newest first.
-  void write(Index row, Index channel, double* out) const;
+  /// The first `count` means of one channel that end at `row`, newest first; a segment's rows
+  /// before its first are taken to equal the mean of its first 16.
+  void write(Index row, Index channel, Index count, double* out) const;
+  /// Blocks that lie within the segment of `row`, 1 to 48.
+  Index known(Index row) const;
   Index rows() const { return x_.rows(); }
 
  private:

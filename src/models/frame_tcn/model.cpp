@@ -30,16 +30,6 @@ Eigen::MatrixXd loaded(const Container& file, const std::string& name, const Eig
       values.data(), like.rows(), like.cols());
 }
 
-Front empty_front(Index experts) {
-  Front front;
-  front.experts = experts;
-  for (Index g = 0; g < kGroups; ++g) {
-    const auto c = static_cast<Index>(group_channels(g).size());
-    front.weights[static_cast<std::size_t>(g)] = Eigen::MatrixXd::Zero(c * experts, c * kBlocks);
-  }
-  return front;
-}
-
 }  // namespace
 
 FrameTcn::FrameTcn(const Problem& problem)
@@ -51,7 +41,7 @@ FrameTcn::FrameTcn(const Problem& problem)
   require(problem.outputs() % 3 == 0, Exit::kUsage, problem.where,
           ": model 'frame-tcn' predicts vectors of three (force, torque), not ", problem.outputs(),
           " targets");
-  front_ = empty_front(spec_.experts());
+  front_ = Front(spec_.experts());
   Rng rng({spec_.seed, 100});
   net_ = Net({spec_.experts(), problem.outputs() / 3, spec_.saturation}, rng);
   net_.mounting = spec_.mounting;
@@ -69,7 +59,7 @@ FrameTcn::FrameTcn(const Container& file, const std::string& where) {
   map_ = InputMap::parse(parse_json(stored_text(file, "map", where), where, Exit::kModel), where,
                          Exit::kModel);
   require(map_.features() == kChannels, Exit::kModel, where, ": its statistics are not of 15 rows");
-  front_ = empty_front(experts);
+  front_ = Front(experts);
   Rng rng(0);
   net_ = Net({experts, triples, saturation}, rng);
   spread_ = Eigen::VectorXd::Ones(triples);
@@ -88,7 +78,10 @@ FrameTcn::FrameTcn(const Container& file, const std::string& where) {
 std::vector<FrameTcn::Slot> FrameTcn::slots() const {
   std::vector<Slot> all;
   for (std::size_t g = 0; g < kGroups; ++g) {
-    all.push_back({"convolution." + std::to_string(g), front_.weights[g]});
+    for (std::size_t h = 0; h < kHistories.size(); ++h) {
+      all.push_back({"convolution." + std::to_string(g) + "." + std::to_string(kHistories[h]),
+                     front_.weights[g][h]});
+    }
   }
   Eigen::MatrixXd channels(kChannels, 4);
   channels << net_.mean, net_.scale, net_.level_mean, net_.level_scale;
@@ -105,7 +98,9 @@ std::vector<FrameTcn::Slot> FrameTcn::slots() const {
 
 void FrameTcn::assign(const std::vector<Slot>& all) {
   auto next = all.begin();
-  for (auto& weights : front_.weights) weights = (next++)->value;
+  for (Bank& bank : front_.weights) {
+    for (auto& weights : bank) weights = (next++)->value;
+  }
   net_.parameters = (next++)->value;
   const Eigen::MatrixXd& channels = (next++)->value;
   net_.mean = channels.col(0);
@@ -133,7 +128,9 @@ void FrameTcn::save(Container& file) const {
 
 Index FrameTcn::parameter_count() const {
   Index count = net_.parameters.size();
-  for (const auto& weights : front_.weights) count += weights.size();
+  for (const Bank& bank : front_.weights) {
+    for (const auto& weights : bank) count += weights.size();
+  }
   return count;
 }
 

@@ -41,7 +41,7 @@ Eigen::MatrixXd motion_signs(const Eigen::MatrixXd& x, const std::vector<Segment
   double means[kBlocks];
   for (Index i = 0; i < x.rows(); ++i) {
     for (Index c = 0; c < kChannels; ++c) {
-      blocks.write(i, c, means);
+      blocks.write(i, c, kBlocks, means);
       square(c / 3, i) += strength(means) / 3.0;
       square(kKinds + c / 3, i) += bend(means) / 3.0;
       square(2 * kKinds + c / 3, i) += std::max(rough(c, i), 0.0) / 3.0;

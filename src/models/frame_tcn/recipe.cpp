@@ -88,15 +88,12 @@ void Recipe::finish_epoch(double loss) {
     record.epoch = epoch_;
     record.loss = loss;
     record.rate = epoch_ > spec_.epochs / 2 ? spec_.head_rate : spec_.gate_rate;
-    record.best = epoch_ > spec_.epochs / 2;  // the average of the weights only gets better
-    if (validation_.rows() > 0 && record.best) {
-      const Eigen::VectorXd rmse = (model_.predict(validation_) - validation_.y)
-                                       .array()
-                                       .square()
-                                       .colwise()
-                                       .mean()
-                                       .sqrt()
-                                       .transpose();
+    const bool head = epoch_ > spec_.epochs / 2;
+    record.best = head;  // the average of the weights only gets better
+    if (validation_.rows() > 0) {
+      Eigen::MatrixXd error = -validation_.y;
+      if (head) error += model_.predict(validation_);
+      const Eigen::VectorXd rmse = error.array().square().colwise().mean().sqrt().transpose();
       record.validation_rmse.assign(rmse.data(), rmse.data() + rmse.size());
     }
     session_.epoch_done(record);

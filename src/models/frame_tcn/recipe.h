@@ -36,6 +36,7 @@ class Recipe {
   void scale_channels();
   void make_noise();
   void make_filters();
+  void make_expert(Index group, Index expert, const Moments& signal, const Eigen::MatrixXd& noise);
   Moments pooled_moments(Index group) const;
   Eigen::MatrixXd noise_moments(Index group, bool on_pose) const;
   void make_material();

@@ -106,10 +106,10 @@ void Recipe::make_filters() {
   errors_ = Eigen::MatrixXd::Zero(front.experts, kChannels);
   Moments signal;
   for (Index g = 0; g < kGroups; ++g) {
-    const auto channels = group_channels(g);
-    const auto count = static_cast<Index>(channels.size());
     if (spec_.line) {
-      front.weights[static_cast<std::size_t>(g)] = line_fit(count);
+      const auto count = static_cast<Index>(group_channels(g).size());
+      Bank& bank = front.weights[static_cast<std::size_t>(g)];
+      for (std::size_t h = 0; h < bank.size(); ++h) bank[h] = line_fit(count, kHistories[h]);
       continue;
     }
     if (g % 3 == 0) signal = pooled_moments(g);
@@ -119,15 +119,25 @@ void Recipe::make_filters() {
       if (list.empty()) continue;
       const Eigen::MatrixXd unit = noise_moments(g, on_pose);
       for (const double snr : list) {
-        const Eigen::MatrixXd noise = std::pow(10.0, -snr / 10.0) * unit;
-        const Eigen::MatrixXd w = wiener(signal, noise);
-        const Eigen::VectorXd error = expected_error(signal, noise, w);
-        for (Index c = 0; c < count; ++c) {
-          front.weights[static_cast<std::size_t>(g)].row(c * front.experts + expert) = w.row(c);
-          errors_(expert, channels[static_cast<std::size_t>(c)]) = std::max(error[c], 1e-9);
-        }
-        ++expert;
+        make_expert(g, expert++, signal, std::pow(10.0, -snr / 10.0) * unit);
       }
+    }
+  }
+}
+
+void Recipe::make_expert(Index group, Index expert, const Moments& signal,
+                         const Eigen::MatrixXd& noise) {
+  Front& front = model_.front_;
+  const auto channels = group_channels(group);
+  for (std::size_t h = 0; h < kHistories.size(); ++h) {
+    const Eigen::MatrixXd w = wiener(signal, noise, kHistories[h]);
+    for (Index c = 0; c < w.rows(); ++c) {
+      front.weights[static_cast<std::size_t>(group)][h].row(c * front.experts + expert) = w.row(c);
+    }
+    if (kHistories[h] < kBlocks) continue;
+    const Eigen::VectorXd error = expected_error(signal, noise, w);
+    for (Index c = 0; c < w.rows(); ++c) {
+      errors_(expert, channels[static_cast<std::size_t>(c)]) = std::max(error[c], 1e-9);
     }
   }
 }
