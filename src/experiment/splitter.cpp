@@ -78,7 +78,8 @@ bool wants_pose_noise(const Json& configuration) {
 Splitter::Splitter(const Identifier& identifier, const TrainingObserver& observer, bool pose_noise)
     : identifier_(identifier), observer_(observer), pose_noise_(pose_noise) {
   require(!pose_noise || identifier.layout.spec.set == FeatureSpec::Set::kPose, Exit::kUsage,
-          "noise.on 'pose' or 'both' needs the feature set 'pose', whose features are linear in the pose; "
+          "noise.on 'pose' or 'both' needs the feature set 'pose', whose features are linear in "
+          "the pose; "
           "choose that set or noise.on 'features'");
 }
 
