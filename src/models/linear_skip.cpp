@@ -88,8 +88,6 @@ void LinearSkip::save(Container& file) const {
                           std::vector<double>(rows.data(), rows.data() + rows.size())});
 }
 
-bool LinearSkip::is_in(const Container& file) { return file.find(kName) != nullptr; }
-
 LinearSkip LinearSkip::load(const Container& file, Index cells, const std::string& where) {
   const auto& values = stored_values<double>(file, kName, where);
   const auto& shape = file.find(kName)->shape;

@@ -28,7 +28,6 @@ class LinearSkip {
   void save(Container& file) const;
   /// For `cells` inputs; Error(kModel).
   static LinearSkip load(const Container& file, Index cells, const std::string& where);
-  static bool is_in(const Container& file);
 
  private:
   Eigen::MatrixXd weights_;  // (1 + cells, targets), offset first

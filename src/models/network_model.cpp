@@ -13,6 +13,9 @@ namespace {
 
 enum RandomStream : std::uint64_t { kInitialWeights = 100 };
 
+/// What a file says that its model consists of.
+constexpr const char *kNetwork = "network", *kLinear = "linear", *kBoth = "linear and network";
+
 TargetScale make_scale(const Eigen::MatrixXd& y, const Eigen::VectorXd& spread, bool standardise) {
   if (standardise) return {y.colwise().mean(), spread};
   return {Eigen::VectorXd::Zero(y.cols()), Eigen::VectorXd::Ones(y.cols())};
@@ -85,8 +88,6 @@ NetworkModel::NetworkModel(std::string kind, const Json& input, const Json& laye
 
 NetworkModel::NetworkModel(const Container& file, const std::string& where)
     : kind_(stored_text(file, "model", where)) {
-  const Json architecture =
-      parse_json(stored_text(file, "architecture", where), where, Exit::kModel);
   map_ = InputMap::parse(parse_json(stored_text(file, "map", where), where, Exit::kModel), where,
                          Exit::kModel);
   Options scale(parse_json(stored_text(file, "target_scale", where), where, Exit::kModel), where,
@@ -97,21 +98,25 @@ NetworkModel::NetworkModel(const Container& file, const std::string& where)
                         map_.features(), where);
   require(scale_.mean.size() > 0 && scale_.mean.size() == scale_.deviation.size(), Exit::kModel,
           where, ": its output does not fit its targets");
-  if (LinearSkip::is_in(file)) {
-    skip_ = std::make_unique<LinearSkip>(
-        LinearSkip::load(file, element_count(input_->shape()), where));
+  const std::string& parts = stored_text(file, "parts", where);
+  require(parts == kNetwork || parts == kLinear || parts == kBoth, Exit::kModel, where,
+          ": its parts are unknown: '", parts, "'");
+  if (parts != kNetwork) {
+    skip_ =
+        std::make_unique<LinearSkip>(LinearSkip::load(file, element_count(input_->shape()), where));
     require(skip_->targets() == scale_.mean.size(), Exit::kModel, where,
             ": its linear part does not fit its targets");
   }
-  if (!skip_ || !architecture.empty()) load_network(architecture, file, where);
+  if (parts != kLinear) load_network(file, where);
   const Eigen::MatrixXd probe = predict({map_.mean().transpose(), {}});
   require(scale_.mean.size() == probe.cols() && scale_.deviation.size() == probe.cols() &&
               (scale_.deviation.array() > 0.0).all() && probe.allFinite(),
           Exit::kModel, where, ": its output does not fit its targets");
 }
 
-void NetworkModel::load_network(const Json& architecture, const Container& file,
-                                const std::string& where) {
+void NetworkModel::load_network(const Container& file, const std::string& where) {
+  const Json architecture =
+      parse_json(stored_text(file, "architecture", where), where, Exit::kModel);
   try {
     Rng rng(0);
     network_ = std::make_unique<Network>(architecture, input_->shape(), rng);
@@ -190,7 +195,8 @@ Index NetworkModel::parameter_count() const {
 
 void NetworkModel::save(Container& file) const {
   file.metadata["model"] = kind_;
-  file.metadata["architecture"] = (network_ ? network_->layers() : Json::array()).dump();
+  file.metadata["parts"] = !skip_ ? kNetwork : network_ ? kBoth : kLinear;
+  if (network_) file.metadata["architecture"] = network_->layers().dump();
   file.metadata["input"] = input_->to_json().dump();
   file.metadata["map"] = map_.to_json().dump();
   file.metadata["target_scale"] =

@@ -229,7 +229,7 @@ TEST_P(EveryFit, IsNamedWhenHiddenAlone) {
   if (!axes.empty()) entry["axis"] = axes.front();
   if (kind.interval == IntervalRule::kRequired) entry["interval_s"] = {6.3, 11.8};
   if (kind.interval == IntervalRule::kOnset) entry["interval_s"] = {8.4, 45.0};
-  Json config = configuration({entry});
+  Json config = configuration(Json::array({entry}));
   if (std::string(kind.name) == "inertial_terms") {
     config["simulator"]["model"] = {{"inertial", "none"}};
   }

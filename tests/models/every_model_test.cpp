@@ -17,6 +17,7 @@ class EveryModel : public testing::TestWithParam<const ModelKind*> {
     Json& json = task_.problem.configuration;
     json["noise"] = {{"levels_db", {nullptr, 20}}};
     if (json["training"].contains("epochs")) json["training"]["epochs"] = 2;
+    if (json["training"].contains("batch")) json["training"]["batch"] = 50;
     validation_ =
         test::samples_of(test::exact_recording(tool, "multisine", kValidation, 4), task_.problem);
   }
@@ -137,6 +138,7 @@ TEST_P(EveryModel, RefusesFilesOfWhichAPartIsMissingOrAnother) {
     file.metadata.erase(key);
     expect_refused(file, "without " + key);
     for (const char* nonsense : {"", "{}", "[]", "null", "1e999", "words"}) {
+      if (text == nonsense) continue;
       file.metadata[key] = nonsense;
       expect_refused(file, key + " = " + nonsense);
     }

@@ -348,7 +348,7 @@ TEST(ShallowModel, PresetsAreThoseOfTheSpecification) {
     EXPECT_EQ(kind.preset("standard", false)["training"]["epochs"], 200);
     EXPECT_EQ(kind.preset("standard", false)["training"]["division"], "random");
     EXPECT_EQ(kind.preset("fair", false)["training"]["epochs"], 1000);
-    EXPECT_EQ(kind.preset("fair", false)["training"]["division"], "blocks");
+    EXPECT_EQ(kind.preset("fair", false)["training"]["division"], "held-out");
     EXPECT_EQ(kind.preset("paper", false)["training"]["division"], "random");
     EXPECT_EQ(kind.preset("paper", false)["training"]["validation"], 0.0);
     EXPECT_EQ(kind.preset("standard", true)["training"]["standardise_targets"], true);

@@ -55,7 +55,7 @@ class NetworkModel : public Model {
 
  private:
   friend class Trainer;
-  void load_network(const Json& architecture, const Container& file, const std::string& where);
+  void load_network(const Container& file, const std::string& where);
   /// Fits the skip and makes the scale that of its remainder.
   void fit_skip(const Samples& training);
   /// Targets in their units from the network's inputs: the skip and the scaled-back network.
