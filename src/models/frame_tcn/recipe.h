@@ -37,7 +37,8 @@ class Recipe {
   void make_noise();
   void make_filters();
   void make_expert(Index group, Index expert, const Moments& signal, const Eigen::MatrixXd& noise);
-  Moments pooled_moments(Index group) const;
+  std::array<Moments, 3> axis_moments(Index first_group) const;
+  Moments pooled_moments(const std::array<Moments, 3>& axes, Index group) const;
   Eigen::MatrixXd noise_moments(Index group, bool on_pose) const;
   void make_material();
   void scale_levels();

@@ -63,26 +63,57 @@ void Recipe::make_noise() {
   pose_high_ = high + kAbovePose;
 }
 
-/// Over the axes of the kind and over the speeds: one trajectory shows too few tones of one axis.
-Moments Recipe::pooled_moments(Index group) const {
-  Moments sum;
+/// Means over the speeds of each axis' own moments, (3).
+std::array<Moments, 3> Recipe::axis_moments(Index first_group) const {
+  std::array<Moments, 3> sum;
+  const double share = 1.0 / static_cast<double>(spec_.speeds.size());
   for (const double speed : spec_.speeds) {
     const Stream copy = at_speed(training_, speed);
     const Eigen::MatrixXd x = normalised(copy.x, model_.net_.mean, model_.net_.scale);
     const BlockMeans blocks(x, copy.segments);
     for (Index axis = 0; axis < 3; ++axis) {
-      const Moments part = moments(blocks, group + axis, kMomentStride);
-      if (sum.blocks.size() == 0) {
-        sum = part;
+      const Moments part = moments(blocks, first_group + axis, kMomentStride);
+      Moments& all = sum[static_cast<std::size_t>(axis)];
+      if (all.blocks.size() == 0) {
+        all = {share * part.blocks, share * part.newest, share * part.power};
         continue;
       }
-      sum.blocks += part.blocks;
-      sum.newest += part.newest;
-      sum.power += part.power;
+      all.blocks += share * part.blocks;
+      all.newest += share * part.newest;
+      all.power += share * part.power;
     }
   }
-  const double share = 1.0 / (3.0 * static_cast<double>(spec_.speeds.size()));
-  return {share * sum.blocks, share * sum.newest, share * sum.power};
+  return sum;
+}
+
+/// What the group's moments would be if its axis moved as each of the three did: one trajectory shows
+/// too few tones of one axis. Amplitudes are brought to those of the axis by one factor for all
+/// channels of a group, or the channels would no longer be each other's derivatives.
+Moments Recipe::pooled_moments(const std::array<Moments, 3>& axes, Index group) const {
+  const Eigen::VectorXd& scale = model_.net_.scale;
+  const auto own = group_channels(group);
+  Moments sum;
+  for (Index axis = 0; axis < 3; ++axis) {
+    const auto others = group_channels(group - group % 3 + axis);
+    Eigen::VectorXd factor(static_cast<Index>(own.size())), rows(factor.size() * kBlocks);
+    for (std::size_t c = 0; c < own.size(); ++c) {
+      factor[static_cast<Index>(c)] =
+          (scale[others[c]] / scale[own[c]]) / (scale[others[0]] / scale[own[0]]);
+    }
+    for (Index i = 0; i < rows.size(); ++i) rows[i] = factor[i / kBlocks];
+    const Moments& part = axes[static_cast<std::size_t>(axis)];
+    const Eigen::MatrixXd blocks = rows.asDiagonal() * part.blocks * rows.asDiagonal();
+    const Eigen::MatrixXd newest = rows.asDiagonal() * part.newest * factor.asDiagonal();
+    const Eigen::VectorXd power = part.power.cwiseProduct(factor.cwiseAbs2());
+    if (axis == 0) {
+      sum = {blocks / 3.0, newest / 3.0, power / 3.0};
+      continue;
+    }
+    sum.blocks += blocks / 3.0;
+    sum.newest += newest / 3.0;
+    sum.power += power / 3.0;
+  }
+  return sum;
 }
 
 /// At 0 dB.
@@ -104,7 +135,7 @@ Eigen::MatrixXd Recipe::noise_moments(Index group, bool on_pose) const {
 void Recipe::make_filters() {
   Front& front = model_.front_;
   errors_ = Eigen::MatrixXd::Zero(front.experts, kChannels);
-  Moments signal;
+  std::array<Moments, 3> axes;
   for (Index g = 0; g < kGroups; ++g) {
     if (spec_.line) {
       const auto count = static_cast<Index>(group_channels(g).size());
@@ -112,7 +143,8 @@ void Recipe::make_filters() {
       for (std::size_t h = 0; h < bank.size(); ++h) bank[h] = line_fit(count, kHistories[h]);
       continue;
     }
-    if (g % 3 == 0) signal = pooled_moments(g);
+    if (g % 3 == 0) axes = axis_moments(g);
+    const Moments signal = pooled_moments(axes, g);
     Index expert = 0;
     for (const bool on_pose : {false, true}) {
       const auto& list = on_pose ? spec_.pose_snr : spec_.x_snr;
