@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dcnn/data/fourier.h"
+#include "diagnosis/spectral_lines.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {
@@ -114,7 +114,7 @@ void add_resonances(const Scan& scan, const Signals& left, const std::vector<Flo
     if (study.channels[j] > 2) continue;
     auto peaks =
         spectral_lines(study, left, floors, 1.5, 0.25 / study.dt(), static_cast<Index>(j), 3);
-    for (const double hz : {4.0, 8.0, 14.0}) peaks.push_back({hz, 0.0});
+    for (const double hz : {4.0, 8.0, 14.0}) peaks.push_back({hz, 0.0, 0.0});
     for (const Peak& peak : peaks) {
       for (const double zeta : kind.fits[0].shapes[1].seeds) {
         list.push_back(make_member(
@@ -126,6 +126,12 @@ void add_resonances(const Scan& scan, const Signals& left, const std::vector<Flo
   }
 }
 
+/// Ratio of a peak to what is beside it from which on it is a line: what earns its numbers exceeds
+/// 15, the largest of a hundred bins of noise is 5 on the average.
+constexpr double kLine = 12.0;
+/// The same where the tool itself moves: there a line may be a small error of the motion's own.
+constexpr double kLineInMotion = 60.0;
+
 void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& floors,
              std::vector<Member>& list) {
   const Case& study = scan.setting().study;
@@ -133,7 +139,10 @@ void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& fl
   std::vector<Peak> peaks;
   for (Index j = 0; j < study.channel_count(); ++j) {
     for (const Peak& p : spectral_lines(study, left, floors, 0.3, 0.49 / study.dt(), j, 1)) {
-      peaks.push_back(p);
+      const auto own =
+          spectral_lines(study, scan.chain().prediction(), floors, p.hz - 0.3, p.hz + 0.3, j, 1);
+      const bool in_motion = !own.empty() && own.front().ratio > 100.0;
+      if (p.prominence > (in_motion ? kLineInMotion : kLine)) peaks.push_back(p);
     }
   }
   std::sort(peaks.begin(), peaks.end(), [](auto& a, auto& b) { return a.ratio > b.ratio; });
@@ -177,41 +186,6 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
     return because("at rest the force does not depend on it");
   }
   return true;
-}
-
-std::vector<Peak> spectral_lines(const Case& study, const Signals& left,
-                                 const std::vector<Floor>& floors, double from_hz, double to_hz,
-                                 Index channel, int most) {
-  // The longest recording tells frequencies best.
-  std::size_t longest = 0;
-  for (std::size_t k = 0; k < left.size(); ++k) {
-    if (left[k].rows() > left[longest].rows()) longest = k;
-  }
-  const Floor& floor = floors[static_cast<std::size_t>(channel)];
-  const double dt = study.dt();
-  const Index n = left[longest].rows();
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(fast_length(n));
-  const Eigen::ArrayXd phase =
-      Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5) * 2.0 * kPi / double(n);
-  x.head(n) = (left[longest].col(channel).array() - left[longest].col(channel).mean()) *
-              (1.0 - phase.cos());
-  const Eigen::VectorXd power = fourier(x).cwiseAbs2() / (1.5 * static_cast<double>(n));
-  std::vector<Peak> peaks;
-  for (Index k = 2; k + 2 < power.size(); ++k) {
-    const double hz = static_cast<double>(k) / (static_cast<double>(x.size()) * dt);
-    if (hz < from_hz || hz > to_hz || power(k) < power(k - 1) || power(k) < power(k + 1)) continue;
-    peaks.push_back({hz, power(k) / std::max(1e-300, floor.density(hz, dt))});
-  }
-  std::sort(peaks.begin(), peaks.end(), [](auto& a, auto& b) { return a.ratio > b.ratio; });
-  std::vector<Peak> apart;
-  for (const Peak& peak : peaks) {
-    const bool near = std::any_of(apart.begin(), apart.end(), [&](const Peak& other) {
-      return std::abs(other.hz - peak.hz) < std::max(0.1, 0.04 * peak.hz);
-    });
-    if (!near) apart.push_back(peak);
-    if (static_cast<int>(apart.size()) == most) break;
-  }
-  return apart;
 }
 
 std::vector<Member> candidates(const Scan& scan, const Signals& left,

@@ -17,13 +17,4 @@ std::vector<Member> candidates(const Scan& scan, const Signals& left,
 /// Whether the recordings hold the signals that the effect needs; if not, why, in words.
 bool is_testable(const Case& study, const EffectKind& kind, std::string* why = nullptr);
 
-/// The strongest lines of what is left, in the whole band of the log: frequency [Hz] and how often
-/// its power is the floor's, strongest first.
-struct Peak {
-  double hz, ratio;
-};
-std::vector<Peak> spectral_lines(const Case& study, const Signals& left,
-                                 const std::vector<Floor>& floors, double from_hz, double to_hz,
-                                 Index channel, int most);
-
 }  // namespace dcnn

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "diagnosis/candidates.h"
+#include "diagnosis/spectral_lines.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {

@@ -10,7 +10,7 @@ namespace dcnn {
 namespace {
 
 constexpr int kFlips = 999;
-constexpr double kFlipSeconds = 3.0;
+constexpr double kFlipSeconds = 1.0;
 constexpr double kConstancySeconds = 8.0;
 constexpr double kSandwichSeconds = 1.0;
 constexpr double kSelection = 1.2;  // how much the choice among many widens an interval

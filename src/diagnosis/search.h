@@ -56,6 +56,7 @@ class Search {
   bool replace_pairs();
   void explore();
   void detect();
+  void drop_coincidences();
   void judge();
   void say(const std::string& text) const;
 

@@ -42,9 +42,28 @@ void Search::detect() {
   }
 }
 
+/// Takes back, the most doubtful first, what signs drawn at random for each second explain as
+/// often: a coincidence of a few moments, not a law. (An event has too few seconds for this test.)
+void Search::drop_coincidences() {
+  constexpr double kMostLikely = 0.05;
+  if (study_.is_static()) return;
+  while (true) {
+    double most = kMostLikely;
+    std::optional<std::size_t> worst;
+    for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+      if (fit_.members[m].fixed || fit_.members[m].interval_s) continue;
+      const double p = flip_p_value(*setting_, fit_, m);
+      if (p > most) most = p, worst = m;
+    }
+    if (!worst) return;
+    settle(without(*worst).members);
+  }
+}
+
 /// Takes back what a remainder nobody can name makes doubtful: events, and members that fit in some
 /// places and not in others.
 void Search::judge() {
+  drop_coincidences();
   bands_ = band_tests(*setting_, fit_.residual);
   const double explained = std::max(0.0, chi2_before_ - fit_.chi2);
   remains_ = is_alarming(bands_, explained);
@@ -74,6 +93,7 @@ void Search::judge() {
     settle(rest);
     changed = true;
   }
+  drop_coincidences();
   bands_ = band_tests(*setting_, fit_.residual);
 }
 
