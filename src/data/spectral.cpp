@@ -13,14 +13,14 @@ namespace {
 constexpr double kPadSeconds = 2.0;
 constexpr double kEndSeconds = 1.0;  // in which what is taken out at an end decays
 
-/// The second derivative [1/s^2] at the first of some samples: of the cubic through them.
+/// The second derivative [1/s^2] at the first of some samples: of the quartic through them.
 double bend(const Eigen::VectorXd& x, double dt) {
   const Index n = x.size();
   if (n < 8) return 0.0;
   const Eigen::ArrayXd u = Eigen::ArrayXd::LinSpaced(n, 0.0, 1.0);
-  Eigen::MatrixXd A(n, 4);
-  A << Eigen::VectorXd::Ones(n), u.matrix(), u.square().matrix(), u.cube().matrix();
-  const Eigen::Vector4d c = (A.transpose() * A).ldlt().solve(A.transpose() * x);
+  Eigen::MatrixXd A(n, 5);
+  for (Index k = 0; k < A.cols(); ++k) A.col(k) = u.pow(static_cast<double>(k));
+  const Eigen::VectorXd c = (A.transpose() * A).ldlt().solve(A.transpose() * x);
   const double seconds = dt * static_cast<double>(n - 1);
   return 2.0 * c(2) / (seconds * seconds);
 }
