@@ -37,9 +37,9 @@ NoiseSpec parse_noise(Options options) {
   if (options.choice("power", "variance", {"variance", "meansquare"}) == "meansquare") {
     spec.power = NoiseSpec::Power::kMeanSquare;
   }
-  if (options.choice("on", "features", {"features", "pose"}) == "pose") {
-    spec.on = NoiseSpec::Signal::kPose;
-  }
+  const auto on = options.choice("on", "features", {"features", "pose", "both"});
+  if (on == "pose") spec.on = NoiseSpec::Signal::kPose;
+  if (on == "both") spec.on = NoiseSpec::Signal::kBoth;
   spec.block_rows = options.get<Index>("block_rows", 0);
   if (spec.block_rows < 0) options.reject("block_rows", "must not be negative");
   options.finish();

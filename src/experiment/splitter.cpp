@@ -63,10 +63,14 @@ struct Splitter::Rows {
 };
 
 bool wants_pose_noise(const Json& configuration) {
-  if (signal_of(configuration) == "pose") return true;
+  const auto wants = [](const Json& json) {
+    const std::string on = signal_of(json);
+    return on == "pose" || on == "both";
+  };
+  if (wants(configuration)) return true;
   for (const Json& candidate :
        configuration.value("training", Json::object()).value("candidates", Json::array())) {
-    if (signal_of(candidate) == "pose") return true;
+    if (wants(candidate)) return true;
   }
   return false;
 }
@@ -74,7 +78,8 @@ bool wants_pose_noise(const Json& configuration) {
 Splitter::Splitter(const Identifier& identifier, const TrainingObserver& observer, bool pose_noise)
     : identifier_(identifier), observer_(observer), pose_noise_(pose_noise) {
   require(!pose_noise || identifier.layout.spec.set == FeatureSpec::Set::kPose, Exit::kUsage,
-          "noise.on 'pose' needs the feature set 'pose', whose features are linear in the pose; "
+          "noise.on 'pose' or 'both' needs the feature set 'pose', whose features are linear in "
+          "the pose; "
           "choose that set or noise.on 'features'");
 }
 

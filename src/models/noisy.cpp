@@ -18,7 +18,9 @@ Stream noisy(const Samples& samples, const NoiseSpec& spec, const InputMap& map,
              std::uint64_t key) {
   Stream stream = samples;
   if (!snr) return stream;
-  if (spec.on == NoiseSpec::Signal::kFeatures) {
+  const bool on_features = spec.on == NoiseSpec::Signal::kFeatures ||
+                           (spec.on == NoiseSpec::Signal::kBoth && Rng({key, 1}).below(2) == 0);
+  if (on_features) {
     stream.x = with_noise(std::move(stream.x), noise_deviation(spec, map, samples.x, snr), key);
     return stream;
   }

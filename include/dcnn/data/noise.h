@@ -17,7 +17,8 @@ using SnrLevel = std::optional<double>;
 struct NoiseSpec {
   enum class Scope { kFeature, kMatrix };       ///< one power per feature, or one over all entries
   enum class Power { kVariance, kMeanSquare };  ///< of the training part, or of the array given
-  enum class Signal { kFeatures, kPose };       ///< the features, or the pose they are derived from
+  /// The features, the pose they are derived from, or now one and now the other.
+  enum class Signal { kFeatures, kPose, kBoth };
   std::vector<SnrLevel> levels{std::nullopt, 40.0, 30.0, 20.0, 10.0};
   Scope scope = Scope::kFeature;
   Power power = Power::kVariance;
@@ -28,7 +29,7 @@ struct NoiseSpec {
 };
 
 /// Keys: levels_db (numbers, null is clean), scope (feature|matrix), power
-/// (variance|meansquare), on (features|pose), block_rows.
+/// (variance|meansquare), on (features|pose|both), block_rows.
 NoiseSpec parse_noise(Options options);
 
 /// Standard deviation of the noise on each feature: sqrt(P_j / 10^(snr/10)); zeros when clean.

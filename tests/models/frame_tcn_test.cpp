@@ -1,0 +1,226 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "models/frame_tcn/material.h"
+#include "models/frame_tcn/model.h"
+
+namespace dcnn::frame_tcn {
+namespace {
+
+/// Sines of several frequencies per coordinate, with their exact rates, and a made-up tool's force.
+Samples draw_motion(Index rows, double hz, std::uint64_t seed) {
+  Rng rng(seed);
+  Samples s;
+  s.x = Eigen::MatrixXd::Zero(rows, kChannels);
+  s.segments = {{0, rows / 2}, {rows / 2, rows}};
+  for (Index j = 0; j < 6; ++j) {
+    const Index value = j < 3 ? j : -1, rate = j < 3 ? 6 + j : j, second = j < 3 ? 12 + j : 6 + j;
+    for (int k = 0; k < 6; ++k) {
+      const double w = 6.283 * hz * (0.2 + 0.16 * k) * rng.uniform(0.9, 1.1);
+      const double phase = rng.uniform(0.0, 6.283), size = 0.3 / (1.0 + k);
+      for (Index i = 0; i < rows; ++i) {
+        const double angle = w * 0.002 * static_cast<double>(i) + phase;
+        if (value >= 0) s.x(i, value) += size * std::sin(angle);
+        s.x(i, rate) += size * w * std::cos(angle);
+        s.x(i, second) -= size * w * w * std::sin(angle);
+      }
+    }
+  }
+  s.y.resize(rows, 3);
+  for (Index i = 0; i < rows; ++i) {
+    const Frame f(s.x.row(i).transpose(), Eigen::Matrix3d::Identity());
+    const Eigen::Vector3d world =
+        Eigen::Vector3d(0, 0, -5.0) - 0.6 * s.x.row(i).segment<3>(9).transpose();
+    s.y.row(i) =
+        (f.to_sensor * world - f.alpha.cross(Eigen::Vector3d(0.01, -0.02, 0.1))).transpose();
+  }
+  return s;
+}
+
+Problem problem(const Json& patch = Json::object()) {
+  Problem result;
+  for (int j = 0; j < 15; ++j) result.layout.names.push_back("x" + std::to_string(j));
+  result.layout.units.assign(15, "");
+  result.targets = {{"fx", "fy", "fz"}, {"N", "N", "N"}};
+  result.configuration = {
+      {"model",
+       {{"name", "frame-tcn"}, {"time_scales", {0.8, 1.0, 1.25}}, {"experts_x_db", {10, 25, 60}}}},
+      {"training", {{"epochs", 4}, {"steps", 20}}}};
+  for (const auto& [section, keys] : patch.items()) result.configuration[section].update(keys);
+  result.where = "test";
+  result.seed = 3;
+  return result;
+}
+
+const Samples& training() {
+  static const Samples samples = draw_motion(5000, 2.0, 1);
+  return samples;
+}
+
+const FrameTcn& trained() {
+  static const auto model = [] {
+    auto m = std::make_unique<FrameTcn>(problem());
+    FitSession session;
+    m->fit(training(), {}, session);
+    return m;
+  }();
+  return *model;
+}
+
+std::string bytes(const FrameTcn& model) {
+  Container file;
+  model.save(file);
+  return encode(file);
+}
+
+TEST(FrameTcn, FiltersOfWhiteSignalsAreTheScalarWienerGain) {
+  Rng rng(1);
+  Eigen::MatrixXd x(20000, kChannels);
+  for (Index i = 0; i < x.size(); ++i) x.data()[i] = rng.normal();
+  const Moments m = moments(BlockMeans(x, {}), 3, 1);
+  const Eigen::MatrixXd w = wiener(m, white_noise_moments(Eigen::Vector2d(0.25, 0.25)));
+  EXPECT_NEAR(w(0, 0), 0.8, 0.02) << "1/(1 + 0.25) on the newest sample";
+  EXPECT_NEAR(w(1, kBlocks), 0.8, 0.02);
+  Eigen::MatrixXd rest = w;
+  rest(0, 0) = rest(1, kBlocks) = 0.0;
+  EXPECT_LT(rest.cwiseAbs().maxCoeff(), 0.15);
+}
+
+TEST(FrameTcn, BlocksAreMeansOfTheRows) {
+  Eigen::MatrixXd x(1200, 1);
+  Rng rng(2);
+  for (Index i = 0; i < x.rows(); ++i) x(i, 0) = rng.normal();
+  const BlockMeans blocks(x, {{0, 600}, {600, 1200}});
+  double out[kBlocks];
+  for (const Index row : {0, 3, 25, 599, 600, 610, 700, 1199}) {
+    const Index begin = row < 600 ? 0 : 600, padding = std::min<Index>(16, row + 1 - begin);
+    const double before = x.col(0).segment(begin, padding).mean();
+    blocks.write(row, 0, kBlocks, out);
+    Index lag = 0, whole = 0;
+    for (Index k = 0; k < kBlocks; ++k) {
+      double sum = 0.0;
+      for (Index i = 0; i < block_size(k); ++i, ++lag) {
+        sum += row - lag < begin ? before : x(row - lag, 0);
+      }
+      EXPECT_NEAR(out[k], sum / static_cast<double>(block_size(k)), 1e-12);
+      if (row - lag + 1 >= begin) whole = k + 1;
+    }
+    EXPECT_EQ(lag, kSpan);
+    EXPECT_EQ(blocks.known(row), whole);
+  }
+}
+
+/// Of a random walk in noise the best estimate is the steady state of a Kalman filter, from the
+/// first row on: no filter whose history is made up reaches it.
+TEST(FrameTcn, YoungSegmentsGetTheBestEstimateOfTheBlocksTheyHave) {
+  Moments walk;
+  const Index n = 8;  // single samples
+  walk.blocks = Eigen::MatrixXd::Identity(2 * kBlocks, 2 * kBlocks);
+  walk.newest = Eigen::MatrixXd::Zero(2 * kBlocks, 2);
+  walk.power = Eigen::Vector2d::Constant(100.0);
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < n; ++j) {
+      walk.blocks(i, j) = 100.0 - static_cast<double>(std::max(i, j));  // variance 100 - age
+    }
+    walk.newest(i, 0) = walk.blocks(0, i);
+  }
+  const Eigen::MatrixXd noise = 4.0 * Eigen::MatrixXd::Identity(2 * kBlocks, 2 * kBlocks);
+  for (const Index known : {1, 2, 4, 8}) {
+    double variance = 100.0 - static_cast<double>(known - 1), gain = 0.0;
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(known);
+    for (Index i = known - 1; i >= 0; --i) {  // the scalar Kalman filter, oldest sample first
+      gain = variance / (variance + 4.0);
+      weights *= 1.0 - gain;
+      weights[i] = gain;
+      variance = (1.0 - gain) * variance + 1.0;
+    }
+    const Eigen::MatrixXd w = wiener(walk, noise, known);
+    EXPECT_LT((w.row(0).head(known).transpose() - weights).norm(), 1e-5) << known << " samples";
+  }
+}
+
+TEST(FrameTcn, GradientsAgreeWithDifferences) {
+  Rng rng(5);
+  Net net({2, 2, true}, rng);
+  for (double& p : net.parameters) p += 0.3 * rng.normal();
+  net.mean.setConstant(0.2);
+  net.scale.setConstant(0.7);
+  Pass pass;
+  pass.levels.resize(kChannels, 3);
+  pass.experts.resize(2 * kChannels, 3);
+  for (double& v : pass.levels.reshaped()) v = rng.normal();
+  for (double& v : pass.experts.reshaped()) v = 0.5 * rng.normal();
+  const auto loss = [&] {
+    net.denoise(pass);
+    net.features(pass);
+    net.product(pass);
+    return 0.5 * pass.out.squaredNorm();
+  };
+  loss();
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(net.parameters.size());
+  const Eigen::MatrixXd d_clean = net.pull_back_head(pass, pass.out, gradient);
+  net.pull_back_denoise(pass, d_clean, gradient);
+  for (Index i = 0; i < net.parameters.size(); i += 7) {
+    const double step = 1e-6, kept = net.parameters[i];
+    net.parameters[i] = kept + step;
+    const double above = loss();
+    net.parameters[i] = kept - step;
+    const double below = loss();
+    net.parameters[i] = kept;
+    const double wanted = (above - below) / (2.0 * step);
+    EXPECT_NEAR(gradient[i], wanted, 1e-5 * std::max(1.0, std::abs(wanted))) << "parameter " << i;
+  }
+}
+
+TEST(FrameTcn, LearnsAToolOnAnotherMotion) {
+  const Samples test = draw_motion(1500, 2.0, 2);
+  const Eigen::MatrixXd error = trained().predict(test) - test.y;
+  EXPECT_LT(std::sqrt(error.squaredNorm() / static_cast<double>(error.size())), 0.3);
+}
+
+TEST(FrameTcn, SeesNeitherTheFutureNorAnotherSegment) {
+  Stream changed = training();
+  changed.x.bottomRows(1000).array() += 1.0;
+  const Eigen::MatrixXd before = trained().predict(training()), after = trained().predict(changed);
+  EXPECT_LT((after - before).topRows(4000).cwiseAbs().maxCoeff(), 1e-9);
+  Stream other = training();
+  other.x.topRows(2500).array() += 1.0;
+  EXPECT_LT((trained().predict(other) - before).bottomRows(2500).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(FrameTcn, AModelFromAFileIsTheSameModel) {
+  Container file;
+  trained().save(file);
+  const FrameTcn copy(decode(encode(file), "m"), "m");
+  EXPECT_EQ(copy.predict(training()), trained().predict(training()));
+  EXPECT_EQ(bytes(copy), bytes(trained()));
+  file.tensors.pop_back();
+  EXPECT_THROW(FrameTcn(file, "m"), Error);
+}
+
+TEST(FrameTcn, AResumedTrainingEndsInTheSameBytes) {
+  const Samples few = draw_motion(800, 2.0, 4);
+  const auto fit = [&](FitSession session, FrameTcn& model) { return model.fit(few, {}, session); };
+  FrameTcn whole(problem()), stopped(problem()), resumed(problem());
+  ASSERT_TRUE(fit({}, whole));
+  Container checkpoint;
+  Index left = 50;  // stops in the head's first epoch
+  FitSession first, second;
+  first.stop_wanted = [&] { return left-- == 0; };
+  first.save_checkpoint = [&](const Container& file) { checkpoint = file; };
+  ASSERT_FALSE(fit(first, stopped));
+  second.checkpoint = checkpoint;
+  ASSERT_TRUE(fit(second, resumed));
+  EXPECT_EQ(bytes(resumed), bytes(whole));
+}
+
+TEST(FrameTcn, NoticesMotionFasterThanItsTraining) {
+  const Eigen::VectorXd own = trained().novelty(draw_motion(3000, 2.0, 7));
+  EXPECT_LT((own.array() > 1.0).cast<double>().mean(), 0.01);
+  const Eigen::VectorXd fast = trained().novelty(at_speed(training(), 2.0));
+  EXPECT_GT((fast.array() > 1.0).cast<double>().mean(), 0.5);
+}
+
+}  // namespace
+}  // namespace dcnn::frame_tcn
