@@ -71,6 +71,11 @@ AngleBins bin_by_angle(const Case& study, const Signals& left, const std::string
   return bins;
 }
 
+/// One whole period within the range of the angle.
+double least_order(const AngleBins& bins) {
+  return 2.0 * kPi / (bins.width * static_cast<double>(bins.sum.size()));
+}
+
 /// The order whose sine and cosine of the angle explain most of the bins, beside a line in it.
 double best_order(const AngleBins& bins) {
   const Index n = bins.sum.size();
@@ -79,8 +84,7 @@ double best_order(const AngleBins& bins) {
   const double range = bins.width * static_cast<double>(n), middle = bins.low + 0.5 * range;
   double best = 0.0, most = -1.0;
   const double step = std::max(0.1, 0.4 / range);
-  for (double order = std::max(1.0, 2.0 * kPi / range); order < std::min(120.0, 0.5 / bins.width);
-       order += step) {
+  for (double order = least_order(bins); order < std::min(120.0, 0.5 / bins.width); order += step) {
     Eigen::MatrixXd A(n, 4);
     A << Eigen::VectorXd::Ones(n), (q - middle).matrix(), (order * q).sin().matrix(),
         (order * q).cos().matrix();
@@ -103,6 +107,7 @@ void add_cogging(const Scan& scan, const Signals& left, std::vector<Member>& lis
     if (order <= 0.0) continue;
     list.push_back(make_member(kind, kind.fits[0], axis, study.has_torque(),
                                Eigen::VectorXd::Constant(1, order)));
+    list.back().least_shapes = Eigen::VectorXd::Constant(1, least_order(bins));
   }
 }
 

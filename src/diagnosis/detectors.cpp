@@ -140,7 +140,7 @@ Knocks find_knocks(const Case& study, const Signals& left, const std::vector<Flo
   for (std::size_t j = 0; j < study.channels.size(); ++j) {
     const int axis = study.channels[j];
     if (axis > 2) continue;
-    const double sigma = floors[j].deviation();
+    const double sigma = floors[j].deviation(study.dt());
     int right = 0, wrong = 0;
     double strength = 0.0;
     std::vector<double> gaps, slugs;

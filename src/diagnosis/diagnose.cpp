@@ -180,7 +180,7 @@ Json unnamed_part(const Search& search) {
       square += r.col(j).squaredNorm();
       count += static_cast<double>(r.rows());
     }
-    const double s = search.floors()[static_cast<std::size_t>(j)].deviation();
+    const double s = search.floors()[static_cast<std::size_t>(j)].deviation(search.study().dt());
     excess.push_back(search.remains() ? std::sqrt(std::max(0.0, square / count - s * s)) : 0.0);
   }
   Json part{{"excess_rms", excess}, {"formula", nullptr}, {"words", nullptr}};
@@ -237,7 +237,7 @@ Diagnosis diagnose(const DiagnosisRequest& request,
   report["unnamed"] = unnamed_part(search);
   Json floors = Json::array(), sources = Json::array();
   for (const Floor& floor : search.floors()) {
-    floors.push_back(floor.deviation());
+    floors.push_back(floor.deviation(search.study().dt()));
     sources.push_back(floor.source);
   }
   report["fit"] = {{"holdout_rmse_before", holdout.rmse({})},

@@ -39,7 +39,7 @@ void move(std::vector<Member>& members, const Coordinate& c, double step) {
   }
   const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(c.index)];
   member.shapes(c.index) =
-      from_search_scale(shape, search_scale(shape, member.shapes(c.index)) + step);
+      from_search_scale(member, c.index, search_scale(shape, member.shapes(c.index)) + step);
 }
 
 /// A difference step: upwards, but for a shape at its upper bound.

@@ -63,7 +63,7 @@ Eigen::MatrixXd published_gradient(const Member& member, const std::vector<std::
       const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(k - amplitudes)];
       double& value = moved.shapes(k - amplitudes);
       if (search_scale(shape, value) + step > search_scale(shape, shape.high)) step = -step;
-      value = from_search_scale(shape, search_scale(shape, value) + step);
+      value = from_search_scale(moved, k - amplitudes, search_scale(shape, value) + step);
     }
     gradient.col(k) = (published(moved, names) - here) / step;
   }

@@ -14,6 +14,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kMotionFree = 20.0;  // Hz: hand-guided and commanded motion ends well below
 constexpr double kColourGain = 12.0;  // of the log-likelihood, before noise is called coloured
 constexpr Index kWindow = 1024;       // samples of one periodogram
+constexpr double kSlowest = 0.02;     // Hz: flicker noise is taken for flat below
 constexpr Index kFewestBins = 12;     // below this the quiet band says nothing
 
 double median(std::vector<double> values) {
@@ -119,15 +120,31 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
       best.rho = rho;
     }
   }
+  const double top = 0.5 / dt;
+  for (const double share : {0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8}) {
+    const Eigen::VectorXd shape =
+        hz.unaryExpr([&](double f) { return share + (1.0 - share) * top / f; });
+    const Whittle fit = fit_level(density, shape, windows);
+    if (fit.likelihood <= most) continue;
+    most = fit.likelihood;
+    best = Floor();
+    best.white = share * fit.level;
+    best.flicker = (1.0 - share) * fit.level * top;
+  }
   return best;
 }
 
 }  // namespace
 
-double Floor::deviation() const { return std::sqrt(white + coloured); }
+double Floor::deviation(double dt) const {
+  // Of flicker noise: the mean of its density over the band.
+  const double slow = flicker > 0.0 ? flicker * 2.0 * dt * std::log(0.5 / dt / kSlowest) : 0.0;
+  return std::sqrt(white + coloured + slow);
+}
 
 double Floor::density(double hz, double dt) const {
-  return white + (coloured > 0.0 ? coloured * ar_shape(rho, hz, dt) : 0.0);
+  return white + (coloured > 0.0 ? coloured * ar_shape(rho, hz, dt) : 0.0) +
+         flicker / std::max(hz, kSlowest);
 }
 
 double Floor::pose_density(double hz, double cutoff_hz) const {
@@ -173,12 +190,17 @@ std::vector<Floor> floor_at_rest(const Case& study, const Signals& residual) {
 
 }  // namespace
 
-std::vector<Floor> noise_floor(const Case& study, const Signals& residual) {
+std::vector<Floor> noise_floor(const Case& study, const Signals& residual,
+                               const std::vector<Eigen::VectorXd>& levels) {
   if (study.is_static()) return floor_at_rest(study, residual);
+  Signals even;
+  for (std::size_t k = 0; k < residual.size(); ++k) {
+    even.push_back(levels[k].cwiseInverse().asDiagonal() * residual[k]);
+  }
   const double dt = study.dt(), from = quiet_band(dt), to = 0.49 / dt;
   std::vector<Floor> floors;
   for (Index channel = 0; channel < study.channel_count(); ++channel) {
-    const Periodograms p = periodograms(study, residual, channel);
+    const Periodograms p = periodograms(study, even, channel);
     const Eigen::VectorXd density = density_of(p);
     std::vector<Index> quiet;
     for (Index i = 0; i < p.hz.size(); ++i) {

@@ -126,7 +126,7 @@ Trial Scan::refine(const Trial& start, Detail detail, int evaluations) const {
   const auto loss = [&](const Eigen::VectorXd& at) {
     Member member = start.member;
     for (Index i = 0; i < n; ++i) {
-      member.shapes(i) = from_search_scale(shapes[static_cast<std::size_t>(i)], at(i));
+      member.shapes(i) = from_search_scale(member, i, at(i));
     }
     const Trial trial = evaluate(member, detail);
     if (trial.gain > best.gain) best = trial;

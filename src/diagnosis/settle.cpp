@@ -28,9 +28,10 @@ void Search::make_setting(const std::vector<Member>& members) {
   left_ = difference(study_, prediction);
   Signals measured;
   for (const Log& log : study_.logs) measured.push_back(log.measured);
-  floors_ = noise_floor(study_, left_);
+  const auto levels = noise_level(study_, left_);
+  floors_ = noise_floor(study_, left_, levels);
   add_pose_noise(study_, floors_);
-  const Whitener whitener(study_, floors_, noise_level(study_, left_));
+  const Whitener whitener(study_, floors_, levels);
   const Index stride = whitener.coarse_stride();
   setting_ = std::make_unique<Setting>(Setting{
       study_, whitener, thinned(study_, stride), whitener.at_stride(stride), measured, {}, {}});

@@ -28,7 +28,7 @@ void Search::detect() {
     for (Case* study : {&study_, &softer_, &harder_}) {
       study->rounding_step = step;
       // The floor holds the rounding's own variance too.
-      const double all = floors_.front().deviation();
+      const double all = floors_.front().deviation(study_.dt());
       study->rounding_noise =
           std::sqrt(std::max(all * all - step * step / 12.0, 1e-4 * step * step));
     }

@@ -9,19 +9,20 @@ namespace {
 constexpr double kBlockSeconds = 0.02;
 constexpr double kEndSeconds = 0.25;  // of a segment, left out at either end
 constexpr int kOrder = 8;
+constexpr int kLongOrder = 48;  // flicker noise remembers long
 constexpr int kFrequencies = 4096;
 
-/// Autocovariance at lags 0 … kOrder of means over blocks of `block` samples.
-Eigen::VectorXd block_covariance(const Floor& floor, double cutoff_hz, Index block, double dt) {
-  Eigen::VectorXd covariance = Eigen::VectorXd::Zero(kOrder + 1);
+/// Autocovariance at lags 0 … order of means over blocks of `block` samples.
+Eigen::VectorXd block_covariance(const Floor& floor, double cutoff_hz, Index block, double dt,
+                                 int order) {
+  Eigen::VectorXd covariance = Eigen::VectorXd::Zero(order + 1);
   const auto b = static_cast<double>(block);
   for (int i = 0; i < kFrequencies; ++i) {
     const double hz = (i + 0.5) / kFrequencies * 0.5 / dt, x = std::numbers::pi * hz * dt;
     const double mean = std::sin(b * x) / (b * std::sin(x));
     const double density =
         (floor.density(hz, dt) + floor.pose_density(hz, cutoff_hz)) * mean * mean / kFrequencies;
-    for (int lag = 0; lag <= kOrder; ++lag)
-      covariance(lag) += density * std::cos(2.0 * x * b * lag);
+    for (int lag = 0; lag <= order; ++lag) covariance(lag) += density * std::cos(2.0 * x * b * lag);
   }
   return covariance;
 }
@@ -42,7 +43,8 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
   block_deviation_.resize(channels_);
   for (Index j = 0; j < channels_; ++j) {
     const Floor& floor = floors[static_cast<std::size_t>(j)];
-    Eigen::VectorXd c = block_covariance(floor, cutoff, block_, dt);
+    const int longest = !moving ? 0 : floor.flicker > 0.0 ? kLongOrder : kOrder;
+    Eigen::VectorXd c = block_covariance(floor, cutoff, block_, dt, longest);
     if (!moving) {
       c.setZero();
       c(0) = floor.white + floor.coloured;
@@ -55,7 +57,7 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
     double error = c(0);
     filter.coefficients.emplace_back();
     filter.deviation.push_back(std::sqrt(error));
-    for (int order = 1; order <= (moving ? kOrder : 0); ++order) {
+    for (int order = 1; order <= longest; ++order) {
       double k = c(order);
       for (int i = 0; i < order - 1; ++i) k -= a[static_cast<std::size_t>(i)] * c(order - 1 - i);
       k /= error;
