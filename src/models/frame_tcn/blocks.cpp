@@ -5,6 +5,7 @@
 namespace dcnn::frame_tcn {
 namespace {
 
+constexpr Index kFewest = 4;  // differences that a level is judged from
 constexpr Index kFirst = 16;  // rows whose mean stands for those before a segment
 
 }  // namespace
@@ -51,7 +52,7 @@ void BlockMeans::write(Index row, Index channel, Index count, double* out) const
 }
 
 Eigen::MatrixXd roughness(const Eigen::MatrixXd& u, const Eigen::MatrixXd& w,
-                          const std::vector<Segment>& segments) {
+                          const std::vector<Segment>& segments, Index edge) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Constant(u.cols(), u.rows(), kUnknown);
   for (const Segment& s : stretches(u.rows(), segments)) {
     Eigen::VectorXd sum(s.size() + 1);
@@ -59,11 +60,12 @@ Eigen::MatrixXd roughness(const Eigen::MatrixXd& u, const Eigen::MatrixXd& w,
       const auto bend = [&](const Eigen::MatrixXd& x, Index i) {
         return x(i, j) - 2.0 * x(i - 1, j) + x(i - 2, j);
       };
+      const Index begin = j < 3 ? 2 : edge + 2;
       sum[0] = 0.0;
       for (Index i = 0; i < s.size(); ++i) {
-        sum[i + 1] = sum[i] + (i < 2 ? 0.0 : bend(u, s.begin + i) * bend(w, s.begin + i));
-        const Index low = std::max<Index>(2, i + 1 - kLevelSpan);
-        if (i >= 2) {
+        sum[i + 1] = sum[i] + (i < begin ? 0.0 : bend(u, s.begin + i) * bend(w, s.begin + i));
+        const Index low = std::max(begin, i + 1 - kLevelSpan);
+        if (i + 1 - low >= kFewest) {
           result(j, s.begin + i) = (sum[i + 1] - sum[low]) / static_cast<double>(i + 1 - low);
         }
       }

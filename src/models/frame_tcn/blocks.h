@@ -37,9 +37,10 @@ class BlockMeans {
 };
 
 /// Mean over the last 256 rows of the segment of the product of the second differences of u and w,
-/// (C, N); kUnknown where a row has no two before it.
+/// (C, N). The first `edge` rows of the rates, channel 3 and above, do not count; kUnknown where
+/// fewer than 4 differences do.
 Eigen::MatrixXd roughness(const Eigen::MatrixXd& u, const Eigen::MatrixXd& w,
-                          const std::vector<Segment>& segments);
+                          const std::vector<Segment>& segments, Index edge);
 
 /// 0.5 log10 of a mean square, held above 1e-8 of the unit.
 Eigen::MatrixXd levels(const Eigen::MatrixXd& mean_square);

@@ -37,10 +37,10 @@ Eigen::MatrixXd normalised(const Eigen::MatrixXd& x, const Eigen::VectorXd& mean
 }
 
 Material::Material(const Front& front, const Eigen::MatrixXd& x,
-                   const std::vector<Segment>& segments, Index stride) {
+                   const std::vector<Segment>& segments, Index stride, Index edge) {
   constexpr Index kBatch = 512;
   const BlockMeans blocks(x, segments);
-  const Eigen::MatrixXd rough = dcnn::frame_tcn::roughness(x, x, segments);
+  const Eigen::MatrixXd rough = dcnn::frame_tcn::roughness(x, x, segments, edge);
   const Index rows = x.rows() / stride;
   experts.resize(kChannels * front.experts, rows);
   roughness.resize(kChannels, rows);

@@ -26,9 +26,9 @@ struct Material {
   Eigen::MatrixXf roughness;  ///< (15, N)
   Eigen::MatrixXf clean;      ///< (15, N) the newest samples themselves
 
-  /// `stride` keeps every stride-th row.
+  /// `stride` keeps every stride-th row, `edge` is that of roughness().
   Material(const Front& front, const Eigen::MatrixXd& x, const std::vector<Segment>& segments,
-           Index stride);
+           Index stride, Index edge);
   Index rows() const { return experts.cols(); }
 };
 

@@ -4,6 +4,7 @@
 
 #include "dcnn/data/rotation.h"
 #include "models/frame_tcn/material.h"
+#include "models/frame_tcn/pose_noise_moments.h"
 #include "models/frame_tcn/recipe.h"
 #include "models/tensor_io.h"
 
@@ -11,7 +12,7 @@ namespace dcnn {
 namespace frame_tcn {
 namespace {
 
-constexpr Index kMostExperts = 64, kMostClouds = 256;
+constexpr Index kMostExperts = 64, kMostClouds = 256, kMostEdge = 1000000;
 
 /// Row-major, as files hold matrices.
 StoredTensor stored(const std::string& name, const Eigen::MatrixXd& m) {
@@ -45,6 +46,7 @@ FrameTcn::FrameTcn(const Problem& problem)
   Rng rng({spec_.seed, 100});
   net_ = Net({spec_.experts(), problem.outputs() / 3, spec_.saturation}, rng);
   net_.mounting = spec_.mounting;
+  if (!spec_.pose_snr.empty()) net_.edge = edge_rows(spec_.layout);
   spread_ = Eigen::VectorXd::Ones(problem.outputs() / 3);
 }
 
@@ -54,6 +56,7 @@ FrameTcn::FrameTcn(const Container& file, const std::string& where) {
   const auto experts = static_cast<Index>(options.number("experts", 0, 1, kMostExperts));
   const auto triples = static_cast<Index>(options.number("triples", 0, 1, 2));
   const auto clouds = static_cast<Index>(options.number("clouds", 0, 1, kMostClouds));
+  const auto edge = static_cast<Index>(options.number("edge", 0, 0, kMostEdge));
   const bool saturation = options.get<bool>("saturation");
   options.finish();
   map_ = InputMap::parse(parse_json(stored_text(file, "map", where), where, Exit::kModel), where,
@@ -62,6 +65,7 @@ FrameTcn::FrameTcn(const Container& file, const std::string& where) {
   front_ = Front(experts);
   Rng rng(0);
   net_ = Net({experts, triples, saturation}, rng);
+  net_.edge = edge;
   spread_ = Eigen::VectorXd::Ones(triples);
   novelty_ = Novelty(clouds);
   auto all = slots();
@@ -83,8 +87,8 @@ std::vector<FrameTcn::Slot> FrameTcn::slots() const {
                      front_.weights[g][h]});
     }
   }
-  Eigen::MatrixXd channels(kChannels, 4);
-  channels << net_.mean, net_.scale, net_.level_mean, net_.level_scale;
+  Eigen::MatrixXd channels(kChannels, 5);
+  channels << net_.mean, net_.scale, net_.level_mean, net_.level_scale, net_.level_noisy;
   all.push_back({"parameters", net_.parameters});
   all.push_back({"channels", channels});
   all.push_back({"unit", net_.unit});
@@ -107,6 +111,7 @@ void FrameTcn::assign(const std::vector<Slot>& all) {
   net_.scale = channels.col(1);
   net_.level_mean = channels.col(2);
   net_.level_scale = channels.col(3);
+  net_.level_noisy = channels.col(4);
   net_.unit = (next++)->value;
   net_.mounting = (next++)->value;
   spread_ = (next++)->value;
@@ -121,6 +126,7 @@ void FrameTcn::save(Container& file) const {
   file.metadata["plan"] = Json{{"experts", net_.plan().experts},
                                {"triples", net_.plan().triples},
                                {"clouds", novelty_.clouds()},
+                               {"edge", net_.edge},
                                {"saturation", net_.plan().saturation}}
                               .dump();
   for (const Slot& slot : slots()) file.tensors.push_back(stored(slot.name, slot.value));
@@ -144,7 +150,7 @@ Eigen::MatrixXd FrameTcn::predict(const Stream& stream) const {
   constexpr Index kBatch = 256;
   const Eigen::MatrixXd x = normalised(stream.x, net_.mean, net_.scale);
   const BlockMeans blocks(x, stream.segments);
-  const Eigen::MatrixXd rough = roughness(x, x, stream.segments);
+  const Eigen::MatrixXd rough = roughness(x, x, stream.segments, net_.edge);
   Eigen::MatrixXd result(stream.rows(), 3 * net_.plan().triples);
   for_each_piece((stream.rows() + kBatch - 1) / kBatch, [&](Index k) {
     const Index first = k * kBatch, count = std::min(kBatch, stream.rows() - first);

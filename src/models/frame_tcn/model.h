@@ -23,6 +23,7 @@ struct Spec {
   Index epochs = 30, steps = 100;  ///< half of the epochs for the gates, half for the head
   double gate_rate = 5e-3, head_rate = 2e-3, ema = 0.998;
   Eigen::Matrix3d mounting = Eigen::Matrix3d::Identity();  ///< R_ES
+  FeatureLayout layout;                                    ///< colours noise on the pose
   std::uint64_t seed = 0;
 
   static Spec parse(const Problem& problem);

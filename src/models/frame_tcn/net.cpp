@@ -39,7 +39,7 @@ Net::Net(const Plan& plan, Rng& rng)
   if (plan.saturation) {
     fill_normal(parameters.segment(gain_begin(), 16 * kChannels), 1.0 / std::sqrt(15.0), rng);
   }
-  mean = level_mean = Eigen::VectorXd::Zero(kChannels);
+  mean = level_mean = level_noisy = Eigen::VectorXd::Zero(kChannels);
   scale = level_scale = Eigen::VectorXd::Ones(kChannels);
 }
 
@@ -63,9 +63,20 @@ Eigen::Map<const Eigen::MatrixXd> Net::sensor(Index triple) const {
 }
 
 Eigen::MatrixXd Net::standard_levels(const Eigen::MatrixXd& roughness) const {
-  const Eigen::ArrayXXd standard =
-      (levels(roughness).colwise() - level_mean).array().colwise() / level_scale.array();
-  return (roughness.array() < 0.5 * kUnknown).select(0.0, standard);
+  Eigen::MatrixXd standard =
+      ((levels(roughness).colwise() - level_mean).array().colwise() / level_scale.array());
+  for (Index i = 0; i < standard.cols(); ++i) {
+    double sum = 0.0, known = 0.0;
+    for (Index c = 0; c < kChannels; ++c) {
+      if (roughness(c, i) == kUnknown) continue;
+      sum += standard(c, i);
+      known += 1.0;
+    }
+    for (Index c = 0; c < kChannels; ++c) {
+      if (roughness(c, i) == kUnknown) standard(c, i) = known > 0.0 ? sum / known : level_noisy[c];
+    }
+  }
+  return standard;
 }
 
 void Net::denoise(Pass& pass) const {

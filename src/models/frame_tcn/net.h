@@ -39,7 +39,8 @@ class Net {
   Index columns_z() const { return kSmooth + (plan_.saturation ? kSaturating : 0); }
   const Plan& plan() const { return plan_; }
 
-  /// Standardised levels of a roughness (15, n); 0 where it is not known.
+  /// Standardised levels of a roughness (15, n). One that is not known equals the mean of those
+  /// that are; where none is, noise is taken to be the worst of the training.
   Eigen::MatrixXd standard_levels(const Eigen::MatrixXd& roughness) const;
   /// Shares of the experts by the levels of noise, and the channels they make.
   void denoise(Pass& pass) const;
@@ -62,6 +63,8 @@ class Net {
 
   Eigen::VectorXd parameters;   ///< gate, gain, log scales, then world and sensor of each triple
   Eigen::VectorXd mean, scale;  ///< (15) of the channels, SI
+  Index edge = 0;  ///< rows at a segment's start whose rates say nothing about the noise
+  Eigen::VectorXd level_noisy;  ///< (15) standardised, of the worst noise of the training
   Eigen::VectorXd level_mean, level_scale;                 ///< (15)
   Eigen::VectorXd unit;                                    ///< (22) divides the smooth part of z
   Eigen::Matrix3d mounting = Eigen::Matrix3d::Identity();  ///< R_ES

@@ -36,9 +36,12 @@ class Recipe {
   void scale_channels();
   void make_noise();
   void make_filters();
-  void make_expert(Index group, Index expert, const Moments& signal, const Eigen::MatrixXd& noise);
-  Moments pooled_moments(Index group) const;
-  Eigen::MatrixXd noise_moments(Index group, bool on_pose) const;
+  void make_expert(Index group, Index expert, std::size_t history, const Moments& signal,
+                   const Eigen::MatrixXd& unit, double snr);
+  std::array<Moments, 3> axis_moments(Index first_group) const;
+  Moments pooled_moments(const std::array<Moments, 3>& axes, Index group) const;
+  Eigen::VectorXd feature_noise_power(Index group) const;
+  Eigen::VectorXd reached_by_pose_noise() const;
   void make_material();
   void scale_levels();
 
@@ -46,6 +49,7 @@ class Recipe {
   Batch batch(Rng& rng, Index size, bool copies) const;
   void fill(Batch& batch) const;
   double wanted_error(const Draw& draw, Index channel) const;
+  bool on_pose(const Draw& draw) const;
   std::size_t bin(const Draw& draw) const;
   Eigen::VectorXd weights(const Batch& batch) const;
   Eigen::MatrixXd targets(const Batch& batch) const;

@@ -7,9 +7,9 @@ namespace dcnn::frame_tcn {
 namespace {
 
 enum RandomStream : std::uint64_t { kNoise = 110 };
-constexpr int kDraws = 3;           // of unit noise of each kind
-constexpr Index kMomentStride = 6;  // neighbours are nearly equal
+constexpr int kDraws = 3;  // of unit noise of each kind
 constexpr Index kCopyStride = 4;
+constexpr double kNoisiest = 5.0;     // dB above the least that are called so
 constexpr double kLeastShare = 0.01;  // of the largest scale among an axis' sisters
 constexpr double kBelow = 2.0, kAboveX = 8.0,
                  kAbovePose = 15.0;  // dB around the levels of the tests
@@ -63,100 +63,23 @@ void Recipe::make_noise() {
   pose_high_ = high + kAbovePose;
 }
 
-/// Over the axes of the kind and over the speeds: one trajectory shows too few tones of one axis.
-Moments Recipe::pooled_moments(Index group) const {
-  Moments sum;
-  for (const double speed : spec_.speeds) {
-    const Stream copy = at_speed(training_, speed);
-    const Eigen::MatrixXd x = normalised(copy.x, model_.net_.mean, model_.net_.scale);
-    const BlockMeans blocks(x, copy.segments);
-    for (Index axis = 0; axis < 3; ++axis) {
-      const Moments part = moments(blocks, group + axis, kMomentStride);
-      if (sum.blocks.size() == 0) {
-        sum = part;
-        continue;
-      }
-      sum.blocks += part.blocks;
-      sum.newest += part.newest;
-      sum.power += part.power;
-    }
-  }
-  const double share = 1.0 / (3.0 * static_cast<double>(spec_.speeds.size()));
-  return {share * sum.blocks, share * sum.newest, share * sum.power};
-}
-
-/// At 0 dB.
-Eigen::MatrixXd Recipe::noise_moments(Index group, bool on_pose) const {
-  Eigen::MatrixXd sum;
-  double count = 0.0;
-  for (const UnitNoise& noise : noise_) {
-    if (noise.on_pose != on_pose) continue;
-    const Moments part = moments(BlockMeans(noise.x, training_.segments), group, kMomentStride);
-    sum = sum.size() == 0 ? part.blocks : Eigen::MatrixXd(sum + part.blocks);
-    count += 1.0;
-  }
-  if (on_pose) return sum / count;
-  Eigen::VectorXd variances(static_cast<Index>(group_channels(group).size()));
-  for (Index c = 0; c < variances.size(); ++c) variances[c] = sum(c * kBlocks, c * kBlocks) / count;
-  return white_noise_moments(variances);
-}
-
-void Recipe::make_filters() {
-  Front& front = model_.front_;
-  errors_ = Eigen::MatrixXd::Zero(front.experts, kChannels);
-  Moments signal;
-  for (Index g = 0; g < kGroups; ++g) {
-    if (spec_.line) {
-      const auto count = static_cast<Index>(group_channels(g).size());
-      Bank& bank = front.weights[static_cast<std::size_t>(g)];
-      for (std::size_t h = 0; h < bank.size(); ++h) bank[h] = line_fit(count, kHistories[h]);
-      continue;
-    }
-    if (g % 3 == 0) signal = pooled_moments(g);
-    Index expert = 0;
-    for (const bool on_pose : {false, true}) {
-      const auto& list = on_pose ? spec_.pose_snr : spec_.x_snr;
-      if (list.empty()) continue;
-      const Eigen::MatrixXd unit = noise_moments(g, on_pose);
-      for (const double snr : list) {
-        make_expert(g, expert++, signal, std::pow(10.0, -snr / 10.0) * unit);
-      }
-    }
-  }
-}
-
-void Recipe::make_expert(Index group, Index expert, const Moments& signal,
-                         const Eigen::MatrixXd& noise) {
-  Front& front = model_.front_;
-  const auto channels = group_channels(group);
-  for (std::size_t h = 0; h < kHistories.size(); ++h) {
-    const Eigen::MatrixXd w = wiener(signal, noise, kHistories[h]);
-    for (Index c = 0; c < w.rows(); ++c) {
-      front.weights[static_cast<std::size_t>(group)][h].row(c * front.experts + expert) = w.row(c);
-    }
-    if (kHistories[h] < kBlocks) continue;
-    const Eigen::VectorXd error = expected_error(signal, noise, w);
-    for (Index c = 0; c < w.rows(); ++c) {
-      errors_(expert, channels[static_cast<std::size_t>(c)]) = std::max(error[c], 1e-9);
-    }
-  }
-}
-
 void Recipe::make_material() {
   const Front& front = model_.front_;
-  material_.emplace_back(front, x_, training_.segments, 1);
+  const Index edge = model_.net_.edge;
+  material_.emplace_back(front, x_, training_.segments, 1, edge);
   for (const UnitNoise& noise : noise_) {
-    const Material part(front, noise.x, training_.segments, 1);
+    const Material part(front, noise.x, training_.segments, 1, edge);
     noise_experts_.push_back(part.experts);
     noise_roughness_.push_back(part.roughness);
-    noise_cross_.push_back(roughness(x_, noise.x, training_.segments).cast<float>());
+    noise_cross_.push_back(
+        roughness(x_, noise.x, training_.segments, model_.net_.edge).cast<float>());
   }
   if (model_.net_.gate_size() == 0) return;
   for (const double speed : spec_.speeds) {
     if (speed == 1.0) continue;
     const Stream copy = at_speed(training_, speed);
     const Eigen::MatrixXd x = normalised(copy.x, model_.net_.mean, model_.net_.scale);
-    if (x.rows() >= kCopyStride) material_.emplace_back(front, x, copy.segments, kCopyStride);
+    if (x.rows() >= kCopyStride) material_.emplace_back(front, x, copy.segments, kCopyStride, edge);
   }
 }
 
@@ -172,6 +95,19 @@ void Recipe::scale_levels() {
   net.level_scale =
       (l.colwise() - mean).array().square().rowwise().mean().sqrt().max(1e-3).matrix();
   net.level_mean = mean;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(kChannels);
+  double noisy = 0.0;
+  for (Index i = 0; i < l.cols(); ++i) {
+    const Draw& d = sample.draws[static_cast<std::size_t>(i)];
+    if (d.noise < 0 || d.snr > (on_pose(d) ? pose_low_ : x_low_) + kNoisiest) continue;
+    sum += (l.col(i) - mean).cwiseQuotient(net.level_scale);
+    noisy += 1.0;
+  }
+  if (noisy > 0.0) net.level_noisy = sum / noisy;
+}
+
+bool Recipe::on_pose(const Draw& d) const {
+  return d.noise < 0 ? spec_.x_snr.empty() : noise_[static_cast<std::size_t>(d.noise)].on_pose;
 }
 
 Recipe::Draw Recipe::draw(Rng& rng, bool copies) const {
@@ -219,8 +155,12 @@ void Recipe::fill(Batch& b) const {
     const auto k = static_cast<std::size_t>(d.noise);
     const Index row = d.source == 0 ? d.row : d.row * kCopyStride % x_.rows();
     b.pass.experts.col(i) += d.factor * noise_experts_[k].col(row).cast<double>();
-    rough.col(i) += d.factor * d.factor * noise_roughness_[k].col(row).cast<double>();
+    const Eigen::VectorXd clean = rough.col(i), noise = noise_roughness_[k].col(row).cast<double>();
+    rough.col(i) += d.factor * d.factor * noise;
     if (d.source == 0) rough.col(i) += 2.0 * d.factor * noise_cross_[k].col(row).cast<double>();
+    for (Index c = 0; c < kChannels; ++c) {
+      if (clean[c] == kUnknown || noise[c] == kUnknown) rough(c, i) = kUnknown;
+    }
   }
   const Net& net = model_.net_;
   b.pass.levels = net.standard_levels(rough);

@@ -75,6 +75,7 @@ Spec Spec::parse(const Problem& problem) {
   read_training(options.child("training"), spec);
   options.child("map").finish();  // it has no map to configure
   spec.mounting = rotation_from_euler(problem.layout.spec.sensor_rotation_rpy.reverse());
+  spec.layout = problem.layout;
   spec.seed = problem.seed;
   return spec;
 }
