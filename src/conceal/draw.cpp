@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "conceal/world.h"
@@ -61,11 +62,15 @@ void draw_forces(const std::string& id, Rng& rng, Parameters& p) {
     p = {{"fc_n", fc}, {"sigma0_npm", fc / presliding}, {"sigma1_nspm", rng.uniform(0.1, 1.0)}};
   }
   if (id == "hysteresis") {
-    p = {{"force_n", 0.2}, {"width_rad", logarithmic(rng, 0.05, 0.3)}, {"asym", rng.uniform(0.2, 0.8)}};
+    p = {{"force_n", 0.2},
+         {"width_rad", logarithmic(rng, 0.05, 0.3)},
+         {"asym", rng.uniform(0.2, 0.8)}};
   }
   if (id == "cable_spring") p = {{"k_nprad", 0.2}, {"rest_rad", rng.uniform(-0.3, 0.3)}};
   if (id == "cogging") {
-    p = {{"amp_n", 0.1}, {"order", std::floor(rng.uniform(5.0, 24.0))}, {"phase_rad", rng.uniform(-3.0, 3.0)}};
+    p = {{"amp_n", 0.1},
+         {"order", std::floor(rng.uniform(5.0, 24.0))},
+         {"phase_rad", rng.uniform(-3.0, 3.0)}};
   }
   if (id == "loose_load") p = {{"slug_kg", 0.03}, {"gap_m", rng.uniform(0.003, 0.012)}};
   if (has("contact event_train", id)) vector(p, rng, "force_", "_n");
@@ -74,37 +79,52 @@ void draw_forces(const std::string& id, Rng& rng, Parameters& p) {
 
 Parameters draw_parameters(const std::string& id, Rng& rng) {
   Parameters p;
-  if (id == "mass") p["delta_mass_kg"] = rng.uniform() < 0.5 ? -0.02 : 0.02;
-  else if (id == "com") vector(p, rng, "delta_com_", "_m");
-  else if (id == "gravity_tilt") p = {{"tilt_x_rad", rng.normal()}, {"tilt_y_rad", rng.normal()}};
-  else if (id == "bias") vector(p, rng, "delta_bias_", "_n");
-  else if (id == "misalignment") vector(p, rng, "rot_", "_rad");
-  else if (id == "gain") vector(p, rng, "gain_", "");
+  if (id == "mass")
+    p["delta_mass_kg"] = rng.uniform() < 0.5 ? -0.02 : 0.02;
+  else if (id == "com")
+    vector(p, rng, "delta_com_", "_m");
+  else if (id == "gravity_tilt")
+    p = {{"tilt_x_rad", rng.normal()}, {"tilt_y_rad", rng.normal()}};
+  else if (id == "bias")
+    vector(p, rng, "delta_bias_", "_n");
+  else if (id == "misalignment")
+    vector(p, rng, "rot_", "_rad");
+  else if (id == "gain")
+    vector(p, rng, "gain_", "");
   else if (id == "crosstalk") {
     for (const char* k : {"c_xy", "c_xz", "c_yx", "c_yz", "c_zx", "c_zy"}) p[k] = rng.normal();
-  } else if (id == "time_delay") p["delay_s"] = 0.01;
-  else if (id == "lowpass") p["tau_s"] = 0.01;
+  } else if (id == "time_delay")
+    p["delay_s"] = 0.01;
+  else if (id == "lowpass")
+    p["tau_s"] = 0.01;
   else if (id == "thermal_drift") {
     vector(p, rng, "a_", "_n");
     p["tau_s"] = logarithmic(rng, 10.0, 40.0);
-  } else if (id == "linear_drift") vector(p, rng, "rate_", "_nps");
-  else if (id == "step_bias") vector(p, rng, "step_", "_n");
-  else if (id == "saturation") p["limit_n"] = 5.0;
-  else if (id == "quantisation") p["step_n"] = 0.1;
+  } else if (id == "linear_drift")
+    vector(p, rng, "rate_", "_nps");
+  else if (id == "step_bias")
+    vector(p, rng, "step_", "_n");
+  else if (id == "saturation")
+    p["limit_n"] = 5.0;
+  else if (id == "quantisation")
+    p["step_n"] = 0.1;
   else if (id == "hum") {
     vector(p, rng, "sin_", "_n");
     vector(p, rng, "cos_", "_n");
     p["freq_hz"] = logarithmic(rng, 3.0, 120.0);
   } else if (has("flexible_resonance two_modes", id)) {
-    p = {{"freq_hz", logarithmic(rng, 4.0, 15.0)}, {"zeta", logarithmic(rng, 0.01, 0.1)}, {"fraction", 0.5}};
-  } else draw_forces(id, rng, p);
+    p = {{"freq_hz", logarithmic(rng, 4.0, 15.0)},
+         {"zeta", logarithmic(rng, 0.01, 0.1)},
+         {"fraction", 0.5}};
+  } else
+    draw_forces(id, rng, p);
   return p;
 }
 
 /// The parameters that make an effect strong and leave its shape.
 bool is_strength(const std::string& name) {
-  for (const char* shape : {"v0_mps", "vs_mps", "width_rad", "asym", "rest_rad", "order", "phase_rad",
-                            "gap_m", "freq_hz", "zeta"}) {
+  for (const char* shape : {"v0_mps", "vs_mps", "width_rad", "asym", "rest_rad", "order",
+                            "phase_rad", "gap_m", "freq_hz", "zeta"}) {
     if (name == shape) return false;
   }
   return true;
@@ -131,7 +151,8 @@ double contribution(const std::vector<Path>& paths, const std::vector<Eigen::Mat
   return std::sqrt(squares.maxCoeff() / rows);
 }
 
-/// Secant steps in the logarithm: exact at once for what is linear. A clip acts from its limit down.
+/// Secant steps in the logarithm: exact at once for what is linear. A clip acts from its limit
+/// down.
 Hidden of_amplitude(const std::vector<Path>& paths, const std::vector<Eigen::MatrixXd>& plain,
                     const Scenario& s, Hidden h, double target) {
   if (h.effect == "saturation") {
@@ -144,7 +165,7 @@ Hidden of_amplitude(const std::vector<Path>& paths, const std::vector<Eigen::Mat
   }
   for (int k = 0; k < 4; ++k) {
     const double now = contribution(paths, plain, s, h);
-    require(now > 0.0, Exit::kInternal, s.id, ": the effect changes nothing on this motion");
+    require(now > 0.0, Exit::kUsage, s.id, ": the effect changes nothing on this motion");
     if (std::abs(now / target - 1.0) < 0.01) break;
     h = scaled(h, target / now);
   }
@@ -199,18 +220,39 @@ void place(Hidden& h, const std::vector<Path>& paths, const Scenario& s, Rng& rn
 }  // namespace
 
 const std::vector<std::string>& listed_effects() {
-  static const std::vector<std::string> ids{
-      "mass", "com", "gravity_tilt", "coulomb_friction", "viscous_friction", "stribeck_friction",
-      "quadratic_drag", "lugre_friction", "hysteresis", "cable_spring", "cogging", "loose_load",
-      "flexible_resonance", "contact", "bias", "misalignment", "gain", "crosstalk", "time_delay",
-      "lowpass", "thermal_drift", "linear_drift", "step_bias", "saturation", "quantisation", "hum"};
+  static const std::vector<std::string> ids{"mass",
+                                            "com",
+                                            "gravity_tilt",
+                                            "coulomb_friction",
+                                            "viscous_friction",
+                                            "stribeck_friction",
+                                            "quadratic_drag",
+                                            "lugre_friction",
+                                            "hysteresis",
+                                            "cable_spring",
+                                            "cogging",
+                                            "loose_load",
+                                            "flexible_resonance",
+                                            "contact",
+                                            "bias",
+                                            "misalignment",
+                                            "gain",
+                                            "crosstalk",
+                                            "time_delay",
+                                            "lowpass",
+                                            "thermal_drift",
+                                            "linear_drift",
+                                            "step_bias",
+                                            "saturation",
+                                            "quantisation",
+                                            "hum"};
   return ids;
 }
 
 const std::vector<std::string>& unlisted_effects() {
   static const std::vector<std::string> ids{
       "pose_modulated_friction", "velocity_position", "gravity_square", "two_modes",
-      "load_friction", "cubic_spring", "event_train", "drifting_lugre"};
+      "load_friction",           "cubic_spring",      "event_train",    "drifting_lugre"};
   return ids;
 }
 
@@ -225,11 +267,14 @@ Scenario draw(const std::string& id, std::uint64_t seed) {
   Rng rng({seed, hash_of(id)});
   s.tool.mass = rng.uniform(0.3, 1.2);
   s.tool.com = {rng.uniform(-0.01, 0.01), rng.uniform(-0.01, 0.01), rng.uniform(0.05, 0.18)};
-  s.noise = {"white", rng.uniform(0.02, 0.06), logarithmic(rng, 5e-6, 5e-5), logarithmic(rng, 5e-6, 3e-4)};
+  s.noise = {"white", rng.uniform(0.02, 0.06), logarithmic(rng, 5e-6, 5e-5),
+             logarithmic(rng, 5e-6, 3e-4)};
   s.motion = one_of<std::string>(rng, {"human", "multisine", "points", "scan", "repeats"});
   if (family == "poor") s.motion = one_of<std::string>(rng, {"harmonic", "planar"});
-  if (family == "null" && value == "pose") s.noise.pose_m = 5e-5, s.noise.pose_rad = 3e-4;
-  else if (family == "null") s.noise.kind = value;
+  if (family == "null" && value == "pose")
+    s.noise.pose_m = 5e-5, s.noise.pose_rad = 3e-4;
+  else if (family == "null")
+    s.noise.kind = value;
   const std::size_t count = rng.uniform() < 0.5 ? 2 : 3, held = count == 2 ? 1 : 1 + rng.below(2);
   std::vector<Path> paths;
   double start = 0.0;

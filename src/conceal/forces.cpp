@@ -31,11 +31,10 @@ VectorXd lugre(const Parameters& p, const VectorXd& v, double drift) {
   VectorXd force(v.size());
   double z = 0.0;
   for (Index i = 0; i < v.size(); ++i) {
-    const double fc = p.at("fc_n") *
-                      (1.0 + drift * std::sin(0.002 * kStep * 1000.0 * static_cast<double>(i)));
+    const double fc =
+        p.at("fc_n") * (1.0 + drift * std::sin(0.002 * kStep * 1000.0 * static_cast<double>(i)));
     const double stiff = p.at("sigma0_npm") / fc;
-    force(i) = p.at("sigma0_npm") * z +
-               p.at("sigma1_nspm") * (v(i) - std::abs(v(i)) * z * stiff);
+    force(i) = p.at("sigma0_npm") * z + p.at("sigma1_nspm") * (v(i) - std::abs(v(i)) * z * stiff);
     const double next = v(std::min(i + 1, v.size() - 1));
     for (int k = 0; k < 4; ++k) {
       z = rk4(z, kStep / 4.0, [&](double x, double part) {
@@ -88,17 +87,22 @@ VectorXd along(const Path& path, const Hidden& h, const Guide& g, const Eigen::M
   VectorXd f(g.v.size());
   for (Index i = 0; i < f.size(); ++i) {
     const double v = g.v(i), x = path.pose(i, 0) - 0.5, load = field.row(i).norm();
-    if (h.effect == "cable_spring") f(i) = -p.at("k_nprad") * (v - p.at("rest_rad"));
+    if (h.effect == "cable_spring")
+      f(i) = -p.at("k_nprad") * (v - p.at("rest_rad"));
     else if (h.effect == "cogging") {
       f(i) = p.at("amp_n") * std::sin(p.at("order") * v + p.at("phase_rad"));
     } else if (h.effect == "pose_modulated_friction") {
       f(i) = -p.at("size") * std::tanh(v / 0.01) * (1.0 + 0.9 * std::sin(9.0 * x / 0.12));
-    } else if (h.effect == "velocity_position") f(i) = -p.at("size") * v * x * 30.0;
+    } else if (h.effect == "velocity_position")
+      f(i) = -p.at("size") * v * x * 30.0;
     else if (h.effect == "load_friction") {
       f(i) = -p.at("size") * std::tanh(v / 0.01) * std::pow(std::abs(field(i, 2)) / load, 2.0);
-    } else if (h.effect == "cubic_spring") f(i) = -p.at("size") * v * v * v;
-    else if (h.effect == "gravity_square") f(i) = p.at("size") * field(i, 0) * field(i, 1);
-    else f(i) = -friction(h.effect, p, v);
+    } else if (h.effect == "cubic_spring")
+      f(i) = -p.at("size") * v * v * v;
+    else if (h.effect == "gravity_square")
+      f(i) = p.at("size") * field(i, 0) * field(i, 1);
+    else
+      f(i) = -friction(h.effect, p, v);
   }
   return f;
 }
@@ -112,8 +116,10 @@ Guide guide(const Path& path, const std::string& axis) {
   const bool base = axis.rfind("base_", 0) == 0, spin = axis.rfind("w_sensor_", 0) == 0;
   for (Index i = 0; i < n; ++i) {
     const Eigen::Matrix3d& R = path.rotation[static_cast<std::size_t>(i)];
-    if (base) g.n.row(i) = R.row(letter(axis));
-    else g.n(i, letter(axis)) = 1.0;
+    if (base)
+      g.n.row(i) = R.row(letter(axis));
+    else
+      g.n(i, letter(axis)) = 1.0;
     g.v(i) = spin ? path.rate(i, letter(axis)) : (path.velocity.row(i) * R).dot(g.n.row(i));
     if (colon != std::string::npos) {
       g.v(i) = path.pose(i, axis[0] == 'a' ? 3 : (axis[0] == 'b' ? 4 : 5));

@@ -87,12 +87,18 @@ Path make_path(const std::string& family, double start, double seconds, std::uin
   Path path;
   path.start = start;
   Eigen::MatrixXd q = Eigen::MatrixXd::Zero(static_cast<Index>(seconds / kStep), 6);
-  if (family == "human") add_tones(q, 10, 0.05, 2.0, 1.0, rng);
-  else if (family == "multisine") add_tones(q, 6, 0.03, 1.0, 0.0, rng);
-  else if (family == "points") add_points(q, 0.8, 2.5, 1.5, 60, rng);
-  else if (family == "scan") add_points(q, 3.0, 7.0, 0.5, 30, rng);
-  else if (family == "repeats") add_points(q, 1.0, 2.0, 0.6, 6, rng);
-  else if (family == "harmonic") add_harmonic(q, rng);
+  if (family == "human")
+    add_tones(q, 10, 0.05, 2.0, 1.0, rng);
+  else if (family == "multisine")
+    add_tones(q, 6, 0.03, 1.0, 0.0, rng);
+  else if (family == "points")
+    add_points(q, 0.8, 2.5, 1.5, 60, rng);
+  else if (family == "scan")
+    add_points(q, 3.0, 7.0, 0.5, 30, rng);
+  else if (family == "repeats")
+    add_points(q, 1.0, 2.0, 0.6, 6, rng);
+  else if (family == "harmonic")
+    add_harmonic(q, rng);
   else {
     add_tones(q, 6, 0.05, 1.0, 0.0, rng);
     for (int j : {2, 4, 5}) q.col(j).setZero();

@@ -69,7 +69,8 @@ Eigen::Vector3d offset(const Hidden& h, double t) {
   const Parameters& p = h.parameters;
   if (h.effect == "bias") return three(p, "delta_bias_", "_n");
   if (h.effect == "linear_drift") return three(p, "rate_", "_nps") * t;
-  if (h.effect == "step_bias") return (t >= h.interval_s->first ? 1.0 : 0.0) * three(p, "step_", "_n");
+  if (h.effect == "step_bias")
+    return (t >= h.interval_s->first ? 1.0 : 0.0) * three(p, "step_", "_n");
   if (h.effect == "hum") {
     const double phase = 2.0 * std::numbers::pi * p.at("freq_hz") * t;
     return std::sin(phase) * three(p, "sin_", "_n") + std::cos(phase) * three(p, "cos_", "_n");
@@ -87,16 +88,21 @@ bool change_reading(const Path& path, const Hidden& h, Eigen::MatrixXd& F) {
     VectorXd extra = resonance(u, p.at("freq_hz"), p.at("zeta")) - u;
     if (h.effect == "two_modes") extra -= resonance(u, 1.7 * p.at("freq_hz"), p.at("zeta")) - u;
     F.col(a) += p.at("fraction") * extra;
-  } else if (h.effect == "misalignment") F = F * mounting(three(p, "rot_", "_rad"));
+  } else if (h.effect == "misalignment")
+    F = F * mounting(three(p, "rot_", "_rad"));
   else if (h.effect == "gain") {
     F = F * (Eigen::Vector3d::Ones() + three(p, "gain_", "")).asDiagonal();
-  } else if (h.effect == "crosstalk") cross(p, F);
-  else if (h.effect == "lowpass") lag(p, F);
-  else if (h.effect == "time_delay") shift(p.at("delay_s"), F);
+  } else if (h.effect == "crosstalk")
+    cross(p, F);
+  else if (h.effect == "lowpass")
+    lag(p, F);
+  else if (h.effect == "time_delay")
+    shift(p.at("delay_s"), F);
   else if (h.effect == "bias" || h.effect == "linear_drift" || h.effect == "step_bias" ||
            h.effect == "hum" || h.effect == "thermal_drift") {
     for (Index i = 0; i < F.rows(); ++i) F.row(i) += offset(h, path.time(i)).transpose();
-  } else return false;
+  } else
+    return false;
   return true;
 }
 

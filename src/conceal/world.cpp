@@ -16,7 +16,8 @@ Eigen::Vector3d apply_parameters(const std::vector<Hidden>& hidden, Tool& tool) 
     const Parameters& p = h.parameters;
     if (h.effect == "mass") tool.mass += p.at("delta_mass_kg");
     if (h.effect == "com") {
-      tool.com += Eigen::Vector3d(p.at("delta_com_x_m"), p.at("delta_com_y_m"), p.at("delta_com_z_m"));
+      tool.com +=
+          Eigen::Vector3d(p.at("delta_com_x_m"), p.at("delta_com_y_m"), p.at("delta_com_z_m"));
     }
     if (h.effect == "gravity_tilt") {
       gravity = Eigen::AngleAxisd(p.at("tilt_y_rad"), Eigen::Vector3d::UnitY()) *

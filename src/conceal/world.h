@@ -11,11 +11,11 @@ constexpr double kStep = 1.0 / 4000.0;  // s
 
 /// A recording's motion, 4000 samples a second.
 struct Path {
-  double start = 0.0;                       // s, clock of the first sample
-  Eigen::MatrixXd pose;                     // (T, 6)
-  std::vector<Eigen::Matrix3d> rotation;    // sensor to base
-  Eigen::MatrixXd velocity, acceleration;   // (T, 3), base
-  Eigen::MatrixXd rate, rate_derivative;    // (T, 3), sensor
+  double start = 0.0;                      // s, clock of the first sample
+  Eigen::MatrixXd pose;                    // (T, 6)
+  std::vector<Eigen::Matrix3d> rotation;   // sensor to base
+  Eigen::MatrixXd velocity, acceleration;  // (T, 3), base
+  Eigen::MatrixXd rate, rate_derivative;   // (T, 3), sensor
   Eigen::Index samples() const { return pose.rows(); }
   double time(Eigen::Index i) const { return start + kStep * static_cast<double>(i); }
 };

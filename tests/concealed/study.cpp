@@ -1,5 +1,5 @@
-// dcnn_concealed SEED FOLDER ID...: diagnoses concealed scenarios one by one. Appends a line of JSON
-// per scenario to FOLDER/results.jsonl and skips those already there.
+// dcnn_concealed SEED FOLDER ID...: diagnoses concealed scenarios one by one. Appends a line of
+// JSON per scenario to FOLDER/results.jsonl and skips those already there.
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -25,7 +25,8 @@ Json names_of(const Json& findings) {
   return names;
 }
 
-/// Hidden effects that are named, or alternatives of a name that is left; and names that are neither.
+/// Hidden effects that are named, or alternatives of a name that is left; and names that are
+/// neither.
 void score(const conceal::Scenario& s, const Json& findings, Json& line) {
   std::vector<bool> used(findings.size(), false);
   int top = 0, in_class = 0;
@@ -83,14 +84,16 @@ Json run(const std::string& id, std::uint64_t seed, const std::filesystem::path&
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 4) return std::fputs("dcnn_concealed SEED FOLDER group:value/effect/number...\n", stderr), 2;
+  if (argc < 4)
+    return std::fputs("dcnn_concealed SEED FOLDER group:value/effect/number...\n", stderr), 2;
   const std::filesystem::path folder = argv[2], results = folder / "results.jsonl";
   std::filesystem::create_directories(folder);
   const std::set<std::string> skip = done(results);
   for (int k = 3; k < argc; ++k) {
     if (skip.count(argv[k])) continue;
     try {
-      std::ofstream(results, std::ios::app) << run(argv[k], std::stoull(argv[1]), folder).dump() << "\n";
+      std::ofstream(results, std::ios::app)
+          << run(argv[k], std::stoull(argv[1]), folder).dump() << "\n";
     } catch (const std::exception& e) {
       std::printf("FAIL %s: %s\n", argv[k], e.what());
     }

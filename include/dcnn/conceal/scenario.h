@@ -58,10 +58,10 @@ const std::vector<std::string>& listed_effects();
 const std::vector<std::string>& unlisted_effects();
 
 /// Draws the scenario `id` = "group/effect/number" of a seed. Groups: `singles:A`, `unlisted:A`,
-/// `poor:A` (A: amplitude; effect named), `doubles:A`, `triples:A` (effect `any`), `null:KIND` (KIND of
-/// noise or `pose`), `parameters:A` (effect mass, com, gravity_tilt or bias). The amplitude of an
-/// effect is the rms of what it alone changes on its strongest axis over the fit recordings, divided
-/// by the sensor noise.
+/// `poor:A` (A: amplitude; effect named), `doubles:A`, `triples:A` (effect `any`), `null:KIND`
+/// (KIND of noise or `pose`), `parameters:A` (effect mass, com, gravity_tilt or bias). The
+/// amplitude of an effect is the rms of what it alone changes on its strongest axis over the fit
+/// recordings, divided by the sensor noise.
 Scenario draw(const std::string& id, std::uint64_t seed);
 
 /// Writes sim.json and one CSV per recording; returns the files to fit on and those held out.
