@@ -14,9 +14,14 @@ struct Guide {
 };
 Guide guide(const Path& path, const std::string& axis);
 
-/// Adds a force on the tool; false where the effect is none.
-bool add_force(const Path& path, const Hidden& h, const Eigen::MatrixXd& field, Eigen::MatrixXd& F);
-/// Resonance and what the sensor makes of the force; false where the effect is none of these.
-bool change_reading(const Path& path, const Hidden& h, Eigen::MatrixXd& F);
+/// Force against the motion: a function of the speed, or of its history (T).
+double friction(const Hidden& h, double v);
+Eigen::VectorXd lugre(const Hidden& h, const Eigen::VectorXd& v);
+Eigen::VectorXd bouc_wen(const Hidden& h, const Eigen::VectorXd& q);
+
+/// Adds the force on the tool, if the effect is one; `field`: gravity less acceleration (T, 3).
+void add_force(const Path& path, const Hidden& h, const Eigen::MatrixXd& field, Eigen::MatrixXd& F);
+/// Resonance and what the sensor makes of the force, if the effect is one of these.
+void change_reading(const Path& path, const Hidden& h, Eigen::MatrixXd& F);
 
 }  // namespace dcnn::conceal

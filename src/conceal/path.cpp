@@ -82,10 +82,18 @@ void add_harmonic(Eigen::MatrixXd& q, Rng& rng) {
 
 }  // namespace
 
-Path make_path(const std::string& family, double start, double seconds, std::uint64_t seed) {
+double Climate::operator()(double t) const {
+  return start + rise * (1.0 - std::exp(-t / settle_s)) + swing * std::sin(kTau * t / period_s);
+}
+
+Climate draw_climate(Rng& rng) {
+  return {rng.uniform(19.0, 23.0), rng.uniform(1.0, 6.0), rng.uniform(20.0, 80.0),
+          rng.uniform(0.2, 1.5), rng.uniform(40.0, 150.0)};
+}
+
+Path make_path(const std::string& family, double start, double seconds,
+               const Eigen::Vector3d& mounting, std::uint64_t seed) {
   Rng rng({seed, 11});
-  Path path;
-  path.start = start;
   Eigen::MatrixXd q = Eigen::MatrixXd::Zero(static_cast<Index>(seconds / kStep), 6);
   if (family == "human")
     add_tones(q, 10, 0.05, 2.0, 1.0, rng);
@@ -106,11 +114,20 @@ Path make_path(const std::string& family, double start, double seconds, std::uin
   q.col(0).array() += 0.5;
   q.col(2).array() += 0.3;
   q.col(5).array() += std::numbers::pi;
+  return follow(start, q, mounting);
+}
+
+Path follow(double start, const Eigen::MatrixXd& q, const Eigen::Vector3d& mounting) {
+  Path path;
+  path.start = start;
   path.pose = q;
   const Index n = q.rows();
+  const Eigen::Matrix3d mount = turn(mounting(2), mounting(1), mounting(0));
   path.velocity = differences(q.leftCols(3));
   path.acceleration = differences(path.velocity);
-  for (Index i = 0; i < n; ++i) path.rotation.push_back(turn(q(i, 3), q(i, 4), q(i, 5)));
+  for (Index i = 0; i < n; ++i) {
+    path.rotation.push_back(turn(q(i, 3), q(i, 4), q(i, 5)) * mount);
+  }
   path.rate.resize(n, 3);
   for (Index i = 1; i + 1 < n; ++i) {
     const std::size_t k = static_cast<std::size_t>(i);

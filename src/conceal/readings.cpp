@@ -65,7 +65,7 @@ Eigen::Matrix3d mounting(const Eigen::Vector3d& r) {
       .toRotationMatrix();
 }
 
-Eigen::Vector3d offset(const Hidden& h, double t) {
+Eigen::Vector3d offset(const Path& path, const Hidden& h, double t) {
   const Parameters& p = h.parameters;
   if (h.effect == "bias") return three(p, "delta_bias_", "_n");
   if (h.effect == "linear_drift") return three(p, "rate_", "_nps") * t;
@@ -75,12 +75,13 @@ Eigen::Vector3d offset(const Hidden& h, double t) {
     const double phase = 2.0 * std::numbers::pi * p.at("freq_hz") * t;
     return std::sin(phase) * three(p, "sin_", "_n") + std::cos(phase) * three(p, "cos_", "_n");
   }
+  if (p.count("t_ref_degc")) return (path.climate(t) - p.at("t_ref_degc")) * three(p, "k_", "_npk");
   return (1.0 - std::exp(-t / p.at("tau_s"))) * three(p, "a_", "_n");
 }
 
 }  // namespace
 
-bool change_reading(const Path& path, const Hidden& h, Eigen::MatrixXd& F) {
+void change_reading(const Path& path, const Hidden& h, Eigen::MatrixXd& F) {
   const Parameters& p = h.parameters;
   if (h.effect == "flexible_resonance" || h.effect == "two_modes") {
     const Index a = h.axis.back() - 'x';
@@ -100,10 +101,8 @@ bool change_reading(const Path& path, const Hidden& h, Eigen::MatrixXd& F) {
     shift(p.at("delay_s"), F);
   else if (h.effect == "bias" || h.effect == "linear_drift" || h.effect == "step_bias" ||
            h.effect == "hum" || h.effect == "thermal_drift") {
-    for (Index i = 0; i < F.rows(); ++i) F.row(i) += offset(h, path.time(i)).transpose();
-  } else
-    return false;
-  return true;
+    for (Index i = 0; i < F.rows(); ++i) F.row(i) += offset(path, h, path.time(i)).transpose();
+  }
 }
 
 }  // namespace dcnn::conceal

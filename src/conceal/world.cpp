@@ -14,6 +14,7 @@ Eigen::Vector3d apply_parameters(const std::vector<Hidden>& hidden, Tool& tool) 
   Eigen::Vector3d gravity(0.0, 0.0, -9.81);
   for (const Hidden& h : hidden) {
     const Parameters& p = h.parameters;
+    if (h.effect == "inertial_terms") tool.inertial = "full";
     if (h.effect == "mass") tool.mass += p.at("delta_mass_kg");
     if (h.effect == "com") {
       tool.com +=
@@ -42,31 +43,46 @@ Eigen::MatrixXd decimated(const Eigen::MatrixXd& F) {
   return out;
 }
 
-void digitise(const Hidden& h, Eigen::MatrixXd& F) {
-  if (h.effect == "saturation") {
-    const double limit = h.parameters.at("limit_n");
-    const Index a = h.axis.back() - 'x';
-    F.col(a) = F.col(a).cwiseMax(-limit).cwiseMin(limit);
+/// What an ideal simulator of the tool says, in the sensor frame.
+Eigen::RowVector3d rigid(const Path& path, Index i, const Tool& tool,
+                         const Eigen::Vector3d& gravity) {
+  const Eigen::Matrix3d& R = path.rotation[static_cast<std::size_t>(i)];
+  Eigen::Vector3d a = R.transpose() * gravity;
+  if (tool.inertial != "none") a -= R.transpose() * path.acceleration.row(i).transpose();
+  if (tool.inertial == "full") {
+    const Eigen::Vector3d w = path.rate.row(i), dw = path.rate_derivative.row(i);
+    a -= dw.cross(tool.com) + w.cross(w.cross(tool.com));
   }
-  if (h.effect == "quantisation") {
-    const double step = h.parameters.at("step_n");
-    F = (F / step).array().round().matrix() * step;
-  }
+  return tool.mass * a.transpose();
 }
 
 }  // namespace
 
-Eigen::MatrixXd reading(const Path& path, const Tool& nominal, const std::vector<Hidden>& hidden,
-                        const Eigen::MatrixXd& noise) {
+void digitise(const std::vector<Hidden>& hidden, Eigen::MatrixXd& F) {
+  for (const Hidden& h : hidden) {
+    if (h.effect == "saturation") {
+      const double limit = h.parameters.at("limit_n");
+      const Index a = h.axis.back() - 'x';
+      F.col(a) = F.col(a).cwiseMax(-limit).cwiseMin(limit);
+    }
+  }
+  for (const Hidden& h : hidden) {
+    if (h.effect == "quantisation") {
+      const double step = h.parameters.at("step_n");
+      F = (F / step).array().round().matrix() * step;
+    }
+  }
+}
+
+Eigen::MatrixXd force(const Path& path, const Tool& nominal, const std::vector<Hidden>& hidden) {
   Tool tool = nominal;
   const Eigen::Vector3d gravity = apply_parameters(hidden, tool);
   const Index n = path.samples();
   Eigen::MatrixXd field(n, 3), F(n, 3);
   for (Index i = 0; i < n; ++i) {
     const Eigen::Matrix3d& R = path.rotation[static_cast<std::size_t>(i)];
-    const Eigen::Vector3d w = path.rate.row(i), dw = path.rate_derivative.row(i), c = tool.com;
     field.row(i) = (gravity.transpose() - path.acceleration.row(i)) * R;
-    F.row(i) = tool.mass * (field.row(i).transpose() - dw.cross(c) - w.cross(w.cross(c)));
+    F.row(i) = rigid(path, i, tool, gravity);
   }
   for (const Hidden& h : hidden) add_force(path, h, field, F);
   for (int s = 0; s <= 6; ++s) {
@@ -75,9 +91,14 @@ Eigen::MatrixXd reading(const Path& path, const Tool& nominal, const std::vector
       if (stage(h) == s) change_reading(path, h, F);
     }
   }
-  Eigen::MatrixXd out = decimated(F);
+  return F;
+}
+
+Eigen::MatrixXd reading(const Path& path, const Tool& tool, const std::vector<Hidden>& hidden,
+                        const Eigen::MatrixXd& noise) {
+  Eigen::MatrixXd out = decimated(force(path, tool, hidden));
   if (noise.rows() == out.rows()) out += noise;
-  for (const Hidden& h : hidden) digitise(h, out);
+  digitise(hidden, out);
   return out;
 }
 

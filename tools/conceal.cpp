@@ -1,0 +1,55 @@
+#include <iostream>
+
+#include "dcnn/conceal/challenge.h"
+#include "dcnn/conceal/scenario.h"
+#include "support/progress.h"
+#include "support/tool.h"
+
+namespace {
+
+using namespace dcnn;
+
+constexpr const char* kExamples =
+    "  dcnn-conceal --scenarios 30 --seed 1 --out set --seal set.sealed.json\n"
+    "  dcnn-conceal --scenario single:0.5/coulomb_friction/7 --seed 1 --out set --seal one.json\n"
+    "  dcnn-diagnose --sim set/s0001/sim.json --fit set/s0001/fit_*.csv \\\n"
+    "    --holdout set/s0001/holdout_*.csv --out set/reports/s0001\n"
+    "  dcnn-conceal --score --out set --seal set.sealed.json    # set/scores.json, "
+    "set/report.html\n";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("dcnn-conceal",
+            "Makes recordings in which effects are concealed, with the simulator that knows "
+            "nothing of them, and seals the answers: their SHA-256 is printed and stored before "
+            "anybody looks. --score opens the seal.",
+            kExamples);
+  int scenarios = 0;
+  std::vector<std::string> ids;
+  std::filesystem::path out, seal;
+  auto& app = tool.app();
+  auto* many = app.add_option("--scenarios", scenarios, "how many, of every group its share");
+  app.add_option("--scenario", ids, "these, as a sealed file names them under `drawn`")
+      ->excludes(many);
+  app.add_option("--out", out, "folder of the scenarios")->required();
+  app.add_option("--seal", seal, "file of the answers, outside that folder")->required();
+
+  return tool.run(argc, argv, [&] {
+    const std::uint64_t seed = tool.common().seed.value_or(1);
+    require(scenarios > 0 || !ids.empty(), Exit::kUsage, "give --scenarios or --scenario");
+    if (ids.empty()) ids = conceal::plan(scenarios, seed);
+    Progress bar(tool.common().quiet);
+    const std::string digest =
+        conceal::conceal_challenge(ids, seed, out, seal, [&](int done, int total) {
+          bar.update(static_cast<double>(done) / total, std::to_string(done) + " scenarios");
+        });
+    bar.clear();
+    if (tool.common().json) {
+      Tool::print({{"scenarios", ids.size()}, {"seed", seed}, {"sha256", digest}});
+    } else {
+      std::cout << digest << "  " << seal.string() << "\n";
+    }
+    return Exit::kDone;
+  });
+}
