@@ -1,7 +1,7 @@
 #include <iostream>
 
 #include "dcnn/conceal/challenge.h"
-#include "dcnn/conceal/scenario.h"
+#include "dcnn/experiment/challenge_report.h"
 #include "support/progress.h"
 #include "support/tool.h"
 
@@ -17,6 +17,18 @@ constexpr const char* kExamples =
     "  dcnn-conceal --score --out set --seal set.sealed.json    # set/scores.json, "
     "set/report.html\n";
 
+/// Opens the seal: OUT/scores.json and OUT/report.html.
+Exit judge(const Tool& tool, const std::filesystem::path& out, const std::filesystem::path& seal) {
+  const Json scores = conceal::score_challenge(out, seal);
+  write_challenge(out, scores);
+  if (tool.common().json) {
+    Tool::print(scores);
+  } else {
+    std::cout << challenge_text(scores);
+  }
+  return Exit::kDone;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -26,16 +38,20 @@ int main(int argc, char** argv) {
             "anybody looks. --score opens the seal.",
             kExamples);
   int scenarios = 0;
+  bool score = false;
   std::vector<std::string> ids;
   std::filesystem::path out, seal;
   auto& app = tool.app();
   auto* many = app.add_option("--scenarios", scenarios, "how many, of every group its share");
   app.add_option("--scenario", ids, "these, as a sealed file names them under `drawn`")
       ->excludes(many);
+  app.add_flag("--score", score, "score OUT/reports/*/report.json against the seal")
+      ->excludes(many);
   app.add_option("--out", out, "folder of the scenarios")->required();
   app.add_option("--seal", seal, "file of the answers, outside that folder")->required();
 
   return tool.run(argc, argv, [&] {
+    if (score) return judge(tool, out, seal);
     const std::uint64_t seed = tool.common().seed.value_or(1);
     require(scenarios > 0 || !ids.empty(), Exit::kUsage, "give --scenarios or --scenario");
     if (ids.empty()) ids = conceal::plan(scenarios, seed);
