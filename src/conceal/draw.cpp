@@ -109,6 +109,8 @@ std::vector<Path> draw_motion(Scenario& s, Rng& rng) {
   return paths;
 }
 
+}  // namespace
+
 void place(Hidden& h, const std::vector<Path>& paths, Rng& rng) {
   const double start = paths[0].start, length = paths[0].time(paths[0].samples()) - start;
   const double a = start + length * rng.uniform(0.2, 0.5);
@@ -116,8 +118,6 @@ void place(Hidden& h, const std::vector<Path>& paths, Rng& rng) {
   if (h.effect == "contact") h.interval_s = {a, a + rng.uniform(2.0, 6.0)};
   if (h.effect == "step_bias") h.interval_s = {a, end};
 }
-
-}  // namespace
 
 Scenario draw(const std::string& id, std::uint64_t seed) {
   const Request request = parse(id);

@@ -27,6 +27,9 @@ const std::vector<Neighbours>& neighbours();
 /// Whether two effects side by side are one and the same to any reader of the force.
 bool confounded(const std::string& a, const std::string& b);
 
+/// Gives what acts for some time its interval, in the first recording.
+void place(Hidden& h, const std::vector<Path>& paths, Rng& rng);
+
 /// Scales `h` until it alone changes the fit recordings by `target` [N] on its strongest axis,
 /// or as far as its parameters stay plausible. Its amplitude is what it has then.
 Hidden of_amplitude(const std::vector<Path>& paths, const Scenario& s, Hidden h, double target);

@@ -114,20 +114,22 @@ Path make_path(const std::string& family, double start, double seconds,
   q.col(0).array() += 0.5;
   q.col(2).array() += 0.3;
   q.col(5).array() += std::numbers::pi;
-  return follow(start, q, mounting);
+  std::vector<Eigen::Matrix3d> rotation;
+  for (Index i = 0; i < q.rows(); ++i) rotation.push_back(turn(q(i, 3), q(i, 4), q(i, 5)));
+  return follow(start, q, std::move(rotation), mounting);
 }
 
-Path follow(double start, const Eigen::MatrixXd& q, const Eigen::Vector3d& mounting) {
+Path follow(double start, const Eigen::MatrixXd& q, std::vector<Eigen::Matrix3d> rotation,
+            const Eigen::Vector3d& mounting) {
+  const Eigen::Matrix3d mount = turn(mounting(2), mounting(1), mounting(0));
+  for (Eigen::Matrix3d& R : rotation) R = R * mount;
   Path path;
   path.start = start;
   path.pose = q;
-  const Index n = q.rows();
-  const Eigen::Matrix3d mount = turn(mounting(2), mounting(1), mounting(0));
+  path.rotation = std::move(rotation);
   path.velocity = differences(q.leftCols(3));
   path.acceleration = differences(path.velocity);
-  for (Index i = 0; i < n; ++i) {
-    path.rotation.push_back(turn(q(i, 3), q(i, 4), q(i, 5)) * mount);
-  }
+  const Index n = q.rows();
   path.rate.resize(n, 3);
   for (Index i = 1; i + 1 < n; ++i) {
     const std::size_t k = static_cast<std::size_t>(i);

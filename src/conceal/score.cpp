@@ -115,7 +115,7 @@ double mean(const Json& list) {
 
 Json score_holdout(const Json& answer, const Json& report) {
   Json out = Json::object();
-  const Json fit = report.value("fit", Json::object());
+  const Json fit = report.is_object() ? report.value("fit", Json::object()) : Json::object();
   for (const auto& [key, name] : {std::pair{"holdout_rmse_before", "before"},
                                   {"holdout_rmse_after", "after"},
                                   {"noise_floor", "floor"}}) {

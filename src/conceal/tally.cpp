@@ -68,6 +68,7 @@ void add_scenario(const Json& s, Tally& tally) {
   for (int k = 0; k < named; ++k) tally.count("false_discovery", k < wrong);
   if (has("null faint", group)) {
     tally.count("null_specificity", wrong == 0 && s["verdict"] == "consistent");
+    tally.count("null_without_name", wrong == 0 && s["verdict"] != "failed");
   } else if (group == "unlisted") {
     tally.count("abstention", wrong == 0 && s["verdict"] != "failed");
   } else {

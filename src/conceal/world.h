@@ -28,8 +28,10 @@ struct Path {
   double time(Eigen::Index i) const { return start + kStep * static_cast<double>(i); }
 };
 
-/// Velocities, accelerations and rates of a pose (T, 6); `mounting`: rpy of the sensor in it.
-Path follow(double start, const Eigen::MatrixXd& pose, const Eigen::Vector3d& mounting);
+/// Velocities, accelerations and rates of a pose (T, 6) whose frames are `rotation`; the sensor is
+/// mounted in them with rpy `mounting`.
+Path follow(double start, const Eigen::MatrixXd& pose, std::vector<Eigen::Matrix3d> rotation,
+            const Eigen::Vector3d& mounting);
 
 /// Families: human, multisine, points, scan, repeats; poor: harmonic, planar.
 Path make_path(const std::string& family, double start, double seconds,
