@@ -57,8 +57,7 @@ double friction(const Hidden& h, double v) {
 VectorXd lugre(const Hidden& h, const VectorXd& v) {
   const Parameters& p = h.parameters;
   if (h.foreign) {
-    return p.at("fc_n") * sliders(travelled(v), p.at("fc_n") / p.at("sigma0_npm")) +
-           p.at("sigma1_nspm") * v;
+    return p.at("fc_n") * sliders(travelled(v), p.at("fc_n") / p.at("sigma0_npm"));
   }
   const double drift = h.effect == "drifting_lugre" ? 0.6 : 0.0;
   VectorXd force(v.size());

@@ -173,7 +173,9 @@ std::string inject(const Injection& request, std::uint64_t seed, const fs::path&
     paths.push_back(path_of(logs.back(), s.tool.mounting));
     s.recordings.emplace_back();
   }
-  s.noise = {"recorded", noise_of(logs.front().block(kForces)), 0.0, 0.0};
+  const double sigma = noise_of(logs.front().block(kForces));
+  require(sigma > 0.0, Exit::kData, logs.front().name, ": its forces have no noise");
+  s.noise = {"recorded", sigma, 0.0, 0.0};
   Rng rng({seed, 12});
   const bool listed = fs::path(request.what).extension() == ".json";
   s.hidden = listed ? parse_hidden(request.what)

@@ -94,7 +94,7 @@ Json hidden(const char* effect, const char* axis, const Json& parameters) {
           {"foreign", false}, {"amplitude", 1.0}, {"parameters", parameters}};
 }
 
-Json answer(const char* group, const Json& effects) {
+Json answer(const char* group, const std::vector<Json>& effects) {
   return {{"id", "s0001"},
           {"drawn", "x"},
           {"group", group},
@@ -104,7 +104,7 @@ Json answer(const char* group, const Json& effects) {
           {"oracle_rmse", {0.1, 0.1, 0.1}}};
 }
 
-Json finding(const char* effect, const char* axis, const Json& alternatives,
+Json finding(const char* effect, const char* axis, const std::vector<std::string>& alternatives,
              const Json& parameters) {
   return {{"effect", effect},
           {"axis", axis},
@@ -113,7 +113,7 @@ Json finding(const char* effect, const char* axis, const Json& alternatives,
           {"parameters", parameters}};
 }
 
-Json report(const char* verdict, const Json& findings) {
+Json report(const char* verdict, const std::vector<Json>& findings) {
   return {{"verdict", verdict},
           {"findings", findings},
           {"fit", {{"holdout_rmse_after", {0.1, 0.1, 0.13}}, {"noise_floor", {0.1, 0.1, 0.1}}}}};
@@ -121,9 +121,8 @@ Json report(const char* verdict, const Json& findings) {
 
 TEST(Score, TheRightNameItsAxisAndItsNumber) {
   const Json number{{"fc_n", {{"value", 0.42}, {"ci95", {0.39, 0.43}}}}};
-  const Json s =
-      score(answer("single", {hidden("coulomb_friction", "tool_z", {{"fc_n", 0.4}})}),
-            report("explained", {finding("coulomb_friction", "sensor_z", Json::array(), number)}));
+  const Json s = score(answer("single", {hidden("coulomb_friction", "tool_z", {{"fc_n", 0.4}})}),
+                       report("explained", {finding("coulomb_friction", "sensor_z", {}, number)}));
   EXPECT_TRUE(s["top1"] && s["set"] && s["class_set"] && s["verdict_right"]);
   EXPECT_EQ(s["false_names"], 0);
   const Json& e = s["effects"][0];
@@ -136,7 +135,7 @@ TEST(Score, TheRightNameItsAxisAndItsNumber) {
 TEST(Score, AnAlternativeCountsInTheClassAlone) {
   const Json s = score(answer("double", {hidden("lowpass", "", {}), hidden("mass", "", {})}),
                        report("explained", {finding("time_delay", "", {"lowpass"}, {}),
-                                            finding("hum", "", Json::array(), {})}));
+                                            finding("hum", "", {}, {})}));
   EXPECT_FALSE(s["set"] || s["class_set"] || s["effects"][0]["named"] ||
                s["effects"][1]["in_class"]);
   EXPECT_TRUE(s["effects"][0]["in_class"]);
@@ -144,10 +143,9 @@ TEST(Score, AnAlternativeCountsInTheClassAlone) {
 }
 
 TEST(Score, NothingHiddenAndADiagnosisThatFailed) {
-  const Json null = answer("null", Json::array());
-  EXPECT_TRUE(score(null, report("consistent", Json::array()))["verdict_right"]);
-  EXPECT_EQ(
-      score(null, report("explained", {finding("hum", "", Json::array(), {})}))["false_names"], 1);
+  const Json null = answer("null", {});
+  EXPECT_TRUE(score(null, report("consistent", {}))["verdict_right"]);
+  EXPECT_EQ(score(null, report("explained", {finding("hum", "", {}, {})}))["false_names"], 1);
   const Json failed = score(null, nullptr);
   EXPECT_EQ(failed["verdict"], "failed");
   EXPECT_FALSE(failed["verdict_right"] || failed["set"]);
@@ -156,7 +154,7 @@ TEST(Score, NothingHiddenAndADiagnosisThatFailed) {
 TEST(Score, APhaseIsComparedOnTheCircle) {
   const Json s = score(
       answer("single", {hidden("cogging", "alpha:sensor_x", {{"phase_rad", 3.1}})}),
-      report("explained", {finding("cogging", "alpha:sensor_x", Json::array(),
+      report("explained", {finding("cogging", "alpha:sensor_x", {},
                                    {{"phase_rad", {{"value", -3.1}, {"ci95", {-3.2, -3.0}}}}})}));
   const Json& p = s["effects"][0]["parameters"]["phase_rad"];
   EXPECT_NEAR(p["error"].get<double>(), 2.0 * 3.14159265358979 - 6.2, 1e-9);

@@ -18,7 +18,7 @@ Injection steady(const test::TemporaryFolder& folder, const std::string& what) {
   for (Eigen::Index i = 0; i < 4000; ++i) {
     log.values(i, 0) = 7.0 + 0.002 * static_cast<double>(i);
     log.values(i, 1) = kSpeed * 0.002 * static_cast<double>(i);
-    log.values(i, 9) = -7.0 + 0.01 * static_cast<double>((i * i * 31) % 7);
+    for (int j = 7; j < 10; ++j) log.values(i, j) = 0.01 * static_cast<double>((i * i * j) % 11);
   }
   write_csv(folder / "log.csv", log);
   write_file(folder / "sim.json",
@@ -66,7 +66,7 @@ TEST(Inject, ADrawnEffectHasTheAmplitudeAskedFor) {
 
 TEST(Inject, WhatCannotBeAddedIsRefused) {
   const test::TemporaryFolder folder;
-  for (const char* what : {"inertial_terms", "no_such_effect", "cable_spring@alpha:sensor_x"}) {
+  for (const char* what : {"inertial_terms", "no_such_effect", "viscous_friction@base_y"}) {
     EXPECT_THROW(inject(steady(folder, what), 1, folder / "out", folder / "seal.json"), Error)
         << what;
   }
