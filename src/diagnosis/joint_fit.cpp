@@ -138,6 +138,8 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   }
   fit.members = std::move(members);
   fit.residual = std::move(residual);
+  const Index linear = setting.study.base_coefficients.size();
+  fit.base = setting.study.base_coefficients + fit.nuisance.head(linear);
   return fit;
 }
 

@@ -11,7 +11,6 @@ namespace dcnn {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kMotionFree = 20.0;  // Hz: hand-guided and commanded motion ends well below
 constexpr double kColourGain = 12.0;  // of the log-likelihood, before noise is called coloured
 constexpr Index kWindow = 1024;       // samples of one periodogram
 constexpr Index kFewestBins = 12;     // below this the quiet band says nothing
@@ -124,10 +123,19 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
 
 }  // namespace
 
-double Floor::deviation() const { return std::sqrt(white + coloured); }
+double Floor::deviation() const {
+  if (lowpass_hz == 0.0) return std::sqrt(white + coloured);
+  constexpr int kPoints = 2048;
+  double sum = 0.0;
+  for (int i = 0; i < kPoints; ++i) sum += density((i + 0.5) / kPoints * 0.5 / dt, dt);
+  return std::sqrt(sum / kPoints);
+}
 
-double Floor::density(double hz, double dt) const {
-  return white + (coloured > 0.0 ? coloured * ar_shape(rho, hz, dt) : 0.0);
+double Floor::density(double hz, double step) const {
+  const double plain = white + (coloured > 0.0 ? coloured * ar_shape(rho, hz, step) : 0.0);
+  if (lowpass_hz == 0.0) return plain;
+  const double gain = 1.0 / (1.0 + std::pow(hz / lowpass_hz, 8.0));  // Butterworth, there and back
+  return plain * gain * gain;
 }
 
 double Floor::pose_density(double hz, double cutoff_hz) const {
@@ -136,7 +144,10 @@ double Floor::pose_density(double hz, double cutoff_hz) const {
   return (static_part + moving_part * w * w * w * w) / (1.0 + std::pow(hz / cutoff_hz, 8.0));
 }
 
-double quiet_band(double dt) { return std::min(kMotionFree, 0.2 / dt); }
+double quiet_band(const Case& study) {
+  const double most = study.motion_hz > 20.0 ? 0.35 : 0.2;  // of the rate
+  return std::min(study.motion_hz, most / study.dt());
+}
 
 namespace {
 
@@ -175,7 +186,7 @@ std::vector<Floor> floor_at_rest(const Case& study, const Signals& residual) {
 
 std::vector<Floor> noise_floor(const Case& study, const Signals& residual) {
   if (study.is_static()) return floor_at_rest(study, residual);
-  const double dt = study.dt(), from = quiet_band(dt), to = 0.49 / dt;
+  const double dt = study.dt(), from = quiet_band(study), to = 0.49 / dt;
   std::vector<Floor> floors;
   for (Index channel = 0; channel < study.channel_count(); ++channel) {
     const Periodograms p = periodograms(study, residual, channel);
@@ -188,6 +199,8 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual) {
     if (static_cast<Index>(quiet.size()) >= kFewestBins && p.power.cols() > 0) {
       floor = fit_floor(density(quiet), p.hz(quiet), dt, static_cast<double>(p.power.cols()));
     }
+    floor.lowpass_hz = study.lowpass_hz;
+    floor.dt = dt;
     floor.source = "spectrum of the residual above " +
                    std::to_string(static_cast<int>(std::lround(from))) + " Hz";
     floors.push_back(floor);
@@ -196,7 +209,7 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual) {
 }
 
 void add_pose_noise(const Case& study, std::vector<Floor>& floors) {
-  if (study.is_static()) return;
+  if (study.is_static() || study.axis) return;
   const auto quiet_density = [&](const std::vector<std::string>& names) {
     double most = 0.0;
     for (const auto& name : names) {
@@ -211,7 +224,7 @@ void add_pose_noise(const Case& study, std::vector<Floor>& floors) {
       const Eigen::VectorXd density = density_of(p);
       std::vector<double> quiet;
       for (Index i = 0; i < p.hz.size(); ++i) {
-        if (p.hz(i) >= quiet_band(study.dt()) && p.hz(i) <= 0.49 / study.dt()) {
+        if (p.hz(i) >= quiet_band(study) && p.hz(i) <= 0.49 / study.dt()) {
           quiet.push_back(density(i));
         }
       }

@@ -16,6 +16,7 @@ struct Floor {
   /// static_part·|H| + moving_part·w^4·|H|, per sample.
   double static_part = 0.0, moving_part = 0.0;
   std::string source;  ///< in words
+  double lowpass_hz = 0.0, dt = 0.0;  ///< the filter that the noise has passed; 0: none
 
   double deviation() const;  ///< of the sensor alone
   /// Density at `hz`, scaled so that white noise of variance s^2 has density s^2.
@@ -24,8 +25,8 @@ struct Floor {
   double pose_density(double hz, double cutoff_hz) const;
 };
 
-/// Lowest frequency that is free of motion for recordings of this rate.
-double quiet_band(double dt);
+/// Lowest frequency that is free of motion in these recordings.
+double quiet_band(const Case& study);
 
 /// Whittle fit of white or AR(1) + white noise to the residual above the motion's band, by channel
 /// (lessons of concealed data: over the whole band an effect would raise its own floor). Lines and

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/candidates.h"
 #include "diagnosis/detectors.h"
 #include "diagnosis/search.h"
 
@@ -19,7 +20,9 @@ void Search::detect() {
     apart_.push_back(member);
     masked_.insert(masked_.end(), clip.spans.begin(), clip.spans.end());
   }
-  if (const double step = rounding_step(study_); step > 0.0) {
+  // A machine's values come in any unit: its lattice matters where the noise does not cover it.
+  const double least = study_.axis ? floors_.front().deviation() : 0.0;
+  if (const double step = rounding_step(study_); step > least) {
     const EffectKind& kind = *find_effect("quantisation");
     Member member = make_member(kind, kind.fits[0], "", study_.has_torque(),
                                 Eigen::VectorXd::Constant(1, step));
@@ -35,6 +38,7 @@ void Search::detect() {
   }
   if (study_.is_static()) return;
   if (const auto hum = find_fast_hum(study_, left_, floors_)) apart_.push_back(*hum);
+  if (!is_listed(study_, *find_effect("loose_load"))) return;
   const Knocks knocks = find_knocks(study_, left_, floors_);
   if (knocks.member) {
     knocking_ = knocks.member;

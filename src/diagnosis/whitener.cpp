@@ -6,8 +6,8 @@
 namespace dcnn {
 namespace {
 
-constexpr double kBlockSeconds = 0.02;
-constexpr double kEndSeconds = 0.25;  // of a segment, left out at either end
+constexpr double kBlock = 0.4;  // periods of the fastest motion: 20 ms for 20 Hz
+constexpr double kEnd = 5.0;    // of a segment, left out at either end, likewise
 constexpr int kOrder = 8;
 constexpr int kFrequencies = 4096;
 
@@ -33,7 +33,7 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
     : channels_(study.channel_count()) {
   const bool moving = !study.is_static();
   const double dt = moving ? study.dt() : 1.0;
-  block_ = moving ? std::max<Index>(1, std::llround(kBlockSeconds / dt)) : 1;
+  block_ = moving ? std::max<Index>(1, std::llround(kBlock / study.motion_hz / dt)) : 1;
   if (block_ > 3) block_ += block_ % 2;  // two halves: coarse_stride()
   block_seconds_ = static_cast<double>(block_) * dt;
   const double cutoff = study.derivative.kind == DerivativeSpec::Kind::kSpectral && moving
@@ -69,7 +69,7 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
     }
     filters_.push_back(filter);
   }
-  const Index margin = moving ? std::llround(kEndSeconds / block_seconds_) * block_ : 0;
+  const Index margin = moving ? std::llround(kEnd / study.motion_hz / block_seconds_) * block_ : 0;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     std::vector<Index> before;  // sizes of the segments before this one
     for (const Segment& s : study.logs[k].motion.segments) {
