@@ -57,6 +57,7 @@ class Search {
   void explore();
   void detect();
   void judge();
+  void drop_what_does_not_carry_over();
   void say(const std::string& text) const;
 
   Case study_, softer_, harder_;  // the two others smooth more and less: what smoothing alone does

@@ -4,6 +4,7 @@
 
 #include "diagnosis/candidates.h"
 #include "diagnosis/detectors.h"
+#include "diagnosis/left_out.h"
 #include "diagnosis/search.h"
 
 namespace dcnn {
@@ -65,6 +66,10 @@ void Search::judge() {
       explore();
     }
   }
+  if (study_.axis) {
+    drop_what_does_not_carry_over();
+    return;
+  }
   for (bool changed = true; changed && !fit_.members.empty();) {
     changed = false;
     const auto tests = constancy(*setting_, fit_);
@@ -77,6 +82,21 @@ void Search::judge() {
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(worst));
     settle(rest);
     changed = true;
+  }
+  bands_ = band_tests(*setting_, fit_.residual);
+}
+
+/// A machine's recordings always hold something that no effect explains, so laws are not constant to
+/// the last digit: a name must help on pieces of time on which it was not fitted.
+void Search::drop_what_does_not_carry_over() {
+  constexpr double kLeastShare = 0.5;
+  while (!fit_.members.empty()) {
+    const auto shares = left_out_shares(*setting_, fit_);
+    const auto worst = std::min_element(shares.begin(), shares.end());
+    if (*worst >= kLeastShare) break;
+    std::vector<Member> rest = fit_.members;
+    rest.erase(rest.begin() + (worst - shares.begin()));
+    settle(rest);
   }
   bands_ = band_tests(*setting_, fit_.residual);
 }
