@@ -10,11 +10,12 @@ namespace dcnn {
 namespace {
 
 /// A finding of the chain (a force on a tool along x) as the axis' own.
-Json outer_finding(Json finding, const Axis& axis) {
+Json outer_finding(Json finding, const AxisPlan& plan) {
+  const Axis& axis = plan.axis();
   const EffectKind& kind = *find_effect(finding["effect"].get<std::string>());
   Json parameters = Json::object();
   for (const auto& [name, number] : finding["parameters"].items()) {
-    const auto outer = axis_parameter(kind, name, axis);
+    const auto outer = axis_parameter(kind, name, axis, plan.sense);
     if (!outer) continue;
     const auto moved = [&, s = outer->sign, d = outer->shift](const Json& v) {
       return s * v.get<double>() + d;
@@ -124,13 +125,14 @@ Json merged(const std::vector<Json>& reports, const System& system) {
   return report;
 }
 
-void translate(Diagnosis& diagnosis, const Axis& axis) {
-  for (Json& finding : diagnosis.report["findings"]) finding = outer_finding(finding, axis);
+void translate(Diagnosis& diagnosis, const AxisPlan& plan) {
+  const Axis& axis = plan.axis();
+  for (Json& finding : diagnosis.report["findings"]) finding = outer_finding(finding, plan);
   for (const char* key : {"not_detected", "not_testable"}) {
     for (Json& entry : diagnosis.report[key]) entry["axis"] = axis.name;
   }
   for (HeldOut& record : diagnosis.holdout) {
-    for (auto* signal : {&record.measured, &record.before, &record.after}) *signal *= -1.0;
+    for (auto* signal : {&record.measured, &record.before, &record.after}) *signal *= -plan.sense;
   }
   for (Portrait& portrait : diagnosis.portraits) {
     portrait.title = axis.name + ": " + portrait.title;
@@ -141,7 +143,7 @@ void translate(Diagnosis& diagnosis, const Axis& axis) {
       portrait.x_label = "position [" + axis.position_unit + "]";
     }
     for (auto* list : {&portrait.left, &portrait.law}) {
-      for (double& y : *list) y = -y;
+      for (double& y : *list) y *= -plan.sense;
     }
   }
 }
@@ -169,15 +171,14 @@ Diagnosis diagnose_axes(const DiagnosisRequest& request,
   std::vector<Json> reports;
   Diagnosis all;
   for (std::size_t k = 0; k < cases.size(); ++k) {
-    const Axis& axis = system.axes[k];
-    const auto columns = cases[k].fit.axis->columns;
+    const auto plan = cases[k].fit.axis;
     auto [diagnosis, base] =
         diagnose_case(std::move(cases[k]), [&](const std::string& text) {
-          if (progress) progress(axis.name + ": " + text);
+          if (progress) progress(plan->axis().name + ": " + text);
         });
-    machine.axes.push_back({columns, base, diagnosis.corrected.effects,
-                            *diagnosis.corrected.derivative});
-    translate(diagnosis, axis);
+    machine.axes.push_back({plan->columns, base, diagnosis.corrected.effects,
+                            *diagnosis.corrected.derivative, plan->sense});
+    translate(diagnosis, *plan);
     reports.push_back(diagnosis.report);
     if (k == 0) {
       all.holdout = std::move(diagnosis.holdout);

@@ -26,8 +26,11 @@ Log make_log(const Recording& recording, const Case& study) {
   Log log;
   log.recording = recording;
   // The chain knows forces on a tool: what an axis shows it is the reaction to its drive.
-  log.measured = -measured(recording, target, system, true);
-  if (system.lowpass_hz > 0.0) log.unfiltered = -measured(recording, target, system, false);
+  const double sign = -study.axis->sense;
+  log.measured = sign * measured(recording, target, system, true);
+  if (system.lowpass_hz > 0.0) {
+    log.unfiltered = sign * measured(recording, target, system, false);
+  }
   return log;
 }
 
@@ -43,6 +46,21 @@ std::vector<Index> used_columns(const std::vector<Recording>& recordings, const 
     for (Index k = 0; k < rows; ++k) all.row(before + k) = columns.row(5 * k);
   }
   return independent_columns(all, kBaseTolerance);
+}
+
+/// A drive puts power into its axis, which friction takes out; a log of the reaction shows the
+/// opposite.
+double sense_of(const std::vector<Recording>& recordings, const System& system, const Axis& axis,
+                const DerivativeSpec& derivative) {
+  Targets target;
+  target.names = {axis.measured};
+  double work = 0.0;
+  for (const Recording& recording : recordings) {
+    const Motion motion = axis_motion(recording, axis, derivative);
+    if (motion.v_B.rows() == 0) continue;
+    work += measured(recording, target, system, true).col(0).dot(motion.v_B.col(0));
+  }
+  return work < 0.0 ? -1.0 : 1.0;
 }
 
 void set_clock(const DiagnosisRequest& request, const std::vector<Recording>& recordings,
@@ -84,10 +102,10 @@ void set_axis_motion(Case& study) {
     log.regressors.clear();
     const Eigen::MatrixXd columns =
         base_columns(log.recording, plan.system, plan.index, study.derivative);
-    for (const Index k : plan.columns) log.regressors.emplace_back(-columns.col(k));
+    for (const Index k : plan.columns) log.regressors.emplace_back(-plan.sense * columns.col(k));
     log.base = {Eigen::MatrixXd::Zero(log.motion.samples(), 3), Eigen::MatrixXd(0, 3)};
     const std::string& simulated = plan.axis().simulated;
-    if (!simulated.empty()) log.base.force.col(0) = -log.recording.column(simulated);
+    if (!simulated.empty()) log.base.force.col(0) = -plan.sense * log.recording.column(simulated);
   }
   if (!plan.columns.empty()) set_base(study, study.base_coefficients);
 }
@@ -121,9 +139,10 @@ std::vector<LoadedCase> load_axes(const DiagnosisRequest& request) {
   all.insert(all.end(), holdout.begin(), holdout.end());
   std::vector<LoadedCase> cases;
   for (std::size_t k = 0; k < system.axes.size(); ++k) {
-    AxisPlan plan{system, k, {}};
+    AxisPlan plan{system, k, {}, 1.0};
     const Case draft = axis_case(std::make_shared<const AxisPlan>(plan));
     plan.columns = used_columns(fit, system, k, draft.derivative);
+    plan.sense = sense_of(fit, system, system.axes[k], draft.derivative);
     LoadedCase loaded;
     loaded.fit = axis_case(std::make_shared<const AxisPlan>(std::move(plan)));
     loaded.fit.base_coefficients =

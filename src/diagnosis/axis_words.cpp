@@ -45,8 +45,8 @@ const std::map<std::string, Sentence>& sentences() {
        [](auto& n) { return "friction of " + n("fc") + " that first gives way elastically"; }},
       {"asymmetric_friction",
        [](auto& n) {
-         return "friction that differs between the directions, by " + n.size("delta_fc") +
-                " and " + n.size("delta_c") + " either way";
+         return "friction that differs between the directions, by " + n.size("delta_c") +
+                " either way";
        }},
       {"hysteresis", [](auto& n) { return "hysteresis of " + n.size("force"); }},
       {"cable_spring", [](auto& n) { return "a spring of " + n("k"); }},

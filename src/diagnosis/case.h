@@ -15,6 +15,8 @@ struct AxisPlan {
   System system;
   std::size_t index = 0;
   std::vector<Index> columns;  ///< of its base simulator that are fitted
+  /// 1 where what is measured drives the axis, -1 where it is the reaction to that.
+  double sense = 1.0;
   const Axis& axis() const { return system.axes[index]; }
 };
 

@@ -31,7 +31,10 @@ std::vector<Coordinate> coordinates_of(const std::vector<Member>& members) {
 void move(std::vector<Member>& members, const Coordinate& c, double step) {
   Member& member = members[c.member];
   if (!c.is_shape) {
-    member.amplitudes(c.index) += step;
+    double& amplitude = member.amplitudes(c.index);
+    amplitude += step;
+    // A law that only resists ends where it vanishes.
+    if (member.form->non_negative) amplitude = std::max(0.0, amplitude);
     return;
   }
   const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(c.index)];

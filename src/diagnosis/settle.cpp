@@ -33,7 +33,8 @@ void Search::make_setting(const std::vector<Member>& members) {
   const Signals raw = study_.lowpass_hz > 0.0 ? unfiltered_left(study_, members) : left_;
   floors_ = noise_floor(study_, raw);
   add_pose_noise(study_, floors_);
-  const Whitener whitener(study_, floors_, noise_level(study_, raw));
+  const Whitener whitener(study_, floors_, noise_level(study_, raw),
+                          remainder_.empty() ? nullptr : &remainder_);
   const Index stride = whitener.coarse_stride();
   setting_ = std::make_unique<Setting>(Setting{
       study_, whitener, thinned(study_, stride), whitener.at_stride(stride), measured, {}, {}});

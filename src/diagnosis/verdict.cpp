@@ -38,7 +38,16 @@ void Search::detect() {
     }
   }
   if (study_.is_static()) return;
-  if (const auto hum = find_fast_hum(study_, left_, floors_)) apart_.push_back(*hum);
+  if (const auto hum = find_fast_hum(study_, left_, floors_)) {
+    double power = 0.0, rows = 0.0;
+    for (const auto& left : left_) {
+      power += left.squaredNorm();
+      rows += static_cast<double>(left.size());
+    }
+    // A motor's log is full of faint lines: of what is left on a machine one must be a share.
+    const bool counts = !study_.axis || 0.5 * hum->amplitudes.squaredNorm() * rows > 0.002 * power;
+    if (counts) apart_.push_back(*hum);
+  }
   if (!is_listed(study_, *find_effect("loose_load"))) return;
   const Knocks knocks = find_knocks(study_, left_, floors_);
   if (knocks.member) {
@@ -67,7 +76,7 @@ void Search::judge() {
     }
   }
   if (study_.axis) {
-    drop_what_does_not_carry_over();
+    judge_against_remainder();
     return;
   }
   for (bool changed = true; changed && !fit_.members.empty();) {
@@ -86,10 +95,17 @@ void Search::judge() {
   bands_ = band_tests(*setting_, fit_.residual);
 }
 
-/// A machine's recordings always hold something that no effect explains, so laws are not constant to
-/// the last digit: a name must help on pieces of time on which it was not fitted.
-void Search::drop_what_does_not_carry_over() {
+/// A machine's recordings always hold something that no effect explains, against which the sensor's
+/// noise is nothing: what is left becomes the noise, and names must earn their numbers against that
+/// and help on pieces of time on which they were not fitted.
+void Search::judge_against_remainder() {
   constexpr double kLeastShare = 0.5;
+  remainder_ = left_;
+  settle(fit_.members);
+  chi2_before_ = joint_fit(*setting_, {}).chi2;
+  while (simplify()) {
+  }
+  explore();
   while (!fit_.members.empty()) {
     const auto shares = left_out_shares(*setting_, fit_);
     const auto worst = std::min_element(shares.begin(), shares.end());
@@ -98,7 +114,6 @@ void Search::drop_what_does_not_carry_over() {
     rest.erase(rest.begin() + (worst - shares.begin()));
     settle(rest);
   }
-  bands_ = band_tests(*setting_, fit_.residual);
 }
 
 std::vector<std::vector<std::string>> Search::alternatives() const {

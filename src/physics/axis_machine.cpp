@@ -160,13 +160,14 @@ MatrixXd predict_axes(const AxisMachine& machine, const Recording& recording) {
     const Motion motion = axis_motion(recording, axis, corrected.derivative);
     Wrench reaction{MatrixXd::Zero(motion.samples(), 3), MatrixXd(0, 3)};
     if (!axis.simulated.empty()) {
-      reaction.force.col(0) = -recording.column(axis.simulated);
+      reaction.force.col(0) = -corrected.sense * recording.column(axis.simulated);
     } else {
       const MatrixXd columns = base_columns(recording, system, k, corrected.derivative);
-      reaction.force.col(0) = -(columns(Eigen::all, corrected.columns) * corrected.coefficients);
+      reaction.force.col(0) =
+          -corrected.sense * (columns(Eigen::all, corrected.columns) * corrected.coefficients);
     }
     pass_on(corrected.effects, Stage::kForce, motion, none.model, reaction);
-    predicted.col(static_cast<Index>(k)) = -reaction.force.col(0);
+    predicted.col(static_cast<Index>(k)) = -corrected.sense * reaction.force.col(0);
   }
   return low_pass(predicted, recording, system.lowpass_hz);
 }

@@ -37,7 +37,7 @@ std::string axis_unit(const std::string& suffix, const Axis& axis) {
 }  // namespace
 
 std::optional<AxisParameter> axis_parameter(const EffectKind& kind, const std::string& name,
-                                            const Axis& axis) {
+                                            const Axis& axis, double sense) {
   AxisParameter result{name, "", 1.0, 0.0};
   const auto cut = name.rfind('_');
   std::string suffix = cut == std::string::npos ? "" : name.substr(cut + 1);
@@ -56,29 +56,29 @@ std::optional<AxisParameter> axis_parameter(const EffectKind& kind, const std::s
   const std::string id = kind.name;
   if (id == "cogging" && result.stem == "phase") {
     result.unit = "rad";
-    result.shift = std::numbers::pi;
+    result.shift = sense > 0.0 ? std::numbers::pi : 0.0;
   }
   // What adds to the reading has the sign of the reading; what resists the motion the reaction's.
   const bool adds = kind.stage == Stage::kOffset || id == "contact";
-  if (adds && suffix.starts_with('n')) result.sign = -1.0;
+  if (adds && suffix.starts_with('n')) result.sign = -sense;
   return result;
 }
 
 namespace {
 
 /// Published parameters of one effect.
-Json outer_parameters(const EffectSpec& effect, const Axis& axis) {
+Json outer_parameters(const EffectSpec& effect, const Axis& axis, double sense) {
   const EffectKind& kind = *find_effect(effect.effect);
   Json parameters = Json::object();
   for (const auto& [name, value] : effect.parameters.items()) {
-    const auto outer = axis_parameter(kind, name, axis);
+    const auto outer = axis_parameter(kind, name, axis, sense);
     if (outer) parameters[outer->stem] = outer->sign * value.get<double>() + outer->shift;
   }
   return parameters;
 }
 
 /// The parameters of the law from the published ones; components that an axis does not have are 0.
-Json inner_parameters(const EffectKind& kind, const Json& outer, const Axis& axis,
+Json inner_parameters(const EffectKind& kind, const Json& outer, const Axis& axis, double sense,
                       const std::string& where, Exit exit) {
   for (const EffectFit& form : kind.fits) {
     const Json names = form.parameters(VectorXd::Ones(form.amplitudes),
@@ -86,7 +86,7 @@ Json inner_parameters(const EffectKind& kind, const Json& outer, const Axis& axi
     Json inner = Json::object();
     std::size_t used = 0;
     for (const auto& [name, unused] : names.items()) {
-      const auto parameter = axis_parameter(kind, name, axis);
+      const auto parameter = axis_parameter(kind, name, axis, sense);
       inner[name] = 0.0;
       if (!parameter) continue;
       const auto found = outer.find(parameter->stem);
@@ -120,14 +120,14 @@ Json effects_json(const CorrectedAxis& corrected, const Axis& axis) {
       entry["interval_s"] = {effect.interval_s->first, effect.interval_s->second};
     }
     if (!effect.recording.empty()) entry["recording"] = effect.recording;
-    entry["parameters"] = outer_parameters(effect, axis);
+    entry["parameters"] = outer_parameters(effect, axis, corrected.sense);
     list.push_back(entry);
   }
   return list;
 }
 
-std::vector<EffectSpec> effects_from(const Json& list, const Axis& axis, const std::string& where,
-                                     Exit exit) {
+std::vector<EffectSpec> effects_from(const Json& list, const Axis& axis, double sense,
+                                     const std::string& where, Exit exit) {
   Json inner = Json::array();
   require(list.is_array(), exit, where, ": effects must be a list");
   for (const Json& entry : list) {
@@ -138,7 +138,7 @@ std::vector<EffectSpec> effects_from(const Json& list, const Axis& axis, const s
     Json translated = entry;
     const std::string axis_name = inner_axis(*kind);
     translated["axis"] = axis_name.empty() ? Json() : Json(axis_name);
-    translated["parameters"] = inner_parameters(*kind, entry["parameters"], axis, where, exit);
+    translated["parameters"] = inner_parameters(*kind, entry["parameters"], axis, sense, where, exit);
     inner.push_back(translated);
   }
   return parse_effects(inner, where, exit);
@@ -163,9 +163,10 @@ CorrectedAxis parse_corrected(const Json& json, const System& system, std::size_
   }
   corrected.coefficients = VectorXd::Map(values.data(), static_cast<Index>(values.size()));
   if (options.has("derivative")) corrected.derivative = parse_derivative(options.child("derivative"));
+  corrected.sense = options.choice("measured", "drive", {"drive", "reaction"}) == "drive" ? 1 : -1;
   const Json effects = options.raw("effects");
   corrected.effects = effects_from(effects.is_null() ? Json::array() : effects, system.axes[k],
-                                   where, exit);
+                                   corrected.sense, where, exit);
   options.finish();
   return corrected;
 }
@@ -183,6 +184,7 @@ Json to_json(const AxisMachine& machine) {
           corrected.coefficients(static_cast<Index>(i));
     }
     axes.push_back({{"axis", machine.system.axes[k].name},
+                    {"measured", corrected.sense > 0.0 ? "drive" : "reaction"},
                     {"base", base},
                     {"effects", effects_json(corrected, machine.system.axes[k])},
                     {"derivative", to_json(corrected.derivative)}});

@@ -30,6 +30,7 @@ struct CorrectedAxis {
   Eigen::VectorXd coefficients;       ///< of these
   std::vector<EffectSpec> effects;    ///< on the reaction: axes base_x, alpha:base_x, sensor_x
   DerivativeSpec derivative;
+  double sense = 1.0;  ///< -1 where the measured is the reaction to the drive
 };
 
 /// model.json of a machine: its system description and what corrects each axis.
@@ -54,6 +55,6 @@ struct AxisParameter {
 };
 /// None for components that an axis does not have (_y, _z).
 std::optional<AxisParameter> axis_parameter(const EffectKind& kind, const std::string& name,
-                                            const Axis& axis);
+                                            const Axis& axis, double sense);
 
 }  // namespace dcnn
