@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "diagnosis/spectral_lines.h"
 #include "physics/effect_law.h"
@@ -27,11 +28,6 @@ std::vector<Eigen::VectorXd> seed_grid(const EffectFit& form) {
     grid = std::move(longer);
   }
   return grid;
-}
-
-std::vector<std::string> axes_of(const EffectKind& kind) {
-  if (kind.axis == AxisRule::kNone) return {""};
-  return admitted_axes(kind.axis);
 }
 
 /// What is left, averaged over 20 ms, and the rows' directions along one axis.
@@ -100,7 +96,7 @@ double best_order(const AngleBins& bins) {
 void add_cogging(const Scan& scan, const Signals& left, std::vector<Member>& list) {
   const Case& study = scan.setting().study;
   const EffectKind& kind = *find_effect("cogging");
-  for (const auto& axis : axes_of(kind)) {
+  for (const auto& axis : axes_of(study, kind)) {
     const AngleBins bins = bin_by_angle(study, left, axis);
     if (bins.sum.size() < 16 || bins.count.maxCoeff() <= 0.0) continue;
     const double order = best_order(bins);
@@ -165,6 +161,22 @@ bool has_temperature(const Case& study) {
 
 }  // namespace
 
+bool is_listed(const Case& study, const EffectKind& kind) {
+  if (!study.axis) return !kind.machines_only;
+  // Of a tool's effects an axis has no body to carry, no gravity to feel and nothing to leak into.
+  static const std::set<std::string> kOfTools{"loose_load", "misalignment", "crosstalk",
+                                              "cable_field"};
+  return kind.stage != Stage::kTool && kOfTools.count(kind.name) == 0;
+}
+
+std::vector<std::string> axes_of(const Case& study, const EffectKind& kind) {
+  if (kind.axis == AxisRule::kNone) return {""};
+  if (!study.axis) return admitted_axes(kind.axis);
+  return {kind.axis == AxisRule::kLine    ? "base_x"
+          : kind.axis == AxisRule::kAngle ? "alpha:base_x"
+                                          : "sensor_x"};
+}
+
 bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
   const auto because = [&](const char* text) {
     if (why) *why = text;
@@ -178,6 +190,9 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
         return because("no position or velocity is logged");
       }
     }
+  }
+  if (study.axis && kind.axis == AxisRule::kAngle && study.axis->axis().position.empty()) {
+    return because("no position is logged");
   }
   if (kind.stage == Stage::kTool && !study.own_tool && std::string(kind.name) != "mass") {
     return because("the simulator's own tool is not known");
@@ -201,13 +216,13 @@ std::vector<Member> candidates(const Scan& scan, const Signals& left,
     const bool own_test = kind->interval == IntervalRule::kRequired ||
                           kind->interval == IntervalRule::kOnset ||
                           kind->stage == Stage::kSaturation || kind->stage == Stage::kQuantisation;
-    if (own_test || !is_testable(study, *kind)) continue;
+    if (own_test || !is_listed(study, *kind) || !is_testable(study, *kind)) continue;
     for (const EffectFit& form : kind->fits) {
       if (!form.shapes.empty() && std::string(form.shapes[0].name) == "t_ref" &&
           !has_temperature(study)) {
         continue;
       }
-      for (const auto& axis : axes_of(*kind)) {
+      for (const auto& axis : axes_of(study, *kind)) {
         for (const auto& shapes : seed_grid(form)) {
           list.push_back(make_member(*kind, form, axis, study.has_torque(), shapes));
         }

@@ -34,6 +34,7 @@ void move(std::vector<Member>& members, const Coordinate& c, double step) {
   if (!c.is_shape) {
     double& amplitude = member.amplitudes(c.index);
     amplitude += step;
+    // A law that only resists ends where it vanishes.
     if (member.form->non_negative) amplitude = std::max(0.0, amplitude);
     return;
   }
@@ -173,6 +174,8 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   }
   fit.members = std::move(members);
   fit.residual = std::move(residual);
+  const Index linear = setting.study.base_coefficients.size();
+  fit.base = setting.study.base_coefficients + fit.nuisance.head(linear);
   return fit;
 }
 

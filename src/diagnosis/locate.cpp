@@ -12,8 +12,8 @@ namespace {
 constexpr double kSegmentSeconds = 0.5;
 constexpr int kBins = 12;
 
-double floor_power(const Case& study, const std::vector<Floor>& floors, Index channel) {
-  const double s = floors[static_cast<std::size_t>(channel)].deviation(study.dt());
+double floor_power(const std::vector<Floor>& floors, Index channel) {
+  const double s = floors[static_cast<std::size_t>(channel)].deviation();
   return s * s;
 }
 
@@ -28,10 +28,10 @@ Json axes(const Case& study, const Signals& left, const std::vector<Floor>& floo
       count += static_cast<double>(r.rows());
     }
     // In units of the floor, so that newtons and newton-metres weigh alike.
-    const double excess = std::max(0.0, square / count - floor_power(study, floors, j));
+    const double excess = std::max(0.0, square / count - floor_power(floors, j));
     list.push_back(
         {{"axis", study.targets[static_cast<std::size_t>(j)]}, {"excess_rms", std::sqrt(excess)}});
-    energy.push_back(excess / std::max(1e-300, floor_power(study, floors, j)));
+    energy.push_back(excess / std::max(1e-300, floor_power(floors, j)));
     all += energy.back();
   }
   for (std::size_t j = 0; j < energy.size(); ++j) {
@@ -56,7 +56,7 @@ Json segments(const Case& study, const Signals& left, const std::vector<Floor>& 
         double excess = 0.0;
         for (Index j = 0; j < study.channel_count(); ++j) {
           excess += left[k].col(j).segment(i, n).squaredNorm() / static_cast<double>(n) -
-                    floor_power(study, floors, j);
+                    floor_power(floors, j);
         }
         windows.push_back({motion.t(i), motion.t(i + n - 1) + study.dt(), excess, k});
       }
@@ -74,7 +74,7 @@ Json segments(const Case& study, const Signals& left, const std::vector<Floor>& 
   const double spread =
       1.4826 * (sorted[sorted.size() * 3 / 4] - sorted[sorted.size() / 4]) / 1.349;
   double noise = 0.0;
-  for (Index j = 0; j < study.channel_count(); ++j) noise += floor_power(study, floors, j);
+  for (Index j = 0; j < study.channel_count(); ++j) noise += floor_power(floors, j);
   const double high = std::max(middle + 4.0 * spread, middle + 0.25 * noise);
   std::vector<Window> found;
   for (const Window& w : windows) {
@@ -135,8 +135,7 @@ Json regimes(const Case& study, const Signals& left, const std::vector<Floor>& f
   double total = 0.0;
   for (Index j = 0; j < study.channel_count(); ++j) {
     for (const auto& r : left) {
-      total +=
-          r.col(j).squaredNorm() - floor_power(study, floors, j) * static_cast<double>(r.rows());
+      total += r.col(j).squaredNorm() - floor_power(floors, j) * static_cast<double>(r.rows());
     }
   }
   if (total <= 0.0) return Json::array();

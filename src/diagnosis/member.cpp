@@ -7,7 +7,8 @@ namespace dcnn {
 
 int Member::parameters() const {
   const int ends = !interval_s ? 0 : kind->interval == IntervalRule::kOnset ? 1 : 2;
-  return static_cast<int>(amplitudes.size() + shapes.size()) + ends;
+  const auto fitted = (amplitudes.array() != 0.0).count();  // a component nothing measures stays 0
+  return static_cast<int>(fitted + shapes.size()) + ends;
 }
 
 Member make_member(const EffectKind& kind, const EffectFit& form, const std::string& axis,

@@ -16,17 +16,19 @@ struct Floor {
   /// Spectral density of what the pose's noise adds through accelerations and gravity:
   /// static_part·|H| + moving_part·w^4·|H|, per sample.
   double static_part = 0.0, moving_part = 0.0;
-  std::string source;  ///< in words
+  std::string source;       ///< in words
+  double lowpass_hz = 0.0;  ///< of the filter that the noise has passed; 0: none
+  double dt = 0.0;          ///< s, between samples
 
-  double deviation(double dt) const;  ///< of the sensor alone, of samples every dt
+  double deviation() const;  ///< of the sensor alone
   /// Density at `hz`, scaled so that white noise of variance s^2 has density s^2.
   double density(double hz, double dt) const;
   /// What the pose's noise adds to it behind a smoother that cuts at `cutoff_hz` (0: none).
   double pose_density(double hz, double cutoff_hz) const;
 };
 
-/// Lowest frequency that is free of motion for recordings of this rate.
-double quiet_band(double dt);
+/// Lowest frequency that is free of motion in these recordings.
+double quiet_band(const Case& study);
 
 /// Whittle fit of white, AR(1) + white or flicker + white noise to the residual above the motion's
 /// band, divided by the noise's relative level (of noise_level()), by channel: over the whole band
