@@ -13,6 +13,7 @@ constexpr const char* kExamples =
     "  dcnn-diagnose --sim sim.json --fit a.csv --out report       # holds out blocks of a.csv\n"
     "  dcnn-diagnose --fit log.csv --out report                    # log.csv has "
     "fx_sim,fy_sim,fz_sim\n"
+    "  dcnn-diagnose --system arm.json --fit a.csv --holdout b.csv --out report   # another machine\n"
     "  dcnn-sim --sim report/model.json --motion c.csv --out corrected.csv\n";
 
 }  // namespace
@@ -28,6 +29,9 @@ int main(int argc, char** argv) {
   auto& app = tool.app();
   app.add_option("--sim", request.simulator,
                  "simulator of the tool (JSON); without it the recordings need columns *_sim");
+  app.add_option("--system", request.system,
+                 "system description of another machine (JSON, \"kind\": \"axes\"), instead of --sim")
+      ->excludes("--sim");
   app.add_option("--fit", request.fit, "recordings to learn from")->required();
   app.add_option("--holdout", request.holdout,
                  "recordings to judge by (default: every fifth block of 5 s of the others)");

@@ -1,7 +1,7 @@
 #include <iostream>
 
 #include "dcnn/models/identifier.h"
-#include "dcnn/physics/simulator.h"
+#include "dcnn/physics/axis_machine.h"
 #include "support/tool.h"
 
 namespace {
@@ -26,8 +26,22 @@ Recording predict_with_model(const std::filesystem::path& model, const std::file
   return recording;
 }
 
+Recording predict_with_machine(const AxisMachine& machine, const std::filesystem::path& data,
+                               const ReadOptions& read) {
+  Recording recording = read_recording(data, read, machine.system);
+  const Eigen::MatrixXd predicted = predict_axes(machine, recording);
+  for (std::size_t k = 0; k < machine.system.axes.size(); ++k) {
+    recording.set(machine.system.axes[k].measured + "_hat",
+                  predicted.col(static_cast<Eigen::Index>(k)));
+  }
+  return recording;
+}
+
 Recording predict_with_simulator(const std::filesystem::path& model,
                                  const std::filesystem::path& data, const ReadOptions& read) {
+  if (const Json json = read_json(model, Exit::kData); is_axis_machine(json)) {
+    return predict_with_machine(parse_axis_machine(json, model.string(), Exit::kModel), data, read);
+  }
   const Simulator simulator = read_simulator(model);
   Recording recording = read_recording(data, read, System());
   const Recording predicted = predict_motion(simulator, recording, DerivativeSpec());

@@ -52,13 +52,19 @@ Eigen::MatrixXd low_pass(const Eigen::MatrixXd& signals, const Recording& record
   require(2.0 * hz * recording.dt < 1.0, Exit::kData, recording.name, ": a low-pass at ", hz,
           " Hz needs a rate above ", 2.0 * hz, " Hz, this recording has ", 1.0 / recording.dt,
           " Hz; lower lowpass_hz");
+  return low_pass(signals, recording.segments, recording.dt, hz);
+}
+
+Eigen::MatrixXd low_pass(const Eigen::MatrixXd& signals, const std::vector<Segment>& segments,
+                         double dt, double hz) {
+  if (hz == 0.0) return signals;
   // Poles of the Butterworth filter of order 4 at pi/8 and 3·pi/8 from the real axis.
   const Section sections[] = {
-      make_section(hz, recording.dt, 0.5 / std::cos(std::numbers::pi / 8.0)),
-      make_section(hz, recording.dt, 0.5 / std::cos(3.0 * std::numbers::pi / 8.0))};
-  const auto settling = static_cast<Index>(std::ceil(5.0 / (hz * recording.dt)));
+      make_section(hz, dt, 0.5 / std::cos(std::numbers::pi / 8.0)),
+      make_section(hz, dt, 0.5 / std::cos(3.0 * std::numbers::pi / 8.0))};
+  const auto settling = static_cast<Index>(std::ceil(5.0 / (hz * dt)));
   Eigen::MatrixXd filtered(signals.rows(), signals.cols());
-  for (const Segment& segment : recording.segments) {
+  for (const Segment& segment : segments) {
     const Index pad = std::min(segment.size() - 1, settling);
     for (Index column = 0; column < signals.cols(); ++column) {
       Eigen::VectorXd x =

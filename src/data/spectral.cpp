@@ -11,6 +11,41 @@ namespace dcnn {
 namespace {
 
 constexpr double kPadSeconds = 2.0;
+constexpr double kEndSeconds = 1.0;  // in which what is taken out at an end decays
+
+/// The second derivative [1/s^2] at the first of some samples: of the quartic through them.
+double bend(const Eigen::VectorXd& x, double dt) {
+  const Index n = x.size();
+  if (n < 8) return 0.0;
+  const Eigen::ArrayXd u = Eigen::ArrayXd::LinSpaced(n, 0.0, 1.0);
+  Eigen::MatrixXd A(n, 5);
+  for (Index k = 0; k < A.cols(); ++k) A.col(k) = u.pow(static_cast<double>(k));
+  const Eigen::VectorXd c = (A.transpose() * A).ldlt().solve(A.transpose() * x);
+  const double seconds = dt * static_cast<double>(n - 1);
+  return 2.0 * c(2) / (seconds * seconds);
+}
+
+/// Decaying curves that have the signal's second derivative at its two ends. An odd reflection has
+/// none there; without them the smoothed acceleration would begin and end at zero.
+struct Ends {
+  double first = 0.0, last = 0.0;  // second derivatives, 1/s^2
+  Index samples = 0;
+  double dt = 0.0;
+
+  Ends(const Eigen::Ref<const Eigen::VectorXd>& x, double step, double cutoff_hz)
+      : samples(x.size()), dt(step) {
+    const Index window = std::min<Index>(x.size() / 3, std::llround(2.5 / (cutoff_hz * dt)));
+    first = bend(x.head(window), dt);
+    last = bend(x.tail(window).reverse(), dt);
+  }
+  /// Their k-th derivative at sample i.
+  double derivative(int k, Index i) const {
+    const double before = dt * static_cast<double>(i), after = dt * double(samples - 1 - i);
+    const double T = kEndSeconds, scale = std::pow(T, 2 - k);
+    return scale *
+           ((k % 2 ? -1.0 : 1.0) * first * std::exp(-before / T) + last * std::exp(-after / T));
+  }
+};
 
 /// The signal with its odd reflections at both ends, less the line through the first and last of
 /// all these samples, and zeros up to a length that transforms fast: continuous around the circle.
@@ -44,7 +79,10 @@ Padded pad_oddly(const Eigen::Ref<const Eigen::VectorXd>& x, double dt) {
 
 Smoothed smooth(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, double cutoff_hz) {
   const Index n = x.size();
-  const Padded padded = pad_oddly(x, dt);
+  const Ends ends(x, dt, cutoff_hz);
+  Eigen::VectorXd inner(n);
+  for (Index k = 0; k < n; ++k) inner(k) = x(k) - ends.derivative(0, k);
+  const Padded padded = pad_oddly(inner, dt);
   const Index length = padded.values.size();
   const Eigen::VectorXcd spectrum = fourier(padded.values);
   Eigen::VectorXcd value(spectrum.size()), first(spectrum.size()), second(spectrum.size());
@@ -60,9 +98,11 @@ Smoothed smooth(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, double cu
   Smoothed out{inverse_fourier(value, length).segment(padded.pad, n),
                inverse_fourier(first, length).segment(padded.pad, n),
                inverse_fourier(second, length).segment(padded.pad, n)};
-  for (Index k = 0; k < n; ++k)
-    out.value(k) += padded.level + padded.slope * static_cast<double>(k);
-  out.first.array() += padded.slope / dt;
+  for (Index k = 0; k < n; ++k) {
+    out.value(k) += padded.level + padded.slope * static_cast<double>(k) + ends.derivative(0, k);
+    out.first(k) += padded.slope / dt + ends.derivative(1, k);
+    out.second(k) += ends.derivative(2, k);
+  }
   return out;
 }
 

@@ -9,6 +9,11 @@ namespace {
 
 constexpr double kMaxHz = 1e6;
 
+std::string default_position_unit(const std::string& unit) {
+  if (unit == "N") return "m";
+  return unit == "N*m" || unit == "A" ? "rad" : "";
+}
+
 Axis parse_axis(const Json& json, const std::string& where) {
   Options options(json, where, Exit::kData);
   Axis axis;
@@ -22,6 +27,7 @@ Axis parse_axis(const Json& json, const std::string& where) {
   axis.signals = options.get<std::vector<std::string>>("signals", {});
   axis.base = options.get<std::vector<std::string>>("base", {});
   axis.has_base = options.has("base");
+  axis.position_unit = options.get<std::string>("position_unit", default_position_unit(axis.unit));
   axis.scale = options.number("scale", 1.0, -1e12, 1e12);
   if (axis.name.empty()) options.reject("name", "is empty");
   if (axis.measured.empty()) options.reject("measured", "is empty: name the measured column");

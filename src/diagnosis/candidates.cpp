@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
-#include "dcnn/data/fourier.h"
+#include "diagnosis/spectral_lines.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {
@@ -27,11 +28,6 @@ std::vector<Eigen::VectorXd> seed_grid(const EffectFit& form) {
     grid = std::move(longer);
   }
   return grid;
-}
-
-std::vector<std::string> axes_of(const EffectKind& kind) {
-  if (kind.axis == AxisRule::kNone) return {""};
-  return admitted_axes(kind.axis);
 }
 
 /// What is left, averaged over 20 ms, and the rows' directions along one axis.
@@ -71,6 +67,11 @@ AngleBins bin_by_angle(const Case& study, const Signals& left, const std::string
   return bins;
 }
 
+/// One whole period within the range of the angle.
+double least_order(const AngleBins& bins) {
+  return 2.0 * kPi / (bins.width * static_cast<double>(bins.sum.size()));
+}
+
 /// The order whose sine and cosine of the angle explain most of the bins, beside a line in it.
 double best_order(const AngleBins& bins) {
   const Index n = bins.sum.size();
@@ -79,8 +80,7 @@ double best_order(const AngleBins& bins) {
   const double range = bins.width * static_cast<double>(n), middle = bins.low + 0.5 * range;
   double best = 0.0, most = -1.0;
   const double step = std::max(0.1, 0.4 / range);
-  for (double order = std::max(1.0, 2.0 * kPi / range); order < std::min(120.0, 0.5 / bins.width);
-       order += step) {
+  for (double order = least_order(bins); order < std::min(120.0, 0.5 / bins.width); order += step) {
     Eigen::MatrixXd A(n, 4);
     A << Eigen::VectorXd::Ones(n), (q - middle).matrix(), (order * q).sin().matrix(),
         (order * q).cos().matrix();
@@ -96,13 +96,14 @@ double best_order(const AngleBins& bins) {
 void add_cogging(const Scan& scan, const Signals& left, std::vector<Member>& list) {
   const Case& study = scan.setting().study;
   const EffectKind& kind = *find_effect("cogging");
-  for (const auto& axis : axes_of(kind)) {
+  for (const auto& axis : axes_of(study, kind)) {
     const AngleBins bins = bin_by_angle(study, left, axis);
     if (bins.sum.size() < 16 || bins.count.maxCoeff() <= 0.0) continue;
     const double order = best_order(bins);
     if (order <= 0.0) continue;
     list.push_back(make_member(kind, kind.fits[0], axis, study.has_torque(),
                                Eigen::VectorXd::Constant(1, order)));
+    list.back().least_shapes = Eigen::VectorXd::Constant(1, least_order(bins));
   }
 }
 
@@ -114,7 +115,7 @@ void add_resonances(const Scan& scan, const Signals& left, const std::vector<Flo
     if (study.channels[j] > 2) continue;
     auto peaks =
         spectral_lines(study, left, floors, 1.5, 0.25 / study.dt(), static_cast<Index>(j), 3);
-    for (const double hz : {4.0, 8.0, 14.0}) peaks.push_back({hz, 0.0});
+    for (const double hz : {4.0, 8.0, 14.0}) peaks.push_back({hz, 0.0, 0.0});
     for (const Peak& peak : peaks) {
       for (const double zeta : kind.fits[0].shapes[1].seeds) {
         list.push_back(make_member(
@@ -126,6 +127,12 @@ void add_resonances(const Scan& scan, const Signals& left, const std::vector<Flo
   }
 }
 
+/// Ratio of a peak to what is beside it from which on it is a line: what earns its numbers exceeds
+/// 15, the largest of a hundred bins of noise is 5 on the average.
+constexpr double kLine = 12.0;
+/// The same where the tool itself moves: there a line may be a small error of the motion's own.
+constexpr double kLineInMotion = 60.0;
+
 void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& floors,
              std::vector<Member>& list) {
   const Case& study = scan.setting().study;
@@ -133,7 +140,10 @@ void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& fl
   std::vector<Peak> peaks;
   for (Index j = 0; j < study.channel_count(); ++j) {
     for (const Peak& p : spectral_lines(study, left, floors, 0.3, 0.49 / study.dt(), j, 1)) {
-      peaks.push_back(p);
+      const auto own =
+          spectral_lines(study, scan.chain().prediction(), floors, p.hz - 0.3, p.hz + 0.3, j, 1);
+      const bool in_motion = !own.empty() && own.front().ratio > 100.0;
+      if (p.prominence > (in_motion ? kLineInMotion : kLine)) peaks.push_back(p);
     }
   }
   std::sort(peaks.begin(), peaks.end(), [](auto& a, auto& b) { return a.ratio > b.ratio; });
@@ -151,6 +161,22 @@ bool has_temperature(const Case& study) {
 
 }  // namespace
 
+bool is_listed(const Case& study, const EffectKind& kind) {
+  if (!study.axis) return !kind.machines_only;
+  // Of a tool's effects an axis has no body to carry, no gravity to feel and nothing to leak into.
+  static const std::set<std::string> kOfTools{"loose_load", "misalignment", "crosstalk",
+                                              "cable_field"};
+  return kind.stage != Stage::kTool && kOfTools.count(kind.name) == 0;
+}
+
+std::vector<std::string> axes_of(const Case& study, const EffectKind& kind) {
+  if (kind.axis == AxisRule::kNone) return {""};
+  if (!study.axis) return admitted_axes(kind.axis);
+  return {kind.axis == AxisRule::kLine    ? "base_x"
+          : kind.axis == AxisRule::kAngle ? "alpha:base_x"
+                                          : "sensor_x"};
+}
+
 bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
   const auto because = [&](const char* text) {
     if (why) *why = text;
@@ -164,6 +190,9 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
         return because("no position or velocity is logged");
       }
     }
+  }
+  if (study.axis && kind.axis == AxisRule::kAngle && study.axis->axis().position.empty()) {
+    return because("no position is logged");
   }
   if (kind.stage == Stage::kTool && !study.own_tool && std::string(kind.name) != "mass") {
     return because("the simulator's own tool is not known");
@@ -179,41 +208,6 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
   return true;
 }
 
-std::vector<Peak> spectral_lines(const Case& study, const Signals& left,
-                                 const std::vector<Floor>& floors, double from_hz, double to_hz,
-                                 Index channel, int most) {
-  // The longest recording tells frequencies best.
-  std::size_t longest = 0;
-  for (std::size_t k = 0; k < left.size(); ++k) {
-    if (left[k].rows() > left[longest].rows()) longest = k;
-  }
-  const Floor& floor = floors[static_cast<std::size_t>(channel)];
-  const double dt = study.dt();
-  const Index n = left[longest].rows();
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(fast_length(n));
-  const Eigen::ArrayXd phase =
-      Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5) * 2.0 * kPi / double(n);
-  x.head(n) = (left[longest].col(channel).array() - left[longest].col(channel).mean()) *
-              (1.0 - phase.cos());
-  const Eigen::VectorXd power = fourier(x).cwiseAbs2() / (1.5 * static_cast<double>(n));
-  std::vector<Peak> peaks;
-  for (Index k = 2; k + 2 < power.size(); ++k) {
-    const double hz = static_cast<double>(k) / (static_cast<double>(x.size()) * dt);
-    if (hz < from_hz || hz > to_hz || power(k) < power(k - 1) || power(k) < power(k + 1)) continue;
-    peaks.push_back({hz, power(k) / std::max(1e-300, floor.density(hz, dt))});
-  }
-  std::sort(peaks.begin(), peaks.end(), [](auto& a, auto& b) { return a.ratio > b.ratio; });
-  std::vector<Peak> apart;
-  for (const Peak& peak : peaks) {
-    const bool near = std::any_of(apart.begin(), apart.end(), [&](const Peak& other) {
-      return std::abs(other.hz - peak.hz) < std::max(0.1, 0.04 * peak.hz);
-    });
-    if (!near) apart.push_back(peak);
-    if (static_cast<int>(apart.size()) == most) break;
-  }
-  return apart;
-}
-
 std::vector<Member> candidates(const Scan& scan, const Signals& left,
                                const std::vector<Floor>& floors) {
   const Case& study = scan.setting().study;
@@ -222,13 +216,13 @@ std::vector<Member> candidates(const Scan& scan, const Signals& left,
     const bool own_test = kind->interval == IntervalRule::kRequired ||
                           kind->interval == IntervalRule::kOnset ||
                           kind->stage == Stage::kSaturation || kind->stage == Stage::kQuantisation;
-    if (own_test || !is_testable(study, *kind)) continue;
+    if (own_test || !is_listed(study, *kind) || !is_testable(study, *kind)) continue;
     for (const EffectFit& form : kind->fits) {
       if (!form.shapes.empty() && std::string(form.shapes[0].name) == "t_ref" &&
           !has_temperature(study)) {
         continue;
       }
-      for (const auto& axis : axes_of(*kind)) {
+      for (const auto& axis : axes_of(study, *kind)) {
         for (const auto& shapes : seed_grid(form)) {
           list.push_back(make_member(*kind, form, axis, study.has_torque(), shapes));
         }

@@ -14,16 +14,12 @@ namespace dcnn {
 std::vector<Member> candidates(const Scan& scan, const Signals& left,
                                const std::vector<Floor>& floors);
 
+/// Whether the effect is in the catalogue of the case: of a tool, or of an axis of another machine.
+bool is_listed(const Case& study, const EffectKind& kind);
+/// The axes it can act on there; one empty name where it takes none.
+std::vector<std::string> axes_of(const Case& study, const EffectKind& kind);
+
 /// Whether the recordings hold the signals that the effect needs; if not, why, in words.
 bool is_testable(const Case& study, const EffectKind& kind, std::string* why = nullptr);
-
-/// The strongest lines of what is left, in the whole band of the log: frequency [Hz] and how often
-/// its power is the floor's, strongest first.
-struct Peak {
-  double hz, ratio;
-};
-std::vector<Peak> spectral_lines(const Case& study, const Signals& left,
-                                 const std::vector<Floor>& floors, double from_hz, double to_hz,
-                                 Index channel, int most);
 
 }  // namespace dcnn

@@ -1,4 +1,4 @@
-#include "diagnosis/case.h"
+#include "diagnosis/axis_case.h"
 
 namespace dcnn {
 
@@ -58,6 +58,7 @@ Case thinned(const Case& study, Index stride) {
 
 void set_derivative(Case& study, const DerivativeSpec& derivative) {
   study.derivative = derivative;
+  if (study.axis) return set_axis_motion(study);
   for (Log& log : study.logs) {
     log.motion = motion_of(log.recording, study.simulator.model, derivative);
   }

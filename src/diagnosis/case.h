@@ -1,6 +1,7 @@
 // What a diagnosis is about: recordings, the simulator at hand, and the quantities both give.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -9,20 +10,36 @@
 
 namespace dcnn {
 
+/// Which axis of a machine a case is about.
+struct AxisPlan {
+  System system;
+  std::size_t index = 0;
+  std::vector<Index> columns;  ///< of its base simulator that are fitted
+  /// 1 where what is measured drives the axis, -1 where it is the reaction to that.
+  double sense = 1.0;
+  const Axis& axis() const { return system.axes[index]; }
+};
+
 /// One recording, its motion, and what was measured and simulated in it.
 struct Log {
   Recording recording;
-  Motion motion;             ///< by Case::derivative
-  Eigen::MatrixXd measured;  ///< (T, channels)
-  Wrench base;               ///< of somebody else's simulator, added to ours; no rows without one
+  Motion motion;               ///< by Case::derivative
+  Eigen::MatrixXd measured;    ///< (T, channels), low-passed where the case is
+  Eigen::MatrixXd unfiltered;  ///< then: as logged; else no rows
+  Wrench base;                 ///< of somebody else's simulator, added to ours; no rows without one
   /// Columns of a linear simulator whose coefficients are fitted, (T, channels) each.
   std::vector<Eigen::MatrixXd> regressors;
 };
 
 struct Case {
-  Simulator simulator;        ///< as given; an empty tool where somebody else's predicts
-  bool own_tool = true;       ///< mass and centre of mass mean something
-  std::vector<int> channels;  ///< columns of (fx,fy,fz,tx,ty,tz) that are measured
+  Simulator simulator;                   ///< as given; an empty tool where somebody else's predicts
+  bool own_tool = true;                  ///< mass and centre of mass mean something
+  std::shared_ptr<const AxisPlan> axis;  ///< of another machine, seen as a force along x; or null
+  Eigen::VectorXd base_coefficients;     ///< of the regressors, in what `base` of the logs holds
+  double lowpass_hz =
+      0.0;  ///< predictions pass the zero-phase filter that the measured have passed
+  double motion_hz = 20.0;                  ///< above it nothing commanded moves
+  std::vector<int> channels;                ///< columns of (fx,fy,fz,tx,ty,tz) that are measured
   std::vector<std::string> targets, units;  ///< of the channels
   std::vector<Log> logs;                    ///< to fit on
   DerivativeSpec derivative;

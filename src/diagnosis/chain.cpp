@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "dcnn/data/filter.h"
+
 namespace dcnn {
 
 namespace {
@@ -52,6 +54,9 @@ Eigen::MatrixXd Chain::finish(const Log& log, const Stages& stages, Wrench wrenc
                               const std::vector<EffectSpec>& effects) const {
   pass_on(effects, Stage::kResonance, log.motion, stages.model, wrench);
   Eigen::MatrixXd mean = measured_part(study_, wrench);
+  if (study_.lowpass_hz > 0.0) {
+    mean = low_pass(mean, log.motion.segments, log.motion.dt, study_.lowpass_hz);
+  }
   if (study_.rounding_step > 0.0) round_mean(study_, mean);
   return mean;
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "diagnosis/candidates.h"
+#include "diagnosis/spectral_lines.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {
@@ -13,7 +14,7 @@ namespace {
 constexpr double kFinestStep = 0.9e-3;  // N
 constexpr Index kFewestClipped = 20;
 constexpr double kNearLimit = 0.25;  // s, in which noise is clipped and the mean is not the force
-constexpr double kFastHz = 25.0;     // half the rate of the block means
+constexpr double kFast = 1.25;       // of the motion's band: half the rate of the block means
 
 /// The finest difference between neighbouring values, if all differences are multiples of it.
 double lattice(const Signals& measured, Index channel) {
@@ -92,7 +93,7 @@ double rounding_step(const Case& study) {
   for (Index j = 0; j < study.channel_count(); ++j) {
     if (study.channels[static_cast<std::size_t>(j)] > 2) continue;
     const double step = lattice(measured, j);
-    if (step < kFinestStep) return 0.0;
+    if (step < kFinestStep && !study.axis) return 0.0;
     least = least == 0.0 ? step : std::min(least, step);
   }
   return least;
@@ -192,11 +193,11 @@ Knocks find_knocks(const Case& study, const Signals& left, const std::vector<Flo
 std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
                                     const std::vector<Floor>& floors) {
   const double top = 0.49 / study.dt();
-  if (top < kFastHz) return std::nullopt;
+  const double from = kFast * study.motion_hz;
+  if (top < from || study.lowpass_hz > 0.0) return std::nullopt;
   std::vector<Peak> peaks;
   for (Index j = 0; j < study.channel_count(); ++j) {
-    for (const Peak& p : spectral_lines(study, left, floors, kFastHz, top, j, 1))
-      peaks.push_back(p);
+    for (const Peak& p : spectral_lines(study, left, floors, from, top, j, 1)) peaks.push_back(p);
   }
   const auto strongest = std::max_element(peaks.begin(), peaks.end(),
                                           [](auto& a, auto& b) { return a.ratio < b.ratio; });

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/axes.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/holdout.h"
-#include "diagnosis/load.h"
 #include "diagnosis/locate.h"
 #include "diagnosis/portrait.h"
 #include "diagnosis/words.h"
@@ -22,9 +22,11 @@ double mean(const std::vector<double>& values) {
 /// Members that are the simulator's own numbers.
 std::vector<Member> own_parameters(const Case& study) {
   std::vector<Member> members;
-  for (const char* name : {"mass", "com", "gravity_tilt", "bias"}) {
+  for (const char* name : {"mass", "com", "gravity_tilt", "bias", "gain"}) {
     const EffectKind& kind = *find_effect(name);
-    if (!is_testable(study, kind)) continue;
+    // Of another machine's simulator its scale is all that is known; a fitted base is fitted.
+    const bool scale = std::string(name) == "gain";
+    if (scale != (study.axis != nullptr) || !is_testable(study, kind)) continue;
     Member member = make_member(kind, kind.fits[0], "", study.has_torque(), Eigen::VectorXd(0));
     member.amplitudes.setZero();
     members.push_back(member);
@@ -48,19 +50,20 @@ class Writer {
   Json findings(const std::vector<std::vector<std::string>>& alternatives) const {
     const JointFit& fit = search_.fit();
     const auto numbers = estimates(search_.setting(), fit);
-    const double after = mean(holdout_.rmse(fit.members));
+    const double after = mean(holdout_.rmse(fit.members, fit.base));
     Json list = Json::array();
     for (std::size_t m = 0; m < fit.members.size(); ++m) {
       const Member& member = fit.members[m];
       Json entry = base_entry(member, numbers[m]);
-      const JointFit rest = member.fixed ? fit : search_.without(m);
-      std::vector<Member> others = rest.members;
+      JointFit rest = member.fixed ? fit : search_.without(m);
+      std::vector<Member>& others = rest.members;
       if (member.fixed) others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
       const double net = rest.chi2 - fit.chi2 - 10.0 * member.parameters();
       entry["confidence"] = confidence(member, net, alternatives[m].size());
       entry["p_value"] = flip_p_value(search_.setting(), fit, m);
       entry["alternatives"] = alternatives[m];
-      entry["holdout_gain"] = 1.0 - after / std::max(1e-300, mean(holdout_.rmse(others)));
+      entry["holdout_gain"] =
+          1.0 - after / std::max(1e-300, mean(holdout_.rmse(others, rest.base)));
       list.push_back(entry);
     }
     for (const auto* apart : {&search_.rounding(), &search_.knocking()}) {
@@ -75,7 +78,7 @@ class Writer {
     const Scan scan(search_.setting(), search_.fit());
     report["not_detected"] = report["not_testable"] = Json::array();
     for (const EffectKind* kind : effect_kinds()) {
-      if (kind->fits.empty() || is_found(*kind)) continue;
+      if (kind->fits.empty() || is_found(*kind) || !is_listed(study, *kind)) continue;
       std::string why;
       if (!is_testable(study, *kind, &why)) {
         report["not_testable"].push_back({{"effect", kind->name}, {"why", why}});
@@ -151,10 +154,8 @@ class Writer {
     for (std::size_t k = 0; k < form.shapes.size(); ++k) {
       shapes(static_cast<Index>(k)) = form.shapes[k].seeds[form.shapes[k].seeds.size() / 2];
     }
-    auto axes = admitted_axes(kind.axis);
-    if (axes.empty()) axes = {""};
     std::optional<double> most;
-    for (const auto& axis : axes) {
+    for (const auto& axis : axes_of(search_.study(), kind)) {
       const auto least = scan.least_detectable(
           make_member(kind, form, axis, search_.study().has_torque(), shapes));
       if (least && (!most || *least > *most)) most = least;
@@ -210,56 +211,75 @@ std::vector<std::string> names_of(const Case& study) {
   return names;
 }
 
+/// RMSE on what was held out, before, with own numbers refitted, and after.
+Json errors_json(const Search& search, const HoldOut& holdout, const JointFit& given) {
+  const Case& study = search.study();
+  const JointFit& fit = search.fit();
+  Json json{{"holdout_rmse_before", holdout.rmse({}, given.base)},
+            {"holdout_rmse_parameters", nullptr},
+            {"holdout_rmse_after", holdout.rmse(fit.members, fit.base)}};
+  if (study.own_tool || study.axis) {
+    const auto own =
+        given.base.size() > 0 ? given : joint_fit(search.setting(), own_parameters(study));
+    json["holdout_rmse_parameters"] = holdout.rmse(own.members, own.base);
+  }
+  return json;
+}
+
 }  // namespace
 
-Diagnosis diagnose(const DiagnosisRequest& request,
-                   const std::function<void(const std::string&)>& progress) {
-  LoadedCase loaded = load_wrist(request);
+CaseDiagnosis diagnose_case(LoadedCase loaded,
+                            const std::function<void(const std::string&)>& progress) {
   std::vector<Span> held_out;
   if (loaded.holdout.logs.empty()) held_out = held_out_blocks(loaded.fit, true);
   Search search(std::move(loaded.fit), held_out, progress);
   search.run();
   if (progress) progress("judging by what was held out");
   const HoldOut holdout(search.study(), loaded.holdout);
-  const JointFit& fit = search.fit();
+  const Case& study = search.study();
+  const JointFit &fit = search.fit(), given = joint_fit(search.setting(), {});
   const Writer writer(search, holdout);
 
   Diagnosis diagnosis;
   Json& report = diagnosis.report;
-  report = {{"targets", search.study().targets},
-            {"units", search.study().units},
-            {"fit_recordings", names_of(search.study())},
+  report = {{"targets", study.targets},
+            {"units", study.units},
+            {"fit_recordings", names_of(study)},
             {"holdout_recordings", names_of(loaded.holdout)}};
   report["findings"] = writer.findings(search.alternatives());
   report["verdict"] = verdict_of(!report["findings"].empty(), search.remains());
-  report["where"] = locate(search.study(), difference(search.study(), predict(search.study(), {})),
-                           search.floors());
+  Case as_given = study;
+  if (given.base.size() > 0) set_base(as_given, given.base);
+  report["where"] = locate(study, difference(study, predict(as_given, {})), search.floors());
   report["unnamed"] = unnamed_part(search);
   Json floors = Json::array(), sources = Json::array();
   for (const Floor& floor : search.floors()) {
     floors.push_back(floor.deviation());
     sources.push_back(floor.source);
   }
-  report["fit"] = {{"holdout_rmse_before", holdout.rmse({})},
-                   {"holdout_rmse_parameters", nullptr},
-                   {"holdout_rmse_after", holdout.rmse(fit.members)},
-                   {"noise_floor", floors},
-                   {"noise_floor_source", sources},
-                   {"oracle", nullptr}};
-  if (search.study().own_tool) {
-    report["fit"]["holdout_rmse_parameters"] =
-        holdout.rmse(joint_fit(search.setting(), own_parameters(search.study())).members);
+  report["fit"] = errors_json(search, holdout, given);
+  report["fit"]["noise_floor"] = floors;
+  report["fit"]["noise_floor_source"] = sources;
+  report["fit"]["oracle"] = nullptr;
+  if (study.lowpass_hz > 0.0) {
+    report["fit"]["unfiltered"] = errors_json(search, holdout.unfiltered(), given);
   }
   writer.add_limits(report);
   report["next_motion"] = next_motion(report["findings"]);
-  report["smoother_hz"] =
-      search.study().is_static() ? Json() : Json(search.study().derivative.cutoff_hz);
-  diagnosis.corrected = search.study().simulator;
-  if (!search.study().is_static()) diagnosis.corrected.derivative = search.study().derivative;
+  report["smoother_hz"] = study.is_static() ? Json() : Json(study.derivative.cutoff_hz);
+  diagnosis.corrected = study.simulator;
+  if (!study.is_static()) diagnosis.corrected.derivative = study.derivative;
   for (const auto& effect : specs_of(fit.members)) diagnosis.corrected.effects.push_back(effect);
-  diagnosis.holdout = holdout.records(fit.members);
+  diagnosis.model = to_json(diagnosis.corrected);
+  diagnosis.holdout = holdout.records(given, fit);
   diagnosis.portraits = portraits(search);
-  return diagnosis;
+  return {std::move(diagnosis), fit.base};
+}
+
+Diagnosis diagnose(const DiagnosisRequest& request,
+                   const std::function<void(const std::string&)>& progress) {
+  if (request.system) return diagnose_axes(request, progress);
+  return diagnose_case(load_wrist(request), progress).diagnosis;
 }
 
 }  // namespace dcnn

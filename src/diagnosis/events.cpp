@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace dcnn {
 namespace {
@@ -9,6 +10,7 @@ namespace {
 constexpr double kGrid = 0.25;     // s, of the exhaustive search
 constexpr double kEnds = 2.5;      // s, in which a step cannot be told from a bias
 constexpr double kLongest = 60.0;  // s, of a contact
+constexpr double kPart = 0.6;      // of a recording at most: a force that stays is no event
 
 /// Whitened residual summed over cells of kGrid, in the sensor's axes and in the base's.
 struct Cells {
@@ -70,8 +72,11 @@ struct Span {
 Span best_span(const Cells& cells, const Span* taken) {
   Span best;
   const auto n = static_cast<Index>(cells.t.size());
-  const auto longest = static_cast<Index>(kLongest / kGrid);
+  std::map<std::size_t, Index> length;
+  for (const std::size_t log : cells.log) ++length[log];
   for (Index a = 0; a < n; ++a) {
+    const auto part = kPart * static_cast<double>(length[cells.log[static_cast<std::size_t>(a)]]);
+    const auto longest = static_cast<Index>(std::min(kLongest / kGrid, part));
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(cells.sum.cols());
     double weight = 0.0;
     for (Index b = a; b < std::min(n, a + longest); ++b) {
@@ -109,7 +114,10 @@ Trial find_contact(const Scan& scan) {
   if (first.gain < 60.0) return best;
   best = scan.evaluate(contact_member(study, first));
   const auto loss = [&](const Eigen::VectorXd& ends) {
-    if (ends(1) - ends(0) < 0.05) return 0.0;
+    const auto& t = study.logs[first.log].motion.t;
+    const double whole = t(t.size() - 1) - t(0), length = ends(1) - ends(0);
+    if (length < 0.05 || length > kPart * whole) return 0.0;
+    if (ends(0) < t(0) - kGrid || ends(1) > t(t.size() - 1) + kGrid) return 0.0;
     Span span = first;
     span.begin = ends(0);
     span.end = ends(1);

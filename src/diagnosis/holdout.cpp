@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "diagnosis/axis_case.h"
+
 namespace dcnn {
 namespace {
 
@@ -44,12 +46,25 @@ HoldOut::HoldOut(const Case& fitted, const Case& recordings) {
   }
 }
 
-Signals HoldOut::prediction(const std::vector<Member>& members) const {
-  return predict(study_, members);
+Signals HoldOut::prediction(const std::vector<Member>& members, const Eigen::VectorXd& base) const {
+  if (base.size() == 0) return predict(study_, members);
+  Case study = study_;
+  set_base(study, base);
+  return predict(study, members);
 }
 
-std::vector<double> HoldOut::rmse(const std::vector<Member>& members) const {
-  const Signals predicted = prediction(members);
+HoldOut HoldOut::unfiltered() const {
+  HoldOut raw = *this;
+  raw.study_.lowpass_hz = 0.0;
+  for (Log& log : raw.study_.logs) {
+    if (log.unfiltered.rows() > 0) log.measured = log.unfiltered;
+  }
+  return raw;
+}
+
+std::vector<double> HoldOut::rmse(const std::vector<Member>& members,
+                                  const Eigen::VectorXd& base) const {
+  const Signals predicted = prediction(members, base);
   std::vector<double> result;
   for (Index j = 0; j < study_.channel_count(); ++j) {
     double square = 0.0, count = 0.0;
@@ -66,8 +81,9 @@ std::vector<double> HoldOut::rmse(const std::vector<Member>& members) const {
   return result;
 }
 
-std::vector<HeldOut> HoldOut::records(const std::vector<Member>& members) const {
-  const Signals before = prediction({}), after = prediction(members);
+std::vector<HeldOut> HoldOut::records(const JointFit& first, const JointFit& last) const {
+  const Signals before = prediction(first.members, first.base),
+                after = prediction(last.members, last.base);
   std::vector<HeldOut> records;
   for (std::size_t k = 0; k < after.size(); ++k) {
     const Log& log = study_.logs[k];

@@ -14,12 +14,17 @@ class HoldOut {
   /// Recordings of their own, or (`recordings` without logs) the blocks of the fitted ones.
   HoldOut(const Case& fitted, const Case& recordings);
 
-  /// RMSE by channel of the case's simulator with these members.
-  std::vector<double> rmse(const std::vector<Member>& members) const;
-  Signals prediction(const std::vector<Member>& members) const;
-  std::vector<HeldOut> records(const std::vector<Member>& members) const;
+  /// RMSE by channel of the case's simulator with these members, with these coefficients of its
+  /// linear base where it has one.
+  std::vector<double> rmse(const std::vector<Member>& members, const Eigen::VectorXd& base) const;
+  std::vector<HeldOut> records(const JointFit& before, const JointFit& after) const;
+  /// The same recordings without the low-pass.
+  HoldOut unfiltered() const;
 
  private:
+  HoldOut() = default;
+  Signals prediction(const std::vector<Member>& members, const Eigen::VectorXd& base) const;
+
   Case study_;
   std::vector<std::vector<char>> held_;  // per recording and row
 };

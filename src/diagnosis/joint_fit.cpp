@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace dcnn {
 namespace {
@@ -31,12 +32,15 @@ std::vector<Coordinate> coordinates_of(const std::vector<Member>& members) {
 void move(std::vector<Member>& members, const Coordinate& c, double step) {
   Member& member = members[c.member];
   if (!c.is_shape) {
-    member.amplitudes(c.index) += step;
+    double& amplitude = member.amplitudes(c.index);
+    amplitude += step;
+    // A law that only resists ends where it vanishes.
+    if (member.form->non_negative) amplitude = std::max(0.0, amplitude);
     return;
   }
   const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(c.index)];
   member.shapes(c.index) =
-      from_search_scale(shape, search_scale(shape, member.shapes(c.index)) + step);
+      from_search_scale(member, c.index, search_scale(shape, member.shapes(c.index)) + step);
 }
 
 /// A difference step: upwards, but for a shape at its upper bound.
@@ -59,6 +63,38 @@ Eigen::MatrixXd derivatives(const Setting& setting, const std::vector<Member>& m
     columns.col(k) = (setting.whitened(predict(setting.study, moved)) - here) / step;
   });
   return columns;
+}
+
+/// The Gauss-Newton change of the coordinates. Amplitudes that it would make negative although they
+/// may not be go to zero, and the others are solved for beside that.
+Eigen::VectorXd best_change(const std::vector<Member>& members,
+                            const std::vector<Coordinate>& coordinates,
+                            const Eigen::MatrixXd& tangent, const Eigen::VectorXd& left) {
+  std::vector<Index> open(static_cast<std::size_t>(tangent.cols()));
+  std::iota(open.begin(), open.end(), 0);
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(tangent.cols());
+  for (bool settled = false; !settled;) {
+    Eigen::VectorXd rest = left;
+    std::vector<bool> is_open(static_cast<std::size_t>(tangent.cols()), false);
+    for (const Index k : open) is_open[static_cast<std::size_t>(k)] = true;
+    for (Index k = 0; k < tangent.cols(); ++k) {
+      if (!is_open[static_cast<std::size_t>(k)]) rest -= change(k) * tangent.col(k);
+    }
+    change(open) = least_squares(tangent(Eigen::all, open), rest);
+    settled = true;
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      const Coordinate& c = coordinates[k];
+      const Member& member = members[c.member];
+      if (!is_open[k] || c.is_shape || !member.form->non_negative) continue;
+      const auto at = static_cast<Index>(k);
+      const double now = member.amplitudes(c.index);
+      if (now + change(at) >= 0.0) continue;
+      change(at) = -now;
+      open.erase(std::find(open.begin(), open.end(), at));
+      settled = false;
+    }
+  }
+  return change;
 }
 
 }  // namespace
@@ -111,7 +147,7 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   for (int step = 0; step < kMostSteps; ++step) {
     fit.tangent.leftCols(free) = derivatives(setting, members, coordinates, here);
     if (free == 0) break;
-    const Eigen::VectorXd change = least_squares(fit.tangent, wanted - here);
+    const Eigen::VectorXd change = best_change(members, coordinates, fit.tangent, wanted - here);
     const double before = fit.chi2;
     bool better = false;
     for (double length = 1.0; length > 0.02 && !better; length *= 0.4) {
@@ -138,6 +174,8 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   }
   fit.members = std::move(members);
   fit.residual = std::move(residual);
+  const Index linear = setting.study.base_coefficients.size();
+  fit.base = setting.study.base_coefficients + fit.nuisance.head(linear);
   return fit;
 }
 

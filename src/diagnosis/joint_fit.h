@@ -25,6 +25,7 @@ struct JointFit {
   Eigen::VectorXd residual;  ///< whitened, after members and nuisance
   Eigen::MatrixXd tangent;   ///< whitened derivatives by the free parameters, then the nuisance
   Eigen::VectorXd nuisance;  ///< coefficients
+  Eigen::VectorXd base;      ///< coefficients of the case's regressors, in all
   double chi2 = 0.0;
 
   /// Free parameters before the nuisance in `tangent`.

@@ -10,7 +10,7 @@ namespace dcnn {
 namespace {
 
 constexpr int kFlips = 999;
-constexpr double kFlipSeconds = 3.0;
+constexpr double kFlipSeconds = 1.0;
 constexpr double kConstancySeconds = 8.0;
 constexpr double kSandwichSeconds = 1.0;
 constexpr double kSelection = 1.2;  // how much the choice among many widens an interval
@@ -63,7 +63,7 @@ Eigen::MatrixXd published_gradient(const Member& member, const std::vector<std::
       const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(k - amplitudes)];
       double& value = moved.shapes(k - amplitudes);
       if (search_scale(shape, value) + step > search_scale(shape, shape.high)) step = -step;
-      value = from_search_scale(shape, search_scale(shape, value) + step);
+      value = from_search_scale(moved, k - amplitudes, search_scale(shape, value) + step);
     }
     gradient.col(k) = (published(moved, names) - here) / step;
   }
@@ -85,6 +85,10 @@ std::pair<Index, Index> tangent_columns(const JointFit& fit, std::size_t member)
 std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& residual) {
   std::vector<BandTest> bands{
       {0.0, 0.5, 0, 0}, {0.5, 2, 0, 0}, {2, 5, 0, 0}, {5, 12, 0, 0}, {12, 25.5, 0, 0}};
+  for (BandTest& band : bands) {
+    band.from_hz *= setting.study.motion_hz / 20.0;
+    band.to_hz *= setting.study.motion_hz / 20.0;
+  }
   std::vector<double> sum(bands.size(), 0.0), dof(bands.size(), 0.0);
   const auto& info = setting.whitener.row_info();
   const double dt = setting.whitener.block_seconds();
@@ -141,7 +145,7 @@ std::vector<Constancy> constancy(const Setting& setting, const JointFit& fit) {
       const Eigen::VectorXd g = J.transpose() * fit.residual(rows);
       for (Index k = 0; k < count; ++k) {  // column by column: a block rarely tells them apart
         const double energy = J.col(k).squaredNorm();
-        if (energy < 1e-4 * whole(k) / static_cast<double>(blocks.size())) continue;
+        if (energy <= 1e-4 * whole(k) / static_cast<double>(blocks.size())) continue;
         score += g(k) * g(k) / energy;
         dof += 1.0;
       }

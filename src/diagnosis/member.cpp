@@ -7,7 +7,8 @@ namespace dcnn {
 
 int Member::parameters() const {
   const int ends = !interval_s ? 0 : kind->interval == IntervalRule::kOnset ? 1 : 2;
-  return static_cast<int>(amplitudes.size() + shapes.size()) + ends;
+  const auto fitted = (amplitudes.array() != 0.0).count();  // a component nothing measures stays 0
+  return static_cast<int>(fitted + shapes.size()) + ends;
 }
 
 Member make_member(const EffectKind& kind, const EffectFit& form, const std::string& axis,
@@ -38,9 +39,11 @@ double search_scale(const ShapeParameter& shape, double value) {
   return shape.low > 0.0 ? std::log(value) : value;
 }
 
-double from_search_scale(const ShapeParameter& shape, double coordinate) {
+double from_search_scale(const Member& member, Index i, double coordinate) {
+  const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(i)];
   const double value = shape.low > 0.0 ? std::exp(coordinate) : coordinate;
-  return std::clamp(value, shape.low, shape.high);
+  const double least = member.least_shapes.size() > i ? member.least_shapes(i) : shape.low;
+  return std::clamp(value, std::min(least, shape.high), shape.high);
 }
 
 }  // namespace dcnn

@@ -15,6 +15,9 @@ struct Member {
   std::optional<std::pair<double, double>> interval_s;
   std::string recording;  ///< acts in this one only; empty for all
   Eigen::VectorXd amplitudes, shapes;
+  /// Least values of the shapes where these recordings can tell less than the effect allows: a
+  /// period that is never completed is a spring. Empty for none.
+  Eigen::VectorXd least_shapes;
   /// Found at the full rate by a test of its own (hum above the blocks' band, rounding, clipping,
   /// knocks): the joint fit leaves it as it is.
   bool fixed = false;
@@ -34,7 +37,7 @@ std::vector<EffectSpec> specs_of(const std::vector<Member>& members);
 
 /// A shape on the scale it is searched on: its logarithm where it must be positive.
 double search_scale(const ShapeParameter& shape, double value);
-/// The inverse, held within the bounds.
-double from_search_scale(const ShapeParameter& shape, double coordinate);
+/// The inverse for shape i of a member, held within its bounds.
+double from_search_scale(const Member& member, Index i, double coordinate);
 
 }  // namespace dcnn

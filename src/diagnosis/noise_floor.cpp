@@ -11,9 +11,9 @@ namespace dcnn {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kMotionFree = 20.0;  // Hz: hand-guided and commanded motion ends well below
 constexpr double kColourGain = 12.0;  // of the log-likelihood, before noise is called coloured
 constexpr Index kWindow = 1024;       // samples of one periodogram
+constexpr double kSlowest = 0.02;     // Hz: flicker noise is taken for flat below
 constexpr Index kFewestBins = 12;     // below this the quiet band says nothing
 
 double median(std::vector<double> values) {
@@ -119,15 +119,36 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
       best.rho = rho;
     }
   }
+  const double top = 0.5 / dt;
+  for (const double share : {0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8}) {
+    const Eigen::VectorXd shape =
+        hz.unaryExpr([&](double f) { return share + (1.0 - share) * top / f; });
+    const Whittle fit = fit_level(density, shape, windows);
+    if (fit.likelihood <= most) continue;
+    most = fit.likelihood;
+    best = Floor();
+    best.white = share * fit.level;
+    best.flicker = (1.0 - share) * fit.level * top;
+  }
   return best;
 }
 
 }  // namespace
 
-double Floor::deviation() const { return std::sqrt(white + coloured); }
+double Floor::deviation() const {
+  if (lowpass_hz == 0.0 && flicker == 0.0) return std::sqrt(white + coloured);
+  constexpr int kPoints = 8192;
+  double sum = 0.0;
+  for (int i = 0; i < kPoints; ++i) sum += density((i + 0.5) / kPoints * 0.5 / dt, dt);
+  return std::sqrt(sum / kPoints);
+}
 
-double Floor::density(double hz, double dt) const {
-  return white + (coloured > 0.0 ? coloured * ar_shape(rho, hz, dt) : 0.0);
+double Floor::density(double hz, double step) const {
+  const double plain = white + (coloured > 0.0 ? coloured * ar_shape(rho, hz, step) : 0.0) +
+                       flicker / std::max(hz, kSlowest);
+  if (lowpass_hz == 0.0) return plain;
+  const double gain = 1.0 / (1.0 + std::pow(hz / lowpass_hz, 8.0));  // Butterworth, there and back
+  return plain * gain * gain;
 }
 
 double Floor::pose_density(double hz, double cutoff_hz) const {
@@ -136,7 +157,10 @@ double Floor::pose_density(double hz, double cutoff_hz) const {
   return (static_part + moving_part * w * w * w * w) / (1.0 + std::pow(hz / cutoff_hz, 8.0));
 }
 
-double quiet_band(double dt) { return std::min(kMotionFree, 0.2 / dt); }
+double quiet_band(const Case& study) {
+  const double most = study.motion_hz > 20.0 ? 0.35 : 0.2;  // of the rate
+  return std::min(study.motion_hz, most / study.dt());
+}
 
 namespace {
 
@@ -173,12 +197,17 @@ std::vector<Floor> floor_at_rest(const Case& study, const Signals& residual) {
 
 }  // namespace
 
-std::vector<Floor> noise_floor(const Case& study, const Signals& residual) {
+std::vector<Floor> noise_floor(const Case& study, const Signals& residual,
+                               const std::vector<Eigen::VectorXd>& levels) {
   if (study.is_static()) return floor_at_rest(study, residual);
-  const double dt = study.dt(), from = quiet_band(dt), to = 0.49 / dt;
+  Signals even;
+  for (std::size_t k = 0; k < residual.size(); ++k) {
+    even.push_back(levels[k].cwiseInverse().asDiagonal() * residual[k]);
+  }
+  const double dt = study.dt(), from = quiet_band(study), to = 0.49 / dt;
   std::vector<Floor> floors;
   for (Index channel = 0; channel < study.channel_count(); ++channel) {
-    const Periodograms p = periodograms(study, residual, channel);
+    const Periodograms p = periodograms(study, even, channel);
     const Eigen::VectorXd density = density_of(p);
     std::vector<Index> quiet;
     for (Index i = 0; i < p.hz.size(); ++i) {
@@ -188,6 +217,8 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual) {
     if (static_cast<Index>(quiet.size()) >= kFewestBins && p.power.cols() > 0) {
       floor = fit_floor(density(quiet), p.hz(quiet), dt, static_cast<double>(p.power.cols()));
     }
+    floor.lowpass_hz = study.lowpass_hz;
+    floor.dt = dt;
     floor.source = "spectrum of the residual above " +
                    std::to_string(static_cast<int>(std::lround(from))) + " Hz";
     floors.push_back(floor);
@@ -196,7 +227,7 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual) {
 }
 
 void add_pose_noise(const Case& study, std::vector<Floor>& floors) {
-  if (study.is_static()) return;
+  if (study.is_static() || study.axis) return;
   const auto quiet_density = [&](const std::vector<std::string>& names) {
     double most = 0.0;
     for (const auto& name : names) {
@@ -211,7 +242,7 @@ void add_pose_noise(const Case& study, std::vector<Floor>& floors) {
       const Eigen::VectorXd density = density_of(p);
       std::vector<double> quiet;
       for (Index i = 0; i < p.hz.size(); ++i) {
-        if (p.hz(i) >= quiet_band(study.dt()) && p.hz(i) <= 0.49 / study.dt()) {
+        if (p.hz(i) >= quiet_band(study) && p.hz(i) <= 0.49 / study.dt()) {
           quiet.push_back(density(i));
         }
       }
@@ -233,56 +264,6 @@ void add_pose_noise(const Case& study, std::vector<Floor>& floors) {
     floors[j].moving_part =
         moving ? (tool.mass * tool.mass * position + lever * lever * angle) * arm * arm : 0.0;
   }
-}
-
-std::vector<Eigen::VectorXd> noise_level(const Case& study, const Signals& residual) {
-  if (study.is_static()) {
-    std::vector<Eigen::VectorXd> ones;
-    for (const auto& r : residual) ones.push_back(Eigen::VectorXd::Ones(r.rows()));
-    return ones;
-  }
-  constexpr double kSeconds = 1.0, kSpread = 2.5;
-  const Index n = std::max<Index>(8, std::llround(kSeconds / study.dt()));
-  std::vector<Eigen::VectorXd> levels;
-  std::vector<double> logs;
-  for (std::size_t k = 0; k < study.logs.size(); ++k) {
-    const Eigen::MatrixXd& r = residual[k];
-    Eigen::VectorXd level = Eigen::VectorXd::Ones(r.rows());
-    for (const Segment& s : study.logs[k].motion.segments) {
-      for (Index begin = s.begin; begin < s.end; begin += n) {
-        const Index end = std::min(begin + n, s.end);
-        double sum = 0.0, count = 0.0;
-        for (Index j = 0; j < r.cols(); ++j) {
-          for (Index i = std::max(begin, s.begin + 2); i < end; ++i, ++count) {
-            sum += std::abs(r(i, j) - 2.0 * r(i - 1, j) + r(i - 2, j));
-          }
-        }
-        const double mean = count > 0.0 ? sum / count : 0.0;
-        level.segment(begin, end - begin).setConstant(mean);
-        if (mean > 0.0 && end - begin == n) logs.push_back(std::log(mean));
-      }
-    }
-    levels.push_back(level);
-  }
-  double mean = 0.0, square = 0.0;
-  for (const double x : logs)
-    mean += x / static_cast<double>(std::max<std::size_t>(1, logs.size()));
-  for (const double x : logs) square += (x - mean) * (x - mean);
-  const double spread =
-      logs.size() > 3 ? std::sqrt(square / static_cast<double>(logs.size() - 1)) : 0.0;
-  // Mean of n·channels absolute second differences of white noise: relative spread 0.756·sqrt(2)/
-  // sqrt(n·channels), the second factor for their correlation.
-  const double expected =
-      1.07 / std::sqrt(static_cast<double>(n * std::max<Index>(1, study.channel_count())));
-  double power = 0.0, rows = 0.0;
-  for (auto& level : levels) {
-    if (spread <= kSpread * expected) level.setOnes();
-    level = level.cwiseMax(1e-3 * std::exp(mean));
-    power += level.squaredNorm();
-    rows += static_cast<double>(level.size());
-  }
-  for (auto& level : levels) level /= std::sqrt(power / std::max(1.0, rows));
-  return levels;
 }
 
 }  // namespace dcnn

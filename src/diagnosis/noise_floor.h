@@ -8,14 +8,17 @@
 
 namespace dcnn {
 
-/// Noise of one channel: white plus AR(1), per sample, in the target's unit squared.
+/// Noise of one channel: white plus AR(1) or flicker, per sample, in the target's unit squared.
 struct Floor {
   double white = 0.0, coloured = 0.0;  ///< variances
   double rho = 0.0;                    ///< coefficient of the coloured part
+  double flicker = 0.0;                ///< density [per sample] times frequency [Hz]
   /// Spectral density of what the pose's noise adds through accelerations and gravity:
   /// static_part·|H| + moving_part·w^4·|H|, per sample.
   double static_part = 0.0, moving_part = 0.0;
-  std::string source;  ///< in words
+  std::string source;       ///< in words
+  double lowpass_hz = 0.0;  ///< of the filter that the noise has passed; 0: none
+  double dt = 0.0;          ///< s, between samples
 
   double deviation() const;  ///< of the sensor alone
   /// Density at `hz`, scaled so that white noise of variance s^2 has density s^2.
@@ -24,13 +27,15 @@ struct Floor {
   double pose_density(double hz, double cutoff_hz) const;
 };
 
-/// Lowest frequency that is free of motion for recordings of this rate.
-double quiet_band(double dt);
+/// Lowest frequency that is free of motion in these recordings.
+double quiet_band(const Case& study);
 
-/// Whittle fit of white or AR(1) + white noise to the residual above the motion's band, by channel
-/// (lessons of concealed data: over the whole band an effect would raise its own floor). Lines and
-/// knocks are kept out by medians. Colour needs a likelihood gain above 12.
-std::vector<Floor> noise_floor(const Case& study, const Signals& residual);
+/// Whittle fit of white, AR(1) + white or flicker + white noise to the residual above the motion's
+/// band, divided by the noise's relative level (of noise_level()), by channel: over the whole band
+/// an effect would raise its own floor. Lines and knocks are kept out by medians. Colour needs a
+/// likelihood gain above 12.
+std::vector<Floor> noise_floor(const Case& study, const Signals& residual,
+                               const std::vector<Eigen::VectorXd>& levels);
 
 /// Adds what the pose's own noise, read from the raw pose above the motion's band, puts into the
 /// prediction: through accelerations (mass and lever) and through gravity.

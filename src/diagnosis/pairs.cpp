@@ -54,7 +54,9 @@ Pool make_pool(const Scan& scan, const std::vector<Member>& list) {
     parts.push_back(scan.off_model(scan.columns(trial.member)));
     pool.members.push_back(trial.member);
     pool.columns.emplace_back();
-    for (Index k = 0; k < parts.back().cols(); ++k) pool.columns.back().push_back(count++);
+    for (Index k = 0; k < parts.back().cols(); ++k, ++count) {
+      if (!parts.back().col(k).isZero(0.0)) pool.columns.back().push_back(count);
+    }
   }
   Eigen::MatrixXd all(scan.residual().size(), count);
   Index at = 0;

@@ -9,10 +9,14 @@ namespace {
 constexpr double kUnit =
     1e-3;  // amplitude of a column: small enough for angles, large for rounding
 
-/// Shapes an effect cannot have without being another one.
-bool is_itself(const Member& member) {
-  if (member.name() != "stribeck_friction") return true;
-  return member.amplitudes(1) > member.amplitudes(0);
+/// Amplitudes an effect cannot have without being another one.
+bool is_itself(const Case& study, const Member& member) {
+  const std::string name = member.name();
+  // On an axis the position says which way a force resists.
+  if (study.axis && name == "hysteresis") return member.amplitudes(0) > 0.0;
+  if (name != "stribeck_friction") return true;
+  const double ratio = member.amplitudes(1) / std::max(1e-300, member.amplitudes(0));
+  return ratio > 1.0 && (!study.axis || ratio < 4.0);
 }
 
 }  // namespace
@@ -75,7 +79,7 @@ Trial Scan::evaluate(const Member& member, Detail detail) const {
       gram.diagonal().unaryExpr([](double g) { return g > 0.0 ? 1.0 / std::sqrt(g) : 0.0; });
   if (!trial.member.amplitudes.allFinite()) return trial;
   const bool wrong_sign = member.form->non_negative && trial.member.amplitudes.minCoeff() < 0.0;
-  if (wrong_sign || !is_itself(trial.member)) return trial;
+  if (wrong_sign || !is_itself(setting_.study, trial.member)) return trial;
   trial.gain = std::max(0.0, match.dot(trial.member.amplitudes));
   return trial;
 }
@@ -126,7 +130,7 @@ Trial Scan::refine(const Trial& start, Detail detail, int evaluations) const {
   const auto loss = [&](const Eigen::VectorXd& at) {
     Member member = start.member;
     for (Index i = 0; i < n; ++i) {
-      member.shapes(i) = from_search_scale(shapes[static_cast<std::size_t>(i)], at(i));
+      member.shapes(i) = from_search_scale(member, i, at(i));
     }
     const Trial trial = evaluate(member, detail);
     if (trial.gain > best.gain) best = trial;

@@ -107,7 +107,7 @@ void Search::explore() {
       }
       continue;
     }
-    if (fit_.members.size() == apart_.size()) return;
+    if (fit_.members.empty() || fit_.members.size() == apart_.size()) return;
     say("trying other effects in place of those found");
     if (swap()) continue;
     if (replace_pairs()) continue;

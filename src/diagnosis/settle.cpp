@@ -1,4 +1,6 @@
 // Floor, whitening and nuisance for what a set of members leaves.
+#include "dcnn/data/filter.h"
+#include "diagnosis/axis_case.h"
 #include "diagnosis/search.h"
 
 namespace dcnn {
@@ -28,9 +30,11 @@ void Search::make_setting(const std::vector<Member>& members) {
   left_ = difference(study_, prediction);
   Signals measured;
   for (const Log& log : study_.logs) measured.push_back(log.measured);
-  floors_ = noise_floor(study_, left_);
+  const Signals raw = study_.lowpass_hz > 0.0 ? unfiltered_left(study_, members) : left_;
+  const auto levels = noise_level(study_, raw);
+  floors_ = noise_floor(study_, raw, levels);
   add_pose_noise(study_, floors_);
-  const Whitener whitener(study_, floors_, noise_level(study_, left_));
+  const Whitener whitener(study_, floors_, levels, remainder_.empty() ? nullptr : &remainder_);
   const Index stride = whitener.coarse_stride();
   setting_ = std::make_unique<Setting>(Setting{
       study_, whitener, thinned(study_, stride), whitener.at_stride(stride), measured, {}, {}});
@@ -39,7 +43,10 @@ void Search::make_setting(const std::vector<Member>& members) {
   setting_->nuisance.resize(rows, 0);
   for (std::size_t k = 0; k < study_.logs.front().regressors.size(); ++k) {
     Signals column;
-    for (const Log& log : study_.logs) column.push_back(log.regressors[k]);
+    for (const Log& log : study_.logs) {
+      column.push_back(
+          low_pass(log.regressors[k], log.motion.segments, log.motion.dt, study_.lowpass_hz));
+    }
     setting_->nuisance = appended(setting_->nuisance, setting_->whitened(column));
   }
   if (study_.is_static()) return;
@@ -60,6 +67,12 @@ void Search::make_setting(const std::vector<Member>& members) {
 void Search::settle(const std::vector<Member>& members) {
   make_setting(members);
   fit_ = joint_fit(*setting_, members);
+  if (fit_.base.size() > 0) {
+    // What filters and gains do to the base simulator they do to the fitted one.
+    for (Case* study : {&study_, &softer_, &harder_}) set_base(*study, fit_.base);
+    setting_->coarse = thinned(study_, setting_->whitener.coarse_stride());
+    fit_ = joint_fit(*setting_, fit_.members);
+  }
   left_ = difference(study_, predict(study_, fit_.members));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dcnn/physics/axis_machine.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/search.h"
 
@@ -51,9 +52,14 @@ double linear_misfit(const Case& study, const std::vector<Member>& members) {
   empty.residual = setting.whitened(difference(study, prediction));
   const Scan scan(setting, empty);
   Eigen::MatrixXd A = setting.nuisance;
+  for (std::size_t k = 0; k < study.logs.front().regressors.size(); ++k) {
+    Signals column;
+    for (const Log& log : study.logs) column.push_back(log.regressors[k]);
+    A = appended(A, setting.whitened(column));
+  }
   for (const char* name : {"mass", "com", "gain", "crosstalk", "bias"}) {
     const EffectKind& kind = *find_effect(name);
-    if (!is_testable(study, kind)) continue;
+    if (!is_listed(study, kind) || !is_testable(study, kind)) continue;
     A = appended(A, scan.columns(make_member(kind, kind.fits[0], "", study.has_torque(),
                                              Eigen::VectorXd(0))));
   }
@@ -63,13 +69,15 @@ double linear_misfit(const Case& study, const std::vector<Member>& members) {
 }  // namespace
 
 void Search::choose_cutoff(const std::vector<Member>& members) {
-  if (study_.is_static()) {
+  if (study_.is_static() || (study_.axis && !is_derived(study_.axis->system, study_.axis->index))) {
     softer_ = harder_ = study_;
     return;
   }
   say("choosing the smoother");
   std::vector<double> grid;
-  for (double hz = 5.0; hz < std::min(45.0, 0.2 / study_.dt()); hz *= 1.4) grid.push_back(hz);
+  const double pace = std::max(1.0, study_.motion_hz / 20.0);
+  const double top = std::min(45.0 * pace, (pace > 1.0 ? 0.4 : 0.2) / study_.dt());
+  for (double hz = 5.0 * pace; hz < top; hz *= 1.4) grid.push_back(hz);
   if (grid.empty()) grid.push_back(0.1 / study_.dt());
   std::vector<double> misfit(grid.size());
   const auto at = [&](double hz) {

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/candidates.h"
 #include "diagnosis/detectors.h"
+#include "diagnosis/left_out.h"
 #include "diagnosis/search.h"
 
 namespace dcnn {
@@ -19,7 +21,9 @@ void Search::detect() {
     apart_.push_back(member);
     masked_.insert(masked_.end(), clip.spans.begin(), clip.spans.end());
   }
-  if (const double step = rounding_step(study_); step > 0.0) {
+  // A machine's values come in any unit: its lattice matters where the noise does not cover it.
+  const double least = study_.axis ? floors_.front().deviation() : 0.0;
+  if (const double step = rounding_step(study_); step > least) {
     const EffectKind& kind = *find_effect("quantisation");
     Member member = make_member(kind, kind.fits[0], "", study_.has_torque(),
                                 Eigen::VectorXd::Constant(1, step));
@@ -34,7 +38,17 @@ void Search::detect() {
     }
   }
   if (study_.is_static()) return;
-  if (const auto hum = find_fast_hum(study_, left_, floors_)) apart_.push_back(*hum);
+  if (const auto hum = find_fast_hum(study_, left_, floors_)) {
+    double power = 0.0, rows = 0.0;
+    for (const auto& left : left_) {
+      power += left.squaredNorm();
+      rows += static_cast<double>(left.size());
+    }
+    // A motor's log is full of faint lines: of what is left on a machine one must be a share.
+    const bool counts = !study_.axis || 0.5 * hum->amplitudes.squaredNorm() * rows > 0.002 * power;
+    if (counts) apart_.push_back(*hum);
+  }
+  if (!is_listed(study_, *find_effect("loose_load"))) return;
   const Knocks knocks = find_knocks(study_, left_, floors_);
   if (knocks.member) {
     knocking_ = knocks.member;
@@ -42,9 +56,28 @@ void Search::detect() {
   }
 }
 
+/// Takes back, the most doubtful first, what signs drawn at random for each second explain as
+/// often: a coincidence of a few moments, not a law. (An event has too few seconds for this test.)
+void Search::drop_coincidences() {
+  constexpr double kMostLikely = 0.05;
+  if (study_.is_static()) return;
+  while (true) {
+    double most = kMostLikely;
+    std::optional<std::size_t> worst;
+    for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+      if (fit_.members[m].fixed || fit_.members[m].interval_s) continue;
+      const double p = flip_p_value(*setting_, fit_, m);
+      if (p > most) most = p, worst = m;
+    }
+    if (!worst) return;
+    settle(without(*worst).members);
+  }
+}
+
 /// Takes back what a remainder nobody can name makes doubtful: events, and members that fit in some
 /// places and not in others.
 void Search::judge() {
+  drop_coincidences();
   bands_ = band_tests(*setting_, fit_.residual);
   const double explained = std::max(0.0, chi2_before_ - fit_.chi2);
   remains_ = is_alarming(bands_, explained);
@@ -61,6 +94,10 @@ void Search::judge() {
       explore();
     }
   }
+  if (study_.axis) {
+    judge_against_remainder();
+    return;
+  }
   for (bool changed = true; changed && !fit_.members.empty();) {
     changed = false;
     const auto tests = constancy(*setting_, fit_);
@@ -74,7 +111,29 @@ void Search::judge() {
     settle(rest);
     changed = true;
   }
+  drop_coincidences();
   bands_ = band_tests(*setting_, fit_.residual);
+}
+
+/// A machine's recordings always hold something that no effect explains, against which the sensor's
+/// noise is nothing: what is left becomes the noise, and names must earn their numbers against that
+/// and help on pieces of time on which they were not fitted.
+void Search::judge_against_remainder() {
+  constexpr double kLeastShare = 0.5;
+  remainder_ = left_;
+  settle(fit_.members);
+  chi2_before_ = joint_fit(*setting_, {}).chi2;
+  while (simplify()) {
+  }
+  explore();
+  while (!fit_.members.empty()) {
+    const auto shares = left_out_shares(*setting_, fit_);
+    const auto worst = std::min_element(shares.begin(), shares.end());
+    if (*worst >= kLeastShare) break;
+    std::vector<Member> rest = fit_.members;
+    rest.erase(rest.begin() + (worst - shares.begin()));
+    settle(rest);
+  }
 }
 
 std::vector<std::vector<std::string>> Search::alternatives() const {

@@ -6,34 +6,60 @@
 namespace dcnn {
 namespace {
 
-constexpr double kBlockSeconds = 0.02;
-constexpr double kEndSeconds = 0.25;  // of a segment, left out at either end
+constexpr double kBlock = 0.4;  // periods of the fastest motion: 20 ms for 20 Hz
+constexpr double kEnd = 5.0;    // of a segment, left out at either end, likewise
 constexpr int kOrder = 8;
+constexpr int kLongOrder = 48;  // flicker noise remembers long
 constexpr int kFrequencies = 4096;
 
-/// Autocovariance at lags 0 … kOrder of means over blocks of `block` samples.
-Eigen::VectorXd block_covariance(const Floor& floor, double cutoff_hz, Index block, double dt) {
-  Eigen::VectorXd covariance = Eigen::VectorXd::Zero(kOrder + 1);
+/// Autocovariance at lags 0 … order of means over blocks of `block` samples.
+Eigen::VectorXd block_covariance(const Floor& floor, double cutoff_hz, Index block, double dt,
+                                 int order) {
+  Eigen::VectorXd covariance = Eigen::VectorXd::Zero(order + 1);
   const auto b = static_cast<double>(block);
   for (int i = 0; i < kFrequencies; ++i) {
     const double hz = (i + 0.5) / kFrequencies * 0.5 / dt, x = std::numbers::pi * hz * dt;
     const double mean = std::sin(b * x) / (b * std::sin(x));
     const double density =
         (floor.density(hz, dt) + floor.pose_density(hz, cutoff_hz)) * mean * mean / kFrequencies;
-    for (int lag = 0; lag <= kOrder; ++lag)
-      covariance(lag) += density * std::cos(2.0 * x * b * lag);
+    for (int lag = 0; lag <= order; ++lag) covariance(lag) += density * std::cos(2.0 * x * b * lag);
   }
   return covariance;
+}
+
+/// The same of what a model leaves, read from it.
+Eigen::VectorXd shown_covariance(const Case& study, const Signals& left, Index channel,
+                                 Index block) {
+  Eigen::VectorXd covariance = Eigen::VectorXd::Zero(kOrder + 1);
+  double count = 0.0;
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    for (const Segment& s : study.logs[k].motion.segments) {
+      const Index blocks = s.size() / block;
+      Eigen::VectorXd means(blocks);
+      for (Index b = 0; b < blocks; ++b) {
+        means(b) = left[k].col(channel).segment(s.begin + b * block, block).mean();
+      }
+      for (Index lag = 0; lag <= std::min<Index>(kOrder, blocks - 1); ++lag) {
+        covariance(lag) += means.head(blocks - lag).dot(means.tail(blocks - lag));
+      }
+      count += static_cast<double>(blocks);
+    }
+  }
+  return covariance / std::max(1.0, count);
 }
 
 }  // namespace
 
 Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
                    const std::vector<Eigen::VectorXd>& levels)
+    : Whitener(study, floors, levels, nullptr) {}
+
+Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
+                   const std::vector<Eigen::VectorXd>& levels, const Signals* remainder)
     : channels_(study.channel_count()) {
   const bool moving = !study.is_static();
   const double dt = moving ? study.dt() : 1.0;
-  block_ = moving ? std::max<Index>(1, std::llround(kBlockSeconds / dt)) : 1;
+  block_ = moving ? std::max<Index>(1, std::llround(kBlock / study.motion_hz / dt)) : 1;
   if (block_ > 3) block_ += block_ % 2;  // two halves: coarse_stride()
   block_seconds_ = static_cast<double>(block_) * dt;
   const double cutoff = study.derivative.kind == DerivativeSpec::Kind::kSpectral && moving
@@ -42,10 +68,15 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
   block_deviation_.resize(channels_);
   for (Index j = 0; j < channels_; ++j) {
     const Floor& floor = floors[static_cast<std::size_t>(j)];
-    Eigen::VectorXd c = block_covariance(floor, cutoff, block_, dt);
+    const int longest = !moving ? 0 : floor.flicker > 0.0 ? kLongOrder : kOrder;
+    Eigen::VectorXd c = block_covariance(floor, cutoff, block_, dt, longest);
     if (!moving) {
       c.setZero();
       c(0) = floor.white + floor.coloured;
+    }
+    if (remainder) {
+      const Eigen::VectorXd shown = shown_covariance(study, *remainder, j, block_);
+      if (shown(0) > c(0)) c = shown;
     }
     c(0) = std::max(c(0) * (1.0 + 1e-6), 1e-300);
     block_deviation_(j) = std::sqrt(c(0));
@@ -55,7 +86,7 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
     double error = c(0);
     filter.coefficients.emplace_back();
     filter.deviation.push_back(std::sqrt(error));
-    for (int order = 1; order <= (moving ? kOrder : 0); ++order) {
+    for (int order = 1; order <= longest; ++order) {
       double k = c(order);
       for (int i = 0; i < order - 1; ++i) k -= a[static_cast<std::size_t>(i)] * c(order - 1 - i);
       k /= error;
@@ -69,7 +100,7 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
     }
     filters_.push_back(filter);
   }
-  const Index margin = moving ? std::llround(kEndSeconds / block_seconds_) * block_ : 0;
+  const Index margin = moving ? std::llround(kEnd / study.motion_hz / block_seconds_) * block_ : 0;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     std::vector<Index> before;  // sizes of the segments before this one
     for (const Segment& s : study.logs[k].motion.segments) {

@@ -198,7 +198,7 @@ void write_diagnosis(const std::filesystem::path& folder, const Diagnosis& diagn
     }
     write_csv(folder / ("holdout_" + std::to_string(k) + "_pred.csv"), table);
   }
-  write_file(folder / "model.json", to_json(diagnosis.corrected).dump(2) + "\n");
+  write_file(folder / "model.json", diagnosis.model.dump(2) + "\n");
   write_file(folder / "report.json", diagnosis.report.dump(2) + "\n");
   write_file(folder / "report.html", to_html(diagnosis));
 }

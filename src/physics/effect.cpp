@@ -171,6 +171,7 @@ std::string unit_of_parameter(const std::string& name) {
                                                                        {"_ns2pm2", "N*s^2/m^2"},
                                                                        {"_npm", "N/m"},
                                                                        {"_nprad", "N/rad"},
+                                                                       {"_nprad3", "N/rad^3"},
                                                                        {"_hz", "Hz"},
                                                                        {"_s", "s"},
                                                                        {"_nps", "N/s"},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "data/sample_recording.h"
+#include "data/spectral.h"
 #include "data/testing.h"
 #include "dcnn/core/json.h"
 
@@ -152,6 +153,19 @@ TEST(Derivative, AgreesWithTheReference) {
   const Eigen::MatrixXd first = matrix("d1"), second = matrix("d2");
   EXPECT_LT((d.first - first).cwiseAbs().maxCoeff(), 1e-12 * first.cwiseAbs().maxCoeff());
   EXPECT_LT((d.second - second).cwiseAbs().maxCoeff(), 1e-10 * second.cwiseAbs().maxCoeff());
+}
+
+TEST(Smooth, KeepsTheAccelerationUpToTheEnds) {
+  const Index n = 2000;
+  const double dt = 0.002, w = 2.0 * 3.14159265358979 * 0.7;
+  const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(n, 0.0, dt * (n - 1));
+  const Smoothed s = smooth((0.1 * (w * t + 1.0).sin()).matrix(), dt, 8.0);
+  const Eigen::ArrayXd exact = -0.1 * w * w * (w * t + 1.0).sin();
+  const double most = 0.1 * w * w;
+  EXPECT_LT((s.second.array() - exact).abs().maxCoeff(), 0.05 * most);  // also at both ends
+  EXPECT_LT((s.second.array() - exact).segment(250, n - 500).abs().maxCoeff(), 2e-3 * most);
+  const Eigen::ArrayXd slope = 0.1 * w * (w * t + 1.0).cos();
+  EXPECT_LT((s.first.array() - slope).abs().maxCoeff(), 0.01 * 0.1 * w);
 }
 
 }  // namespace

@@ -165,7 +165,8 @@ TEST(Diagnose, WorksOnSomebodyElsesSimulator) {
   DiagnosisRequest request = bench.request();
   request.simulator.reset();
   const Json report = diagnose(request, nullptr).report;
-  EXPECT_EQ(names(report), std::vector<std::string>{"coulomb_friction"});
+  EXPECT_EQ(names(report), std::vector<std::string>{"coulomb_friction"})
+      << report["findings"].dump(1);
   EXPECT_TRUE(report["fit"]["holdout_rmse_parameters"].is_null());
 }
 
@@ -213,7 +214,7 @@ class EveryFit : public testing::TestWithParam<const EffectKind*> {};
 std::vector<const EffectKind*> fitted_kinds() {
   std::vector<const EffectKind*> kinds;
   for (const auto* kind : effect_kinds()) {
-    if (!kind->fits.empty()) kinds.push_back(kind);
+    if (!kind->fits.empty() && !kind->machines_only) kinds.push_back(kind);
   }
   return kinds;
 }
@@ -232,6 +233,10 @@ TEST_P(EveryFit, IsNamedWhenHiddenAlone) {
   Json config = configuration(Json::array({entry}));
   if (std::string(kind.name) == "inertial_terms") {
     config["simulator"]["model"] = {{"inertial", "none"}};
+  }
+  // At 12 Hz the tool would ring by less than the log can show: nothing moves that fast here.
+  if (std::string(kind.name) == "flexible_resonance") {
+    config["hidden"][0]["parameters"]["freq_hz"] = 3.0;
   }
   if (std::string(kind.name) == "saturation") config["hidden"][0]["parameters"]["limit_n"] = 1.5;
   const Json report = Bench(config).diagnose().report;

@@ -16,6 +16,7 @@ struct Axis {
   std::vector<std::string> signals, base;
   bool has_base = false;  ///< 'base' is given; an empty list: the simulator predicts a constant
   double scale = 1.0;
+  std::string position_unit;  ///< "rad" where measured in N*m, "m" where in N, unless said
 };
 
 struct System {

@@ -15,6 +15,7 @@ namespace dcnn {
 
 struct DiagnosisRequest {
   std::optional<std::filesystem::path> simulator;  ///< sim.json; none: columns *_sim
+  std::optional<std::filesystem::path> system;     ///< system.json of another machine, instead
   std::vector<std::filesystem::path> fit, holdout;
   ReadOptions read;
   std::optional<bool> shared_clock;  ///< none: shared where the times do not overlap
@@ -36,7 +37,8 @@ struct Portrait {
 
 struct Diagnosis {
   Json report;          ///< report.json (contract.md section 5)
-  Simulator corrected;  ///< model.json
+  Simulator corrected;  ///< of a wrist tool
+  Json model;           ///< model.json: the corrected simulator of a tool or a machine
   std::vector<HeldOut> holdout;
   std::vector<Portrait> portraits;  ///< one per finding that has a natural coordinate
 };

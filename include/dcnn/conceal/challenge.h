@@ -1,0 +1,42 @@
+// A challenge: many concealed scenarios, their answers sealed, and what a diagnosis made of them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dcnn/core/json.h"
+
+namespace dcnn::conceal {
+
+/// What draw() is to make for a challenge of so many scenarios, in an order that tells nothing:
+/// every group has its share, and effects and amplitudes take turns within it.
+std::vector<std::string> plan(int scenarios, std::uint64_t seed);
+
+/// Writes FOLDER/s0001/{sim.json,fit_*.csv,holdout_*.csv}, … and the sealed answers to the file
+/// `seal`, which must lie outside the folder; returns the SHA-256 of its bytes, which stands in
+/// FOLDER/seal.sha256 as well. The seal holds the SHA-256 of every file a scenario has.
+/// `progress` is told how many are written.
+std::string conceal_challenge(const std::vector<std::string>& ids, std::uint64_t seed,
+                              const std::filesystem::path& folder,
+                              const std::filesystem::path& seal,
+                              const std::function<void(int done, int total)>& progress);
+
+/// Writes one scenario's sealed answers: the document's bytes go to `seal`, their SHA-256 to
+/// FOLDER/seal.sha256; returns the latter.
+std::string write_seal(const Json& answers, const std::filesystem::path& folder,
+                       const std::filesystem::path& seal);
+/// Opens the seal of a folder; Error(kData) unless its SHA-256 is the one in FOLDER/seal.sha256.
+Json open_seal(const std::filesystem::path& folder, const std::filesystem::path& seal);
+
+/// Scores one report (contract.md section 5) against one answer; `report` null: it has failed.
+Json score(const Json& answer, const Json& report);
+
+/// Scores FOLDER/reports/<scenario>/report.json of every scenario of the seal. `scenarios` has one
+/// entry each, `tables` the rates with 95 % intervals by group, effect, amplitude, motion and
+/// noise.
+Json score_challenge(const std::filesystem::path& folder, const std::filesystem::path& seal);
+
+}  // namespace dcnn::conceal

@@ -1,0 +1,32 @@
+// Effects concealed in recordings that somebody measured: real motion, real noise.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dcnn/conceal/scenario.h"
+#include "dcnn/data/recording.h"
+
+namespace dcnn::conceal {
+
+struct Injection {
+  /// "effect" or "effect@axis", drawn like those of a scenario; or a JSON file whose list is that
+  /// of `hidden` in a configuration of dcnn-sim: those numbers as they are.
+  std::string what;
+  double amplitude = 1.0;  ///< of a drawn effect: rms on its strongest axis, in the log's noise
+  std::filesystem::path simulator;            ///< sim.json of the tool in the recordings
+  std::vector<std::filesystem::path> motion;  ///< logs of pose and force on one clock, no gaps
+  ReadOptions read;
+};
+
+/// Adds to the measured forces what the effects change in the simulator's force on that motion
+/// (smoothed over some 20 ms), clips and rounds, and writes FOLDER/<name of each log>, sim.json
+/// and the sealed answers; returns the seal's SHA-256. The noise is estimated from second
+/// differences. Error(kUsage) for effects that cannot be added, Error(kData) for logs that cannot
+/// be used.
+std::string inject(const Injection& request, std::uint64_t seed,
+                   const std::filesystem::path& folder, const std::filesystem::path& seal);
+
+}  // namespace dcnn::conceal

@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <cmath>
+
+#include "conceal/draws.h"
+#include "dcnn/core/error.h"
+
+namespace dcnn::conceal {
+namespace {
+
+std::uint64_t hash_of(const std::string& s) {
+  std::uint64_t h = 1469598103934665603ULL;  // FNV-1a
+  for (char c : s) h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  return h;
+}
+
+/// The parts of "group:value/effect/number".
+struct Request {
+  std::string group, value, effect;
+  double amplitude() const { return group == "null" ? 0.0 : std::stod(value); }
+};
+
+Request parse(const std::string& id) {
+  const auto colon = id.find(':'), first = id.find('/'), second = id.rfind('/');
+  require(colon < first && first < second, Exit::kUsage, id, ": write group:value/effect/number");
+  Request r{id.substr(0, colon), id.substr(colon + 1, first - colon - 1),
+            id.substr(first + 1, second - first - 1)};
+  require(has("null faint single foreign poor double triple collinear unlisted mixed", r.group),
+          Exit::kUsage, id, ": no group is called ", r.group);
+  const auto known = [&](const std::vector<std::string>& list) {
+    return std::find(list.begin(), list.end(), r.effect) != list.end();
+  };
+  require(has("any none", r.effect) || known(listed_effects()) || known(unlisted_effects()),
+          Exit::kUsage, id, ": no effect is called ", r.effect);
+  return r;
+}
+
+struct Wanted {
+  std::string effect;
+  double amplitude;
+  bool with_axis_of_first = false;
+};
+
+/// A listed effect that is distinct beside those already wanted.
+std::string another(const std::vector<Wanted>& wanted, Rng& rng) {
+  for (;;) {
+    const std::string id = one_of(rng, listed_effects());
+    if (std::none_of(wanted.begin(), wanted.end(),
+                     [&](const Wanted& w) { return w.effect == id || confounded(w.effect, id); })) {
+      return id;
+    }
+  }
+}
+
+std::vector<Wanted> choose(const Request& r, Rng& rng) {
+  std::vector<Wanted> wanted;
+  if (r.group == "null") return wanted;
+  const double a = r.amplitude();
+  if (r.group == "collinear") {
+    const Neighbours pair = one_of(rng, neighbours());
+    return {{pair.first, a}, {pair.second, a, pair.same_axis}};
+  }
+  wanted.push_back({r.effect == "any" ? another(wanted, rng) : r.effect, a});
+  const int more = r.group == "triple" ? 2 : (has("double mixed", r.group) ? 1 : 0);
+  for (int k = 0; k < more; ++k) {
+    const bool weak = rng.uniform() < 0.3;  // one beside another ten times as strong
+    wanted.push_back({another(wanted, rng), r.group == "mixed" || !weak ? a : 0.1 * a});
+  }
+  return wanted;
+}
+
+void draw_simulator(const Request& r, const std::vector<Wanted>& wanted, Scenario& s, Rng& rng) {
+  s.tool.mass = rng.uniform(0.3, 1.2);
+  s.tool.com = {rng.uniform(-0.01, 0.01), rng.uniform(-0.01, 0.01), rng.uniform(0.05, 0.18)};
+  for (int j = 0; j < 3; ++j) s.tool.bias(j) = rng.uniform(-1.0, 1.0);
+  if (rng.uniform() < 0.2) {
+    for (int j = 0; j < 3; ++j) s.tool.mounting(j) = rng.uniform(-0.8, 0.8);
+  }
+  for (const Wanted& w : wanted) {
+    if (w.effect == "inertial_terms") s.tool.inertial = rng.uniform() < 0.5 ? "linear" : "none";
+  }
+  s.noise = {"white", rng.uniform(0.02, 0.06), logarithmic(rng, 5e-6, 5e-5),
+             logarithmic(rng, 5e-6, 3e-4)};
+  if (rng.uniform() < 0.4) {
+    s.noise.kind = one_of<std::string>(rng, {"ar1", "heteroscedastic", "heavy", "quantised"});
+  }
+  if (r.group == "null") s.noise.kind = r.value == "pose" ? "white" : r.value;
+  if (r.value == "pose") s.noise.pose_m = 5e-5, s.noise.pose_rad = 3e-4;
+  s.motion = one_of<std::string>(rng, {"human", "multisine", "points", "scan", "repeats"});
+  if (r.group == "poor") s.motion = one_of<std::string>(rng, {"harmonic", "planar"});
+}
+
+/// Two or three recordings one after the other on one clock; the last but one or the last is held
+/// out.
+std::vector<Path> draw_motion(Scenario& s, Rng& rng) {
+  const std::size_t count = rng.uniform() < 0.5 ? 2 : 3, held = count == 2 ? 1 : 1 + rng.below(2);
+  const Climate climate = draw_climate(rng);
+  std::vector<Path> paths;
+  double start = 0.0;
+  int fit = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double seconds = rng.uniform(25.0, 45.0);
+    paths.push_back(make_path(s.motion, start, seconds, s.tool.mounting, rng.bits()));
+    paths.back().climate = climate;
+    start = std::ceil(start + seconds + 5.0);
+    s.recordings.emplace_back();
+    s.recordings.back().holdout = k == held;
+    s.recordings.back().name = k == held ? "holdout_0" : "fit_" + std::to_string(fit++);
+  }
+  return paths;
+}
+
+}  // namespace
+
+void place(Hidden& h, const std::vector<Path>& paths, Rng& rng) {
+  const double start = paths[0].start, length = paths[0].time(paths[0].samples()) - start;
+  const double a = start + length * rng.uniform(0.2, 0.5);
+  const double end = paths.back().time(paths.back().samples() - kDecimation);
+  if (h.effect == "contact") h.interval_s = {a, a + rng.uniform(2.0, 6.0)};
+  if (h.effect == "step_bias") h.interval_s = {a, end};
+}
+
+Scenario draw(const std::string& id, std::uint64_t seed) {
+  const Request request = parse(id);
+  Scenario s;
+  s.id = id;
+  s.group = request.group;
+  Rng rng({seed, hash_of(id)});
+  const std::vector<Wanted> wanted = choose(request, rng);
+  draw_simulator(request, wanted, s, rng);
+  const std::vector<Path> paths = draw_motion(s, rng);
+  bool thermometer = rng.uniform() < 0.3;
+  for (const Wanted& w : wanted) {
+    Hidden h;
+    h.effect = w.effect;
+    h.axis = w.with_axis_of_first ? s.hidden[0].axis : draw_axis(w.effect, rng);
+    h.parameters = draw_parameters(w.effect, h.axis, rng);
+    h.foreign = request.group == "foreign";
+    thermometer = thermometer || h.parameters.count("t_ref_degc") != 0;
+    place(h, paths, rng);
+    s.hidden.push_back(of_amplitude(paths, s, h, w.amplitude * s.noise.sigma));
+  }
+  record(s, paths, thermometer, rng);
+  return s;
+}
+
+}  // namespace dcnn::conceal

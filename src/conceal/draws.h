@@ -1,0 +1,40 @@
+// Steps of draw(): which effect, how strong, on which motion, read with which noise.
+#pragma once
+
+#include "conceal/world.h"
+
+namespace dcnn::conceal {
+
+/// " " separates the ids of `list`.
+bool has(const std::string& list, const std::string& id);
+
+template <class T>
+T one_of(Rng& rng, const std::vector<T>& all) {
+  return all[rng.below(all.size())];
+}
+double logarithmic(Rng& rng, double low, double high);
+
+std::string draw_axis(const std::string& id, Rng& rng);
+std::map<std::string, double> draw_parameters(const std::string& id, const std::string& axis,
+                                              Rng& rng);
+
+/// Neighbours that the data can tell apart; `same_axis` where they share it.
+struct Neighbours {
+  std::string first, second;
+  bool same_axis;
+};
+const std::vector<Neighbours>& neighbours();
+/// Whether two effects side by side are one and the same to any reader of the force.
+bool confounded(const std::string& a, const std::string& b);
+
+/// Gives what acts for some time its interval, in the first recording.
+void place(Hidden& h, const std::vector<Path>& paths, Rng& rng);
+
+/// Scales `h` until it alone changes the fit recordings by `target` [N] on its strongest axis,
+/// or as far as its parameters stay plausible. Its amplitude is what it has then.
+Hidden of_amplitude(const std::vector<Path>& paths, const Scenario& s, Hidden h, double target);
+
+/// Fills s.recordings from the paths.
+void record(Scenario& s, const std::vector<Path>& paths, bool thermometer, Rng& rng);
+
+}  // namespace dcnn::conceal

@@ -1,0 +1,27 @@
+// Laws of the hidden effects along a high-rate path, written from vocabulary.md.
+#pragma once
+
+#include "conceal/world.h"
+
+namespace dcnn::conceal {
+
+using Parameters = std::map<std::string, double>;
+
+/// Direction of a force in the sensor frame, and the speed along it [m/s].
+struct Guide {
+  Eigen::MatrixXd n;  ///< (T, 3)
+  Eigen::VectorXd v;  ///< (T), angle in rad instead for `angle:axis`
+};
+Guide guide(const Path& path, const std::string& axis);
+
+/// Force against the motion: a function of the speed, or of its history (T).
+double friction(const Hidden& h, double v);
+Eigen::VectorXd lugre(const Hidden& h, const Eigen::VectorXd& v);
+Eigen::VectorXd bouc_wen(const Hidden& h, const Eigen::VectorXd& q);
+
+/// Adds the force on the tool, if the effect is one; `field`: gravity less acceleration (T, 3).
+void add_force(const Path& path, const Hidden& h, const Eigen::MatrixXd& field, Eigen::MatrixXd& F);
+/// Resonance and what the sensor makes of the force, if the effect is one of these.
+void change_reading(const Path& path, const Hidden& h, Eigen::MatrixXd& F);
+
+}  // namespace dcnn::conceal

@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "conceal/draws.h"
+#include "dcnn/conceal/challenge.h"
+#include "dcnn/core/error.h"
+
+namespace dcnn::conceal {
+namespace {
+
+/// A group's share of a challenge, and what takes turns in it.
+struct Share {
+  std::string group;
+  double part;
+  std::vector<std::string> values, effects;
+};
+
+const std::vector<Share>& shares() {
+  static const std::vector<std::string> foreign{"coulomb_friction", "contact", "hysteresis",
+                                                "lugre_friction"};
+  static const std::vector<Share> all{
+      {"null",
+       0.15,
+       {"white", "ar1", "heteroscedastic", "heavy", "quantised", "flicker", "pose"},
+       {"none"}},
+      {"faint", 0.05, {"0.003"}, listed_effects()},
+      {"single", 0.35, {"0.1", "0.2", "0.5", "1", "2"}, listed_effects()},
+      {"foreign", 0.05, {"0.5", "1", "2"}, foreign},
+      {"poor", 0.05, {"0.5", "2"}, listed_effects()},
+      {"double", 0.12, {"0.5", "1", "2"}, {"any"}},
+      {"triple", 0.07, {"1", "2"}, {"any"}},
+      {"collinear", 0.06, {"0.5", "1", "2"}, {"any"}},
+      {"unlisted", 0.06, {"0.5", "1", "2"}, unlisted_effects()},
+      {"mixed", 0.04, {"1", "2"}, unlisted_effects()}};
+  return all;
+}
+
+/// Whole numbers in proportion to the shares (largest remainders).
+std::vector<int> counts(int scenarios) {
+  std::vector<int> count;
+  std::vector<std::pair<double, std::size_t>> rest;
+  for (const Share& s : shares()) {
+    const double wanted = s.part * scenarios;
+    rest.emplace_back(std::floor(wanted) - wanted, count.size());
+    count.push_back(static_cast<int>(wanted));
+  }
+  std::stable_sort(rest.begin(), rest.end());
+  const int left = scenarios - std::accumulate(count.begin(), count.end(), 0);
+  for (int k = 0; k < left; ++k) ++count[rest[static_cast<std::size_t>(k)].second];
+  return count;
+}
+
+template <class T>
+std::vector<T> shuffled(const std::vector<T>& all, Rng& rng) {
+  std::vector<T> out;
+  for (const auto k : permutation(static_cast<std::int64_t>(all.size()), rng)) {
+    out.push_back(all[static_cast<std::size_t>(k)]);
+  }
+  return out;
+}
+
+/// Values that cannot be had with an effect: its strength is the motion's, or too small to clip.
+bool impossible(const Share& share, const std::string& effect) {
+  return share.group == "faint" && has("inertial_terms saturation quantisation", effect);
+}
+
+}  // namespace
+
+std::vector<std::string> plan(int scenarios, std::uint64_t seed) {
+  require(scenarios > 0 && scenarios <= 9999, Exit::kUsage,
+          "a challenge has 1 to 9999 scenarios, not ", scenarios);
+  Rng rng({seed, 2});
+  std::vector<std::string> ids;
+  const std::vector<int> count = counts(scenarios);
+  for (std::size_t g = 0; g < count.size(); ++g) {
+    const Share& share = shares()[g];
+    std::vector<std::string> effects = shuffled(share.effects, rng);
+    std::erase_if(effects, [&](const std::string& e) { return impossible(share, e); });
+    const std::vector<std::string> values = shuffled(share.values, rng);
+    for (int k = 0; k < count[g]; ++k) {
+      const auto n = static_cast<std::size_t>(k);
+      const std::size_t turn = n / effects.size();  // each round begins at another value
+      ids.push_back(share.group + ":" + values[(n + turn) % values.size()] + "/" +
+                    effects[n % effects.size()] + "/" + std::to_string(k));
+    }
+  }
+  return shuffled(ids, rng);
+}
+
+}  // namespace dcnn::conceal

@@ -1,0 +1,108 @@
+#include <cmath>
+#include <numbers>
+
+#include "conceal/laws.h"
+
+namespace dcnn::conceal {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+Eigen::Vector3d three(const Parameters& p, const std::string& a, const std::string& b) {
+  return {p.at(a + "x" + b), p.at(a + "y" + b), p.at(a + "z" + b)};
+}
+
+VectorXd resonance(const VectorXd& u, double hz, double zeta) {
+  const double w = 2.0 * std::numbers::pi * hz;
+  VectorXd y(u.size());
+  double x = u(0), v = 0.0;
+  for (Index i = 0; i < u.size(); ++i) {  // velocity Verlet, damping in the middle of the step
+    y(i) = x;
+    v += 0.5 * kStep * w * (w * (u(i) - x) - 2.0 * zeta * v);
+    x += kStep * v;
+    const double next = u(std::min(i + 1, u.size() - 1));
+    v = (v + 0.5 * kStep * w * w * (next - x)) / (1.0 + zeta * w * kStep);
+  }
+  return y;
+}
+
+void lag(const Parameters& p, Eigen::MatrixXd& F) {
+  const double tau = p.at("tau_s"), keep = std::exp(-kStep / tau);
+  Eigen::RowVectorXd y = F.row(0), before = F.row(0);
+  for (Index i = 1; i < F.rows(); ++i) {  // exact for an input linear within the step
+    const Eigen::RowVectorXd now = F.row(i), slope = (now - before) / kStep;
+    y = now - slope * tau + (y - before + slope * tau) * keep;
+    before = now;
+    F.row(i) = y;
+  }
+}
+
+void shift(double delay, Eigen::MatrixXd& F) {
+  const Eigen::MatrixXd G = F;
+  for (Index i = 0; i < F.rows(); ++i) {
+    const double at = std::max(0.0, static_cast<double>(i) - delay / kStep);
+    const Index k = std::min(static_cast<Index>(at), F.rows() - 2);
+    F.row(i) = G.row(k) + (at - static_cast<double>(k)) * (G.row(k + 1) - G.row(k));
+  }
+}
+
+void cross(const Parameters& p, Eigen::MatrixXd& F) {
+  Eigen::Matrix3d C = Eigen::Matrix3d::Identity();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const std::string key = std::string("c_") + "xyz"[i] + "xyz"[j];
+      if (p.count(key)) C(i, j) = p.at(key);
+    }
+  }
+  F = F * C.transpose();
+}
+
+Eigen::Matrix3d mounting(const Eigen::Vector3d& r) {
+  return (Eigen::AngleAxisd(r(2), Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(r(1), Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(r(0), Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+Eigen::Vector3d offset(const Path& path, const Hidden& h, double t) {
+  const Parameters& p = h.parameters;
+  if (h.effect == "bias") return three(p, "delta_bias_", "_n");
+  if (h.effect == "linear_drift") return three(p, "rate_", "_nps") * t;
+  if (h.effect == "step_bias")
+    return (t >= h.interval_s->first ? 1.0 : 0.0) * three(p, "step_", "_n");
+  if (h.effect == "hum") {
+    const double phase = 2.0 * std::numbers::pi * p.at("freq_hz") * t;
+    return std::sin(phase) * three(p, "sin_", "_n") + std::cos(phase) * three(p, "cos_", "_n");
+  }
+  if (p.count("t_ref_degc")) return (path.climate(t) - p.at("t_ref_degc")) * three(p, "k_", "_npk");
+  return (1.0 - std::exp(-t / p.at("tau_s"))) * three(p, "a_", "_n");
+}
+
+}  // namespace
+
+void change_reading(const Path& path, const Hidden& h, Eigen::MatrixXd& F) {
+  const Parameters& p = h.parameters;
+  if (h.effect == "flexible_resonance" || h.effect == "two_modes") {
+    const Index a = h.axis.back() - 'x';
+    const VectorXd u = F.col(a);
+    VectorXd extra = resonance(u, p.at("freq_hz"), p.at("zeta")) - u;
+    if (h.effect == "two_modes") extra -= resonance(u, 1.7 * p.at("freq_hz"), p.at("zeta")) - u;
+    F.col(a) += p.at("fraction") * extra;
+  } else if (h.effect == "misalignment")
+    F = F * mounting(three(p, "rot_", "_rad"));
+  else if (h.effect == "gain") {
+    F = F * (Eigen::Vector3d::Ones() + three(p, "gain_", "")).asDiagonal();
+  } else if (h.effect == "crosstalk")
+    cross(p, F);
+  else if (h.effect == "lowpass")
+    lag(p, F);
+  else if (h.effect == "time_delay")
+    shift(p.at("delay_s"), F);
+  else if (h.effect == "bias" || h.effect == "linear_drift" || h.effect == "step_bias" ||
+           h.effect == "hum" || h.effect == "thermal_drift") {
+    for (Index i = 0; i < F.rows(); ++i) F.row(i) += offset(path, h, path.time(i)).transpose();
+  }
+}
+
+}  // namespace dcnn::conceal

@@ -1,0 +1,91 @@
+#include <cmath>
+#include <numbers>
+
+#include "conceal/draws.h"
+
+namespace dcnn::conceal {
+namespace {
+
+using Eigen::Index;
+
+/// Unit deviation per sample, but for the events of `heavy` and the swell of `heteroscedastic`.
+class NoiseSource {
+ public:
+  NoiseSource(std::string kind, Rng& rng) : kind_(std::move(kind)), rng_(rng) {
+    state_ = rng.normal();
+    for (double& s : slow_) s = rng.normal();
+  }
+
+  double next(Index i) {
+    double x = rng_.normal();
+    if (kind_ == "ar1") x = state_ = 0.8 * state_ + 0.6 * x;
+    if (kind_ == "heteroscedastic") {
+      x *= 1.0 + 0.6 * std::sin(2.0 * std::numbers::pi * static_cast<double>(i) / 6000.0);
+    }
+    if (kind_ == "heavy" && rng_.uniform() < 0.01) x *= 6.0;
+    if (kind_ == "flicker") {  // 1/f below some 1 Hz: one pole per factor of four
+      constexpr double kHz[4] = {0.02, 0.08, 0.32, 1.28};
+      for (int k = 0; k < 4; ++k) {
+        const double keep = std::exp(-2.0 * std::numbers::pi * kHz[k] / 500.0);
+        slow_[k] = keep * slow_[k] + std::sqrt(1.0 - keep * keep) * rng_.normal();
+        x += 0.05 * slow_[k];
+      }
+    }
+    return x;
+  }
+
+ private:
+  std::string kind_;
+  Rng& rng_;
+  double state_, slow_[4];
+};
+
+Eigen::MatrixXd sensor_noise(const Noise& noise, Index rows, Rng& rng) {
+  Eigen::MatrixXd e(rows, 3);
+  for (Index j = 0; j < 3; ++j) {
+    NoiseSource source(noise.kind, rng);
+    for (Index i = 0; i < rows; ++i) e(i, j) = noise.sigma * source.next(i);
+  }
+  return e;
+}
+
+/// As a logger prints: decimals well below every noise.
+double printed(double value, double digits) { return std::round(value * digits) / digits; }
+
+void read_pose(const Path& path, const Noise& noise, bool thermometer, Recorded& r, Rng& rng) {
+  const Index n = r.measured.rows();
+  r.t.resize(n);
+  r.pose.resize(n, 6);
+  if (thermometer) r.temperature.resize(n);
+  for (Index i = 0; i < n; ++i) {
+    const Index k = i * kDecimation;
+    r.t(i) = printed(path.time(k), 1e6);
+    for (Index j = 0; j < 6; ++j) {
+      const double sigma = j < 3 ? noise.pose_m : noise.pose_rad;
+      r.pose(i, j) = printed(path.pose(k, j) + sigma * rng.normal(), 1e8);
+    }
+    if (thermometer) {
+      r.temperature(i) = printed(path.climate(path.time(k)) + 0.01 * rng.normal(), 1e4);
+    }
+  }
+}
+
+std::vector<Hidden> without_rounding(std::vector<Hidden> hidden) {
+  std::erase_if(hidden, [](const Hidden& h) { return h.effect == "quantisation"; });
+  return hidden;
+}
+
+}  // namespace
+
+void record(Scenario& s, const std::vector<Path>& paths, bool thermometer, Rng& rng) {
+  const double lattice = s.noise.kind == "quantised" ? 2e3 : 1e7;
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    Recorded& r = s.recordings[k];
+    r.clean = reading(paths[k], s.tool, without_rounding(s.hidden), {});
+    r.measured = reading(paths[k], s.tool, s.hidden, sensor_noise(s.noise, r.clean.rows(), rng))
+                     .unaryExpr([lattice](double f) { return printed(f, lattice); });
+    read_pose(paths[k], s.noise, thermometer, r, rng);
+  }
+}
+
+}  // namespace dcnn::conceal

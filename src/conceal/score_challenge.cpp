@@ -1,0 +1,80 @@
+#include <cmath>
+
+#include "conceal/draws.h"
+#include "conceal/tally.h"
+#include "dcnn/conceal/challenge.h"
+#include "dcnn/core/file.h"
+
+namespace dcnn::conceal {
+namespace {
+
+namespace fs = std::filesystem;
+
+Json read_if_there(const fs::path& file) {
+  return fs::exists(file) ? read_json(file, Exit::kData) : Json();
+}
+
+/// The nominal amplitude nearest in the logarithm; effects whose size is the motion's as well.
+std::string amplitude_class(double amplitude) {
+  static const std::vector<std::pair<double, std::string>> nominal{
+      {0.05, "0.05"}, {0.1, "0.1"}, {0.2, "0.2"}, {0.5, "0.5"}, {1.0, "1"}, {2.0, "2"}};
+  std::string best;
+  double least = 1e9;
+  for (const auto& [value, name] : nominal) {
+    const double distance = std::abs(std::log(amplitude / value));
+    if (distance < least) least = distance, best = name;
+  }
+  return best;
+}
+
+Json rows(const std::map<std::string, Tally>& tallies) {
+  Json out = Json::object();
+  for (const auto& [label, tally] : tallies) out[label] = tally.summary();
+  return out;
+}
+
+Json tabulate(const Json& scenarios) {
+  Tally all;
+  std::map<std::string, Tally> group, effect, amplitude, motion, noise;
+  for (const Json& s : scenarios) {
+    add_scenario(s, all);
+    add_scenario(s, group[s["group"]]);
+    add_scenario(s, motion[s["motion"]]);
+    add_scenario(s, noise[s["noise"]["kind"]]);
+    if (s["group"] == "faint") continue;
+    for (const Json& e : s["effects"]) {
+      add_effect(e, effect[e["effect"]]);
+      add_effect(e, amplitude[amplitude_class(e["amplitude"])]);
+    }
+  }
+  std::erase_if(effect, [](const auto& row) { return row.second.summary().empty(); });
+  return {{"all", all.summary()},         {"group", rows(group)},   {"effect", rows(effect)},
+          {"amplitude", rows(amplitude)}, {"motion", rows(motion)}, {"noise", rows(noise)}};
+}
+
+}  // namespace
+
+Json score_challenge(const fs::path& folder, const fs::path& seal) {
+  const Json answers = open_seal(folder, seal);
+  Json out{{"seed", answers["seed"]},
+           {"sha256", read_file(folder / "seal.sha256", 4096, Exit::kData).substr(0, 64)},
+           {"missing", Json::array()},
+           {"scenarios", Json::array()}};
+  for (const Json& answer : answers["scenarios"]) {
+    const fs::path reports = folder / "reports" / answer["id"].get<std::string>();
+    const Json run = read_if_there(reports / "run.json");
+    const Json report = read_if_there(reports / "report.json");
+    if (run.is_null() && report.is_null()) {
+      out["missing"].push_back(answer["id"]);
+      continue;
+    }
+    Json one = score(answer, report);
+    one["seconds"] = run.is_object() ? run.value("seconds", Json()) : Json();
+    one["exit"] = run.is_object() ? run.value("exit", Json()) : Json();
+    out["scenarios"].push_back(one);
+  }
+  out["tables"] = tabulate(out["scenarios"]);
+  return out;
+}
+
+}  // namespace dcnn::conceal

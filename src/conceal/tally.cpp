@@ -1,0 +1,92 @@
+#include "conceal/tally.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "conceal/draws.h"
+
+namespace dcnn::conceal {
+
+Json wilson(int k, int n) {
+  Json out{{"k", k}, {"n", n}, {"rate", nullptr}, {"low", nullptr}, {"high", nullptr}};
+  if (n == 0) return out;
+  constexpr double z = 1.959964;
+  const double p = static_cast<double>(k) / n, zz = z * z / n;
+  const double middle = (p + 0.5 * zz) / (1.0 + zz);
+  const double half = std::sqrt(z * z * p * (1.0 - p) / n + 0.25 * zz * zz) / (1.0 + zz);
+  out["rate"] = p;
+  out["low"] = std::max(0.0, middle - half);
+  out["high"] = std::min(1.0, middle + half);
+  return out;
+}
+
+void Tally::count(const std::string& name, bool yes) {
+  auto& [k, n] = rates_[name];
+  k += yes ? 1 : 0;
+  ++n;
+}
+
+void Tally::add(const std::string& name, double value) {
+  if (std::isfinite(value)) values_[name].push_back(value);
+}
+
+Json Tally::summary() const {
+  Json out = Json::object();
+  for (const auto& [name, rate] : rates_) out[name] = wilson(rate.first, rate.second);
+  for (const auto& [name, values] : values_) {
+    std::vector<double> v = values;
+    std::sort(v.begin(), v.end());
+    const auto quantile = [&](double q) {
+      return v[static_cast<std::size_t>(std::lround(q * static_cast<double>(v.size() - 1)))];
+    };
+    out[name] = {{"n", v.size()},
+                 {"median", quantile(0.5)},
+                 {"p90", quantile(0.9)},
+                 {"p95", quantile(0.95)},
+                 {"max", v.back()}};
+  }
+  return out;
+}
+
+void add_effect(const Json& e, Tally& tally) {
+  if (!e["listed"].get<bool>()) return;
+  tally.count("found", e["named"]);
+  tally.count("found_class", e["in_class"]);
+  if (e["axis_right"].is_boolean()) tally.count("axis", e["axis_right"]);
+  if (e["interval_overlap"].is_number()) tally.add("interval_overlap", e["interval_overlap"]);
+  for (const auto& [name, p] : e["parameters"].items()) {
+    tally.count("coverage", p["covered"]);
+    tally.add("parameter_error", p["error"]);
+  }
+}
+
+void add_scenario(const Json& s, Tally& tally) {
+  const std::string group = s["group"];
+  const int named = static_cast<int>(s["named"].size()), wrong = s["false_names"];
+  tally.count("verdict", s["verdict_right"]);
+  tally.count("ran", s["verdict"] != "failed");
+  for (int k = 0; k < named; ++k) tally.count("false_discovery", k < wrong);
+  if (has("null faint", group)) {
+    tally.count("null_specificity", wrong == 0 && s["verdict"] == "consistent");
+    tally.count("null_without_name", wrong == 0 && s["verdict"] != "failed");
+  } else if (group == "unlisted") {
+    tally.count("abstention", wrong == 0 && s["verdict"] != "failed");
+  } else {
+    tally.count("set", s["set"]);
+    tally.count("class_set", s["class_set"]);
+    tally.count("top1", s["top1"]);
+  }
+  if (group != "faint") {
+    for (const Json& e : s["effects"]) add_effect(e, tally);
+  }
+  const Json& h = s["holdout"];
+  if (h.contains("after") && h.contains("oracle")) {
+    tally.add("after_over_oracle", h["after"].get<double>() / h["oracle"].get<double>());
+  }
+  if (h.contains("after") && h.contains("floor")) {
+    tally.add("after_over_floor", h["after"].get<double>() / h["floor"].get<double>());
+  }
+  if (s["seconds"].is_number()) tally.add("seconds", s["seconds"]);
+}
+
+}  // namespace dcnn::conceal

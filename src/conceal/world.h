@@ -1,0 +1,48 @@
+// Motion and forces at a high rate: own rotations, differences and integrators.
+#pragma once
+
+#include "dcnn/conceal/scenario.h"
+#include "dcnn/core/random.h"
+
+namespace dcnn::conceal {
+
+constexpr int kDecimation = 8;
+constexpr double kStep = 1.0 / 4000.0;  // s
+
+/// The room's temperature [degC] over the clock: warms up and swings.
+struct Climate {
+  double start = 21.0, rise = 0.0, settle_s = 60.0, swing = 0.0, period_s = 90.0;
+  double operator()(double t) const;
+};
+Climate draw_climate(Rng& rng);
+
+/// A recording's motion, 4000 samples a second.
+struct Path {
+  double start = 0.0;  // s, clock of the first sample
+  Climate climate;
+  Eigen::MatrixXd pose;                    // (T, 6)
+  std::vector<Eigen::Matrix3d> rotation;   // sensor to base
+  Eigen::MatrixXd velocity, acceleration;  // (T, 3), base
+  Eigen::MatrixXd rate, rate_derivative;   // (T, 3), sensor
+  Eigen::Index samples() const { return pose.rows(); }
+  double time(Eigen::Index i) const { return start + kStep * static_cast<double>(i); }
+};
+
+/// Velocities, accelerations and rates of a pose (T, 6) whose frames are `rotation`; the sensor is
+/// mounted in them with rpy `mounting`.
+Path follow(double start, const Eigen::MatrixXd& pose, std::vector<Eigen::Matrix3d> rotation,
+            const Eigen::Vector3d& mounting);
+
+/// Families: human, multisine, points, scan, repeats; poor: harmonic, planar.
+Path make_path(const std::string& family, double start, double seconds,
+               const Eigen::Vector3d& mounting, std::uint64_t seed);
+
+/// Force on the sensor and what it makes of it, (T, 3), before noise and digits.
+Eigen::MatrixXd force(const Path& path, const Tool& tool, const std::vector<Hidden>& hidden);
+/// Clipping and rounding, in place.
+void digitise(const std::vector<Hidden>& hidden, Eigen::MatrixXd& F);
+/// The reading at 500 Hz, (T, 3); `noise` may be empty.
+Eigen::MatrixXd reading(const Path& path, const Tool& tool, const std::vector<Hidden>& hidden,
+                        const Eigen::MatrixXd& noise);
+
+}  // namespace dcnn::conceal

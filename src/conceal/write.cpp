@@ -1,0 +1,93 @@
+#include <algorithm>
+#include <cmath>
+
+#include "dcnn/conceal/scenario.h"
+#include "dcnn/core/file.h"
+#include "dcnn/data/csv.h"
+
+namespace dcnn::conceal {
+namespace {
+
+using Eigen::Index;
+constexpr Index kEnds = 250;  // samples of 0.5 s
+
+Json list(const Eigen::Vector3d& v) { return {v(0), v(1), v(2)}; }
+
+Json nominal(const Tool& tool) {
+  Json sim;
+  sim["tool"]["mass_kg"] = tool.mass;
+  sim["tool"]["com_m"] = list(tool.com);
+  sim["gravity_mps2"] = {0.0, 0.0, -9.81};
+  sim["sensor"]["bias_n"] = list(tool.bias);
+  if (!tool.mounting.isZero()) sim["sensor"]["rotation_rpy"] = list(tool.mounting);
+  sim["model"]["inertial"] = tool.inertial;
+  sim["sample_rate_hz"] = 500;
+  return sim;
+}
+
+Table table_of(const Recorded& r) {
+  Table table{{"t", "x", "y", "z", "alpha", "beta", "gamma", "fx", "fy", "fz"}, {}};
+  const bool thermometer = r.temperature.size() > 0;
+  table.values.resize(r.t.size(), thermometer ? 11 : 10);
+  table.values.leftCols(10) << r.t, r.pose, r.measured;
+  if (thermometer) {
+    table.columns.emplace_back("temperature");
+    table.values.col(10) = r.temperature;
+  }
+  return table;
+}
+
+Json oracle(const Scenario& s) {
+  Eigen::RowVector3d squares = Eigen::RowVector3d::Zero();
+  double rows = 0.0;
+  for (const Recorded& r : s.recordings) {
+    if (!r.holdout) continue;
+    const Index n = r.clean.rows() - 2 * kEnds;
+    squares += (r.measured - r.clean).middleRows(kEnds, n).colwise().squaredNorm();
+    rows += static_cast<double>(n);
+  }
+  if (rows == 0.0) return nullptr;
+  return list((squares.transpose() / rows).cwiseSqrt());
+}
+
+Json answer(const Hidden& h) {
+  Json one;
+  one["effect"] = h.effect;
+  one["axis"] = h.axis.empty() ? Json() : Json(h.axis);
+  one["interval_s"] = h.interval_s ? Json{h.interval_s->first, h.interval_s->second} : Json();
+  one["parameters"] = Json::object();
+  for (const auto& [name, value] : h.parameters) one["parameters"][name] = value;
+  const auto& ids = listed_effects();
+  one["listed"] = std::find(ids.begin(), ids.end(), h.effect) != ids.end();
+  one["foreign"] = h.foreign;
+  one["amplitude"] = h.amplitude;
+  return one;
+}
+
+}  // namespace
+
+Files write(const Scenario& s, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  Files files;
+  files.simulator = folder / "sim.json";
+  write_file(files.simulator, nominal(s.tool).dump(2) + "\n");
+  for (const Recorded& r : s.recordings) {
+    (r.holdout ? files.holdout : files.fit).push_back(folder / (r.name + ".csv"));
+    write_csv(folder / (r.name + ".csv"), table_of(r));
+  }
+  return files;
+}
+
+Json truth(const Scenario& s) {
+  Json all{{"drawn", s.id}, {"group", s.group}, {"motion", s.motion}};
+  all["noise"] = {{"kind", s.noise.kind},
+                  {"sigma_n", s.noise.sigma},
+                  {"pose_m", s.noise.pose_m},
+                  {"pose_rad", s.noise.pose_rad}};
+  all["hidden"] = Json::array();
+  for (const Hidden& h : s.hidden) all["hidden"].push_back(answer(h));
+  all["oracle_rmse"] = oracle(s);
+  return all;
+}
+
+}  // namespace dcnn::conceal

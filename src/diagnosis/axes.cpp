@@ -1,0 +1,194 @@
+#include "diagnosis/axes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dcnn/physics/axis_machine.h"
+#include "diagnosis/axis_words.h"
+
+namespace dcnn {
+namespace {
+
+/// A finding of the chain (a force on a tool along x) as the axis' own.
+Json outer_finding(Json finding, const AxisPlan& plan) {
+  const Axis& axis = plan.axis();
+  const EffectKind& kind = *find_effect(finding["effect"].get<std::string>());
+  Json parameters = Json::object();
+  for (const auto& [name, number] : finding["parameters"].items()) {
+    const auto outer = axis_parameter(kind, name, axis, plan.sense);
+    if (!outer) continue;
+    const auto moved = [&, s = outer->sign, d = outer->shift](const Json& v) {
+      return s * v.get<double>() + d;
+    };
+    double low = moved(number["ci95"][0]), high = moved(number["ci95"][1]);
+    if (low > high) std::swap(low, high);
+    parameters[outer->stem] = {
+        {"value", moved(number["value"])}, {"ci95", {low, high}}, {"unit", outer->unit}};
+  }
+  finding["parameters"] = parameters;
+  finding["axis"] = axis.name;
+  finding["words"] = axis_words(finding, axis);
+  return finding;
+}
+
+void append(Json& list, const Json& more) {
+  for (const Json& entry : more) list.push_back(entry);
+}
+
+/// How much of the machine's excess is on each axis, in units of the axes' floors.
+std::vector<double> shares_of(const std::vector<Json>& reports) {
+  std::vector<double> energy;
+  double all = 0.0;
+  for (const Json& report : reports) {
+    const double floor = report["fit"]["noise_floor"][0].get<double>();
+    const double ratio =
+        report["where"]["axes"][0]["excess_rms"].get<double>() / std::max(1e-300, floor);
+    energy.push_back(ratio * ratio);
+    all += energy.back();
+  }
+  for (double& e : energy) e = all > 0.0 ? e / all : 0.0;
+  return energy;
+}
+
+Json merged_places(const std::vector<Json>& reports, const System& system) {
+  const auto shares = shares_of(reports);
+  Json where{{"axes", Json::array()},
+             {"segments", Json::array()},
+             {"regimes", Json::array()},
+             {"bands", Json::array()}};
+  for (std::size_t k = 0; k < reports.size(); ++k) {
+    for (auto& [key, list] : where.items()) {
+      for (Json entry : reports[k]["where"][key]) {
+        entry["axis"] = system.axes[k].name;
+        entry["share"] = entry["share"].get<double>() * shares[k];
+        list.push_back(entry);
+      }
+    }
+  }
+  return where;
+}
+
+std::string merged_verdict(const std::vector<Json>& reports) {
+  bool named = false, remains = false;
+  for (const Json& report : reports) {
+    const std::string verdict = report["verdict"];
+    named |= verdict == "explained" || verdict == "partly-explained";
+    remains |= verdict == "unexplained" || verdict == "partly-explained";
+  }
+  if (named) return remains ? "partly-explained" : "explained";
+  return remains ? "unexplained" : "consistent";
+}
+
+Json merged_errors(const std::vector<Json>& reports) {
+  Json fit = reports.front()["fit"];
+  for (std::size_t k = 1; k < reports.size(); ++k) {
+    for (auto& [key, list] : fit.items()) {
+      if (list.is_array()) append(list, reports[k]["fit"][key]);
+      if (!list.is_object()) continue;
+      for (auto& [inner, values] : list.items()) append(values, reports[k]["fit"][key][inner]);
+    }
+  }
+  return fit;
+}
+
+Json merged_unnamed(const std::vector<Json>& reports, const System& system) {
+  Json part{{"excess_rms", Json::array()}, {"formula", nullptr}, {"words", nullptr}};
+  std::string words;
+  for (std::size_t k = 0; k < reports.size(); ++k) {
+    append(part["excess_rms"], reports[k]["unnamed"]["excess_rms"]);
+    if (reports[k]["unnamed"]["words"].is_null()) continue;
+    words += (words.empty() ? "" : "; ") + reports[k]["unnamed"]["words"].get<std::string>() +
+             " on " + system.axes[k].name;
+  }
+  if (!words.empty()) part["words"] = words;
+  return part;
+}
+
+Json merged(const std::vector<Json>& reports, const System& system) {
+  Json report = reports.front();
+  report["verdict"] = merged_verdict(reports);
+  report["where"] = merged_places(reports, system);
+  report["fit"] = merged_errors(reports);
+  report["unnamed"] = merged_unnamed(reports, system);
+  for (const char* key : {"targets", "units", "findings", "not_detected", "not_testable"}) {
+    report[key] = Json::array();
+    for (const Json& one : reports) append(report[key], one[key]);
+  }
+  report["next_motion"] = nullptr;
+  report["smoother_hz"] = Json::array();
+  for (const Json& one : reports) {
+    if (report["next_motion"].is_null()) report["next_motion"] = one["next_motion"];
+    report["smoother_hz"].push_back(one["smoother_hz"]);
+  }
+  if (system.lowpass_hz > 0.0) report["lowpass_hz"] = system.lowpass_hz;
+  if (system.resample_hz > 0.0) report["resample_hz"] = system.resample_hz;
+  return report;
+}
+
+void translate(Diagnosis& diagnosis, const AxisPlan& plan) {
+  const Axis& axis = plan.axis();
+  for (Json& finding : diagnosis.report["findings"]) finding = outer_finding(finding, plan);
+  for (const char* key : {"not_detected", "not_testable"}) {
+    for (Json& entry : diagnosis.report[key]) entry["axis"] = axis.name;
+  }
+  for (HeldOut& record : diagnosis.holdout) {
+    for (auto* signal : {&record.measured, &record.before, &record.after}) *signal *= -plan.sense;
+  }
+  for (Portrait& portrait : diagnosis.portraits) {
+    portrait.title = axis.name + ": " + portrait.title;
+    portrait.y_label = axis.measured + " [" + axis.unit + "]";
+    if (portrait.x_label.starts_with("velocity")) {
+      portrait.x_label = "velocity [" + axis.position_unit + "/s]";
+    } else if (portrait.x_label.starts_with("angle")) {
+      portrait.x_label = "position [" + axis.position_unit + "]";
+    }
+    for (auto* list : {&portrait.left, &portrait.law}) {
+      for (double& y : *list) y *= -plan.sense;
+    }
+  }
+}
+
+/// The held-out columns of another axis beside those at hand.
+void join(std::vector<HeldOut>& records, const std::vector<HeldOut>& more) {
+  const auto beside = [](Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+    a.conservativeResize(Eigen::NoChange, a.cols() + b.cols());
+    a.rightCols(b.cols()) = b;
+  };
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    beside(records[k].measured, more[k].measured);
+    beside(records[k].before, more[k].before);
+    beside(records[k].after, more[k].after);
+  }
+}
+
+}  // namespace
+
+Diagnosis diagnose_axes(const DiagnosisRequest& request,
+                        const std::function<void(const std::string&)>& progress) {
+  auto cases = load_axes(request);
+  const System system = cases.front().fit.axis->system;
+  AxisMachine machine{system, {}};
+  std::vector<Json> reports;
+  Diagnosis all;
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const auto plan = cases[k].fit.axis;
+    auto [diagnosis, base] = diagnose_case(std::move(cases[k]), [&](const std::string& text) {
+      if (progress) progress(plan->axis().name + ": " + text);
+    });
+    machine.axes.push_back({plan->columns, base, diagnosis.corrected.effects,
+                            *diagnosis.corrected.derivative, plan->sense});
+    translate(diagnosis, *plan);
+    reports.push_back(diagnosis.report);
+    if (k == 0) {
+      all.holdout = std::move(diagnosis.holdout);
+    } else {
+      join(all.holdout, diagnosis.holdout);
+    }
+    for (Portrait& p : diagnosis.portraits) all.portraits.push_back(std::move(p));
+  }
+  all.report = merged(reports, system);
+  all.model = to_json(machine);
+  return all;
+}
+
+}  // namespace dcnn

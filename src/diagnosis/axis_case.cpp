@@ -1,0 +1,161 @@
+#include "diagnosis/axis_case.h"
+
+#include <algorithm>
+
+#include "dcnn/data/filter.h"
+#include "dcnn/physics/arm.h"
+#include "dcnn/physics/axis_machine.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kBaseTolerance = 1e-3;  // of a column's length that others must leave
+
+std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
+                                const ReadOptions& options, const System& system) {
+  std::vector<Recording> recordings;
+  for (const auto& path : paths) recordings.push_back(read_recording(path, options, system));
+  return recordings;
+}
+
+Log make_log(const Recording& recording, const Case& study) {
+  const System& system = study.axis->system;
+  const Axis& axis = study.axis->axis();
+  Targets target;
+  target.names = {axis.measured};
+  Log log;
+  log.recording = recording;
+  // The chain knows forces on a tool: what an axis shows it is the reaction to its drive.
+  const double sign = -study.axis->sense;
+  log.measured = sign * measured(recording, target, system, true);
+  if (system.lowpass_hz > 0.0) {
+    log.unfiltered = sign * measured(recording, target, system, false);
+  }
+  return log;
+}
+
+/// The columns of the base simulator that the fitted recordings tell apart.
+std::vector<Index> used_columns(const std::vector<Recording>& recordings, const System& system,
+                                std::size_t axis, const DerivativeSpec& derivative) {
+  Eigen::MatrixXd all(0, 0);
+  for (const Recording& recording : recordings) {
+    const Eigen::MatrixXd columns = base_columns(recording, system, axis, derivative);
+    // Every fifth sample tells as much.
+    const Index rows = (columns.rows() + 4) / 5, before = all.rows();
+    all.conservativeResize(before + rows, columns.cols());
+    for (Index k = 0; k < rows; ++k) all.row(before + k) = columns.row(5 * k);
+  }
+  return independent_columns(all, kBaseTolerance);
+}
+
+/// A drive puts power into its axis, which friction takes out; a log of the reaction shows the
+/// opposite.
+double sense_of(const std::vector<Recording>& recordings, const System& system, const Axis& axis,
+                const DerivativeSpec& derivative) {
+  Targets target;
+  target.names = {axis.measured};
+  double work = 0.0;
+  for (const Recording& recording : recordings) {
+    const Motion motion = axis_motion(recording, axis, derivative);
+    if (motion.v_B.rows() == 0) continue;
+    work += measured(recording, target, system, true).col(0).dot(motion.v_B.col(0));
+  }
+  return work < 0.0 ? -1.0 : 1.0;
+}
+
+void set_clock(const DiagnosisRequest& request, const std::vector<Recording>& recordings,
+               Case& study) {
+  std::vector<std::pair<double, double>> spans;
+  for (const Recording& r : recordings) {
+    const Eigen::VectorXd t = r.column("t");
+    spans.emplace_back(t(0), t(t.size() - 1));
+  }
+  std::sort(spans.begin(), spans.end());
+  bool overlap = false;
+  for (std::size_t k = 1; k < spans.size(); ++k) overlap |= spans[k].first < spans[k - 1].second;
+  for (const auto& span : spans) study.end_of_clock = std::max(study.end_of_clock, span.second);
+  study.shared_clock = request.shared_clock.value_or(!overlap);
+  require(!(study.shared_clock && overlap), Exit::kData, recordings.front().name,
+          ": its time overlaps another recording's; use --clock own");
+}
+
+Case axis_case(std::shared_ptr<const AxisPlan> plan) {
+  Case study;
+  study.own_tool = false;
+  study.simulator.model.inertial = ToolModel::Inertial::kNone;
+  study.channels = {0};
+  study.targets = {plan->axis().measured};
+  study.units = {plan->axis().unit};
+  study.lowpass_hz = plan->system.lowpass_hz;
+  if (study.lowpass_hz > 0.0) study.motion_hz = study.lowpass_hz;
+  study.derivative = {.kind = DerivativeSpec::Kind::kSpectral, .cutoff_hz = study.motion_hz};
+  study.axis = std::move(plan);
+  return study;
+}
+
+}  // namespace
+
+void set_axis_motion(Case& study) {
+  const AxisPlan& plan = *study.axis;
+  for (Log& log : study.logs) {
+    log.motion = axis_motion(log.recording, plan.axis(), study.derivative);
+    log.regressors.clear();
+    const Eigen::MatrixXd columns =
+        base_columns(log.recording, plan.system, plan.index, study.derivative);
+    for (const Index k : plan.columns) log.regressors.emplace_back(-plan.sense * columns.col(k));
+    log.base = {Eigen::MatrixXd::Zero(log.motion.samples(), 3), Eigen::MatrixXd(0, 3)};
+    const std::string& simulated = plan.axis().simulated;
+    if (!simulated.empty()) log.base.force.col(0) = -plan.sense * log.recording.column(simulated);
+  }
+  if (!plan.columns.empty()) set_base(study, study.base_coefficients);
+}
+
+void set_base(Case& study, const Eigen::VectorXd& coefficients) {
+  study.base_coefficients = coefficients;
+  for (Log& log : study.logs) {
+    if (log.regressors.empty()) continue;
+    log.base.force.setZero();
+    for (std::size_t k = 0; k < log.regressors.size(); ++k) {
+      log.base.force.col(0) += coefficients(static_cast<Index>(k)) * log.regressors[k];
+    }
+  }
+}
+
+Signals unfiltered_left(const Case& study, const std::vector<Member>& members) {
+  Case raw = study;
+  raw.lowpass_hz = 0.0;
+  Signals left = predict(raw, members);
+  for (std::size_t k = 0; k < left.size(); ++k) left[k] = study.logs[k].unfiltered - left[k];
+  return left;
+}
+
+std::vector<LoadedCase> load_axes(const DiagnosisRequest& request) {
+  const System system = read_system(*request.system);
+  require(system.kind == System::Kind::kAxes, Exit::kData, request.system->string(),
+          ": describes a wrist tool; give --sim instead, or \"kind\": \"axes\"");
+  const auto fit = read_all(request.fit, request.read, system);
+  const auto holdout = read_all(request.holdout, request.read, system);
+  std::vector<Recording> all = fit;
+  all.insert(all.end(), holdout.begin(), holdout.end());
+  std::vector<LoadedCase> cases;
+  for (std::size_t k = 0; k < system.axes.size(); ++k) {
+    AxisPlan plan{system, k, {}, 1.0};
+    const Case draft = axis_case(std::make_shared<const AxisPlan>(plan));
+    plan.columns = used_columns(fit, system, k, draft.derivative);
+    plan.sense = sense_of(fit, system, system.axes[k], draft.derivative);
+    LoadedCase loaded;
+    loaded.fit = axis_case(std::make_shared<const AxisPlan>(std::move(plan)));
+    loaded.fit.base_coefficients =
+        Eigen::VectorXd::Zero(static_cast<Index>(loaded.fit.axis->columns.size()));
+    set_clock(request, all, loaded.fit);
+    loaded.holdout = loaded.fit;
+    for (const Recording& r : fit) loaded.fit.logs.push_back(make_log(r, loaded.fit));
+    for (const Recording& r : holdout) loaded.holdout.logs.push_back(make_log(r, loaded.fit));
+    set_axis_motion(loaded.fit);
+    set_axis_motion(loaded.holdout);
+    cases.push_back(std::move(loaded));
+  }
+  return cases;
+}
+
+}  // namespace dcnn

@@ -1,0 +1,21 @@
+// Cases of the axes of other machines: one axis each.
+#pragma once
+
+#include "diagnosis/chain.h"
+#include "diagnosis/load.h"
+
+namespace dcnn {
+
+/// One case per axis of the system description. Error(kData) for what cannot be used.
+std::vector<LoadedCase> load_axes(const DiagnosisRequest& request);
+
+/// Motion and base simulator of all logs by the case's estimator.
+void set_axis_motion(Case& study);
+
+/// Lets the base simulator of all logs have these coefficients.
+void set_base(Case& study, const Eigen::VectorXd& coefficients);
+
+/// measured - predicted before the low-pass.
+Signals unfiltered_left(const Case& study, const std::vector<Member>& members);
+
+}  // namespace dcnn

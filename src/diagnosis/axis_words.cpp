@@ -1,0 +1,92 @@
+#include "diagnosis/axis_words.h"
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "dcnn/physics/effect.h"
+#include "diagnosis/words.h"
+
+namespace dcnn {
+namespace {
+
+/// The numbers of a finding, ready to be written.
+class Numbers {
+ public:
+  explicit Numbers(const Json& parameters) : parameters_(parameters) {}
+  bool has(const char* name) const { return parameters_.contains(name); }
+  double value(const char* name) const { return parameters_[name]["value"].get<double>(); }
+  std::string operator()(const char* name, double factor = 1.0) const {
+    return brief(factor * value(name)) + " " + parameters_[name]["unit"].get<std::string>();
+  }
+  std::string plain(const char* name, double factor = 1.0) const {
+    return brief(factor * value(name));
+  }
+  std::string size(const char* name) const {
+    return brief(std::abs(value(name))) + " " + parameters_[name]["unit"].get<std::string>();
+  }
+
+ private:
+  const Json& parameters_;
+};
+
+using Sentence = std::function<std::string(const Numbers&)>;
+
+const std::map<std::string, Sentence>& sentences() {
+  static const std::map<std::string, Sentence> kSentences{
+      {"coulomb_friction", [](auto& n) { return "dry friction of " + n("fc"); }},
+      {"viscous_friction", [](auto& n) { return "viscous friction of " + n("c"); }},
+      {"stribeck_friction",
+       [](auto& n) {
+         return "friction that falls from " + n("fs") + " to " + n("fc") + " with speed";
+       }},
+      {"quadratic_drag", [](auto& n) { return "drag of " + n("c2"); }},
+      {"lugre_friction",
+       [](auto& n) { return "friction of " + n("fc") + " that first gives way elastically"; }},
+      {"asymmetric_friction",
+       [](auto& n) {
+         return "friction that differs between the directions, by " + n.size("delta_c") +
+                " either way";
+       }},
+      {"hysteresis", [](auto& n) { return "hysteresis of " + n.size("force"); }},
+      {"cable_spring", [](auto& n) { return "a spring of " + n("k"); }},
+      {"cubic_spring",
+       [](auto& n) { return "a spring that stiffens with the cube of the position, " + n("k3"); }},
+      {"cogging",
+       [](auto& n) {
+         return "cogging of " + n.size("amp") + " that repeats with order " + n.plain("order");
+       }},
+      {"inertia", [](auto& n) { return "an inertia that is off by " + n("delta_inertia"); }},
+      {"contact", [](auto& n) { return "a foreign force of " + n("force"); }},
+      {"bias", [](auto& n) { return "a constant offset of " + n("delta_bias"); }},
+      {"gain", [](auto& n) { return "a scale that is off by " + n.plain("gain", 100.0) + " %"; }},
+      {"time_delay",
+       [](auto& n) { return "a delay of " + n.plain("delay", 1e3) + " ms after the position"; }},
+      {"lowpass",
+       [](auto& n) { return "a lag with a time constant of " + n.plain("tau", 1e3) + " ms"; }},
+      {"thermal_drift",
+       [](auto& n) {
+         return n.has("k") ? "an offset that follows the temperature with " + n("k")
+                           : "an offset that settles by " + n("a") + " within " + n("tau");
+       }},
+      {"linear_drift", [](auto& n) { return "an offset that grows by " + n("rate"); }},
+      {"step_bias", [](auto& n) { return "an offset that jumps by " + n("step"); }},
+      {"saturation", [](auto& n) { return "a reading that is clipped at " + n("limit"); }},
+      {"quantisation", [](auto& n) { return "a reading in steps of " + n("step"); }},
+      {"flexible_resonance", [](auto& n) { return "a resonance at " + n("freq"); }},
+      {"hum", [](auto& n) { return "a hum at " + n("freq"); }}};
+  return kSentences;
+}
+
+}  // namespace
+
+std::string axis_words(const Json& finding, const Axis& axis) {
+  const std::string id = finding["effect"];
+  const auto sentence = sentences().find(id);
+  const std::string what = sentence == sentences().end()
+                               ? find_effect(id)->meaning
+                               : sentence->second(Numbers(finding["parameters"]));
+  return what + " on " + axis.name;
+}
+
+}  // namespace dcnn

@@ -1,0 +1,104 @@
+#include "diagnosis/left_out.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/judgement.h"
+
+namespace dcnn {
+namespace {
+
+constexpr int kPieces = 6;
+
+/// Which piece of its recording each row belongs to, numbered over all recordings.
+std::vector<int> pieces_of(const Setting& setting) {
+  const auto& info = setting.whitener.row_info();
+  std::vector<int> piece(info.size());
+  for (std::size_t row = 0; row < info.size(); ++row) {
+    const Motion& motion = setting.study.logs[info[row].log].motion;
+    const double first = motion.t(0), length = motion.t(motion.samples() - 1) - first;
+    const double place = (info[row].t - first) / std::max(length, 1e-300);
+    piece[row] = static_cast<int>(info[row].log) * kPieces +
+                 std::clamp(static_cast<int>(kPieces * place), 0, kPieces - 1);
+  }
+  return piece;
+}
+
+/// Sums of products of columns and target, over all rows and over each piece.
+struct Sums {
+  Eigen::MatrixXd gram;
+  Eigen::VectorXd match;
+};
+
+Eigen::VectorXd solved(const Eigen::MatrixXd& gram, const Eigen::VectorXd& match) {
+  const Eigen::VectorXd scale =
+      gram.diagonal().unaryExpr([](double g) { return g > 0.0 ? 1.0 / std::sqrt(g) : 0.0; });
+  Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
+  scaled.diagonal().array() += 1e-10;
+  return scale.cwiseProduct(scaled.ldlt().solve(scale.cwiseProduct(match)));
+}
+
+/// What a fit to all but one piece explains of that piece (or, with no piece left out, of all).
+double explained(const Sums& all, const std::vector<Sums>& pieces,
+                 const std::vector<Index>& columns, bool leave_out) {
+  const auto part = [&](const Sums& sums) {
+    return Sums{sums.gram(columns, columns), sums.match(columns)};
+  };
+  double sum = 0.0;
+  const Sums whole = part(all);
+  const Eigen::VectorXd fitted = solved(whole.gram, whole.match);
+  for (const Sums& piece : pieces) {
+    const Sums own = part(piece);
+    const Eigen::VectorXd c =
+        leave_out ? solved(whole.gram - own.gram, whole.match - own.match) : fitted;
+    sum += 2.0 * c.dot(own.match) - c.dot(own.gram * c);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<double> left_out_shares(const Setting& setting, const JointFit& fit) {
+  // The target as the tangent sees it: what is left, and what the members' own columns put there.
+  Eigen::VectorXd back = Eigen::VectorXd::Zero(fit.tangent.cols());
+  for (std::size_t m = 0; m < fit.members.size(); ++m) {
+    const auto [first, count] = tangent_columns(fit, m);
+    const Member& member = fit.members[m];
+    if (count == 0) continue;
+    back.segment(first, member.amplitudes.size()) = member.amplitudes;
+    // A lag is proportional to its only number, which the tangent knows on a logarithmic scale.
+    if (member.amplitudes.size() == 0) back.segment(first, count).setOnes();
+  }
+  back.tail(fit.nuisance.size()) = fit.nuisance;
+  const Eigen::VectorXd target = fit.residual + fit.tangent * back;
+  const auto piece_of = pieces_of(setting);
+  std::vector<std::vector<Index>> rows(setting.study.logs.size() * kPieces);
+  for (std::size_t row = 0; row < piece_of.size(); ++row) {
+    rows[static_cast<std::size_t>(piece_of[row])].push_back(static_cast<Index>(row));
+  }
+  const Index width = fit.tangent.cols();
+  Sums all{Eigen::MatrixXd::Zero(width, width), Eigen::VectorXd::Zero(width)};
+  std::vector<Sums> pieces;
+  for (const auto& list : rows) {
+    if (list.empty()) continue;
+    const Eigen::MatrixXd T = fit.tangent(list, Eigen::all);
+    pieces.push_back({T.transpose() * T, T.transpose() * target(list)});
+    all.gram += pieces.back().gram;
+    all.match += pieces.back().match;
+  }
+  std::vector<Index> every(static_cast<std::size_t>(width));
+  for (Index k = 0; k < width; ++k) every[static_cast<std::size_t>(k)] = k;
+  std::vector<double> shares(fit.members.size(), 1.0);
+  for (std::size_t m = 0; m < fit.members.size(); ++m) {
+    const auto [first, count] = tangent_columns(fit, m);
+    if (count == 0) continue;
+    std::vector<Index> others = every;
+    others.erase(others.begin() + first, others.begin() + first + count);
+    const double in = explained(all, pieces, every, false) - explained(all, pieces, others, false);
+    const double out = explained(all, pieces, every, true) - explained(all, pieces, others, true);
+    shares[m] = in > 0.0 ? out / in : 0.0;
+  }
+  return shares;
+}
+
+}  // namespace dcnn

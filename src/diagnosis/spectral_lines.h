@@ -1,0 +1,22 @@
+// Lines in the spectrum of what is left.
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/chain.h"
+#include "diagnosis/noise_floor.h"
+
+namespace dcnn {
+
+/// The strongest lines of what is left, in the whole band of the log: frequency [Hz] and how often
+/// its power is the floor's, strongest first.
+struct Peak {
+  double hz;
+  double ratio;       ///< of its power to the floor's
+  double prominence;  ///< of its power to the level beside it
+};
+std::vector<Peak> spectral_lines(const Case& study, const Signals& left,
+                                 const std::vector<Floor>& floors, double from_hz, double to_hz,
+                                 Index channel, int most);
+
+}  // namespace dcnn

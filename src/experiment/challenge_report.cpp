@@ -1,0 +1,180 @@
+#include "dcnn/experiment/challenge_report.h"
+
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include "dcnn/core/file.h"
+#include "dcnn/experiment/report.h"
+
+namespace dcnn {
+namespace {
+
+using Columns = std::vector<std::pair<std::string, std::string>>;  // key, heading
+
+const Columns kHeadline{{"top1", "first name is right"},
+                        {"set", "all named, nothing else"},
+                        {"class_set", "the same, alternatives count"},
+                        {"found", "effects named"},
+                        {"found_class", "effects named or among the alternatives"},
+                        {"false_discovery", "false names among all names"},
+                        {"null_specificity", "\"consistent\" where nothing is hidden"},
+                        {"null_without_name", "no name where nothing is hidden"},
+                        {"abstention", "no name for what has none"},
+                        {"verdict", "verdict right"},
+                        {"axis", "axis right"},
+                        {"interval_overlap", "overlap of intervals"},
+                        {"parameter_error", "relative error of a number"},
+                        {"coverage", "truth within ci95"},
+                        {"after_over_oracle", "hold-out error over the true law's"},
+                        {"after_over_floor", "hold-out error over the estimated floor"},
+                        {"seconds", "seconds a scenario"},
+                        {"ran", "ended without an error"}};
+
+std::string text_of(const char* format, double a, double b = 0.0, double c = 0.0) {
+  char text[96];
+  std::snprintf(text, sizeof text, format, a, b, c);
+  return text;
+}
+
+/// "97 % [91, 99] of 40", or "median 1.002, 90 % below 1.02".
+std::string cell(const Json& value) {
+  if (value.is_null()) return "";
+  if (value.contains("rate")) {
+    if (value["rate"].is_null()) return "";
+    return text_of("%.0f %% [%.0f, %.0f]", 100.0 * value["rate"].get<double>(),
+                   100.0 * value["low"].get<double>(), 100.0 * value["high"].get<double>()) +
+           " of " + value["n"].dump();
+  }
+  return text_of("%.4g, 90 %% below %.4g", value["median"], value["p90"]);
+}
+
+std::vector<std::string> row(const std::string& label, const Json& summary,
+                             const Columns& columns) {
+  std::vector<std::string> out{label};
+  for (const auto& [key, heading] : columns) out.push_back(cell(summary.value(key, Json())));
+  return out;
+}
+
+void add_table(HtmlReport& page, const std::string& title, const Json& table,
+               const Columns& columns) {
+  page.heading(title);
+  std::vector<std::string> header{""};
+  for (const auto& [key, heading] : columns) header.push_back(heading);
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [label, summary] : table.items()) rows.push_back(row(label, summary, columns));
+  page.table(header, rows);
+}
+
+/// Rates of one key over the rows of a table, with their intervals.
+void add_rates(HtmlReport& page, const Json& table, const std::string& key,
+               const std::string& title) {
+  Chart chart{title, "", "rate", {}, {}, false, 720, 300};
+  Series series{title, {}, {}, {}, Series::Style::kMarkers};
+  for (const auto& [label, summary] : table.items()) {
+    const Json rate = summary.value(key, Json());
+    if (rate.is_null() || rate["rate"].is_null()) continue;
+    const double low = rate["low"], high = rate["high"];
+    series.x.push_back(static_cast<double>(chart.categories.size()));
+    series.y.push_back(0.5 * (low + high));
+    series.error.push_back(0.5 * (high - low));
+    chart.categories.push_back(label);
+  }
+  chart.series.push_back(series);
+  chart.legend = false;
+  if (!series.x.empty()) page.chart(chart, "Bars are Wilson's 95 % intervals.");
+}
+
+void add_holdout(HtmlReport& page, const Json& scenarios) {
+  Chart chart{"Hold-out error of every scenario",
+              "as given, over the true law's",
+              "with the findings, over the true law's",
+              {},
+              {},
+              true,
+              720,
+              320};
+  Series series{"scenario", {}, {}, {}, Series::Style::kMarkers};
+  for (const Json& s : scenarios) {
+    const Json& h = s["holdout"];
+    if (!h.contains("after") || !h.contains("oracle")) continue;
+    series.x.push_back(h["before"].get<double>() / h["oracle"].get<double>());
+    series.y.push_back(h["after"].get<double>() / h["oracle"].get<double>());
+  }
+  chart.series.push_back(series);
+  chart.legend = false;
+  if (!series.x.empty()) page.chart(chart, "1 is the error of the true law at the true pose.");
+}
+
+void add_failures(HtmlReport& page, const Json& scenarios) {
+  page.heading("Where it fails");
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& s : scenarios) {
+    if (s["verdict_right"].get<bool>() && s["false_names"] == 0 &&
+        (s["class_set"].get<bool>() || s["group"] == "unlisted" || s["group"] == "faint")) {
+      continue;
+    }
+    rows.push_back({s["id"], s["drawn"], s["hidden"].dump(), s["named"].dump(), s["verdict"],
+                    s["seconds"].dump()});
+  }
+  page.table({"scenario", "drawn", "hidden", "named", "verdict", "seconds"}, rows);
+}
+
+}  // namespace
+
+std::string challenge_text(const Json& scores) {
+  std::string text = std::to_string(scores["scenarios"].size()) + " scenarios of seed " +
+                     scores["seed"].dump() + ", sealed " + scores["sha256"].get<std::string>() +
+                     "\n";
+  for (const auto& [key, heading] : kHeadline) {
+    const std::string value = cell(scores["tables"]["all"].value(key, Json()));
+    if (value.empty()) continue;
+    std::string label = heading;
+    label.resize(46, ' ');
+    text += label + value + "\n";
+  }
+  if (!scores["missing"].empty()) text += "not yet run: " + scores["missing"].dump() + "\n";
+  return text;
+}
+
+std::string challenge_html(const Json& scores) {
+  HtmlReport page("Sealed challenge");
+  page.preformatted(challenge_text(scores));
+  page.paragraph(
+      "Rates with Wilson's 95 % intervals. The answers were sealed before the first diagnosis; "
+      "their "
+      "SHA-256 is above. Amplitudes are the rms of what an effect alone changes on its strongest "
+      "axis, in standard deviations of the sensor noise.");
+  const Json& tables = scores["tables"];
+  add_rates(page, tables["effect"], "found_class", "Effects found");
+  add_rates(page, tables["amplitude"], "found_class", "Effects found, by amplitude");
+  add_holdout(page, scores["scenarios"]);
+  const Columns effects{{"found", "named"},
+                        {"found_class", "or an alternative"},
+                        {"axis", "axis"},
+                        {"interval_overlap", "overlap of intervals"},
+                        {"parameter_error", "relative error of a number"},
+                        {"coverage", "truth within ci95"}};
+  add_table(page, "By effect", tables["effect"], effects);
+  add_table(page, "By amplitude", tables["amplitude"], effects);
+  const Columns groups{{"set", "all named, nothing else"},
+                       {"class_set", "the same, alternatives count"},
+                       {"false_discovery", "false names"},
+                       {"null_specificity", "\"consistent\" where nothing is hidden"},
+                       {"null_without_name", "no name there"},
+                       {"abstention", "no name for what has none"},
+                       {"verdict", "verdict"},
+                       {"after_over_oracle", "hold-out over the true law's"}};
+  add_table(page, "By group", tables["group"], groups);
+  add_table(page, "By motion", tables["motion"], groups);
+  add_table(page, "By noise", tables["noise"], groups);
+  add_failures(page, scores["scenarios"]);
+  return page.html();
+}
+
+void write_challenge(const std::filesystem::path& folder, const Json& scores) {
+  write_file(folder / "scores.json", scores.dump(1) + "\n");
+  write_file(folder / "report.html", challenge_html(scores));
+}
+
+}  // namespace dcnn

@@ -1,0 +1,32 @@
+#include <cmath>
+
+#include "physics/friction.h"
+
+namespace dcnn {
+namespace {
+
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
+           Options& parameters) {
+  const double c = parameter(parameters, "delta_c_nspm");
+  resist(wrench, line_of(spec.axis, motion), [=](double v, Index) { return c * std::abs(v); });
+}
+
+}  // namespace
+
+// A difference in the dry part is no effect of its own: while the axis moves it is an offset.
+const EffectKind asymmetric_friction_effect{
+    .name = "asymmetric_friction",
+    .stage = Stage::kForce,
+    .kind = "structural",
+    .meaning = "friction that grows more with speed in one direction, half the difference",
+    .equation = "-delta_c abs(v) n",
+    .example = R"({"delta_c_nspm": 0.5})",
+    .axis = AxisRule::kLine,
+    .machines_only = true,
+    .apply = apply,
+    .fits = {{.amplitudes = 1,
+              .parameters = [](const Eigen::VectorXd& a,
+                               const Eigen::VectorXd&) { return Json{{"delta_c_nspm", a(0)}}; }}},
+};
+
+}  // namespace dcnn

@@ -1,0 +1,30 @@
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
+           Options& parameters) {
+  const double k3 = parameter(parameters, "k3_nprad3");
+  const AngleLine line = angle_line_of(spec.axis, motion);
+  wrench.force -= (k3 * line.angle.array().cube()).matrix().asDiagonal() * line.n_S;
+}
+
+}  // namespace
+
+const EffectKind cubic_spring_effect{
+    .name = "cubic_spring",
+    .stage = Stage::kForce,
+    .kind = "structural",
+    .meaning = "spring that stiffens (or softens) with the cube of a position q",
+    .equation = "-k3 q^3 n",
+    .example = R"({"k3_nprad3": 0.4})",
+    .axis = AxisRule::kAngle,
+    .machines_only = true,
+    .apply = apply,
+    .fits = {{.amplitudes = 1,
+              .parameters = [](const Eigen::VectorXd& a,
+                               const Eigen::VectorXd&) { return Json{{"k3_nprad3", a(0)}}; }}},
+};
+
+}  // namespace dcnn

@@ -1,0 +1,39 @@
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
+           Options& parameters) {
+  const double inertia = parameter(parameters, "delta_inertia_kg");
+  const bool turns = spec.axis.starts_with("w_");
+  require(turns || motion.a_B.rows() == motion.samples(), Exit::kData, motion.recording,
+          ": inertia needs an acceleration; log x,y,z or ax,ay,az");
+  const Line line = line_of(spec.axis, motion);
+  for (Index k = 0; k < motion.samples(); ++k) {
+    const Eigen::RowVector3d n = line.n_S.row(k);
+    const double along =
+        turns ? n.dot(motion.dw_S.row(k))
+              : (n * motion.R_BS[static_cast<std::size_t>(k)].transpose()).dot(motion.a_B.row(k));
+    wrench.force.row(k) -= inertia * along * n;
+  }
+}
+
+}  // namespace
+
+const EffectKind inertia_effect{
+    .name = "inertia",
+    .stage = Stage::kForce,
+    .kind = "parameter",
+    .meaning = "more (or less) inertia than simulated",
+    .equation = "-delta_inertia dv/dt n",
+    .example = R"({"delta_inertia_kg": 0.2})",
+    .axis = AxisRule::kLine,
+    .machines_only = true,
+    .apply = apply,
+    .fits = {{.amplitudes = 1,
+              .parameters = [](const Eigen::VectorXd& a,
+                               const Eigen::VectorXd&) { return Json{{"delta_inertia_kg", a(0)}}; }}},
+};
+
+}  // namespace dcnn

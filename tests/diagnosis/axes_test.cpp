@@ -1,0 +1,234 @@
+// The diagnosis of axes of other machines, on axes simulated here.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "dcnn/core/file.h"
+#include "dcnn/core/random.h"
+#include "dcnn/diagnosis/diagnose.h"
+#include "dcnn/experiment/diagnosis_report.h"
+#include "dcnn/physics/axis_machine.h"
+#include "support/process.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kRate = 250.0, kNoise = 0.05, kInertia = 3.0;
+
+struct State {
+  double t, q, v, a;
+};
+
+/// What the drive shows beside the inertia.
+using Law = std::function<double(const State&)>;
+
+State state_at(double t) {
+  State s{t, 0.0, 0.0, 0.0};
+  const double hz[] = {0.11, 0.27, 0.53, 0.97};
+  for (int k = 0; k < 4; ++k) {
+    const double w = 2.0 * std::numbers::pi * hz[k], phase = 1.3 * k * k, size = 0.3 / (1 + k);
+    s.q += size * std::sin(w * t + phase);
+    s.v += size * w * std::cos(w * t + phase);
+    s.a -= size * w * w * std::sin(w * t + phase);
+  }
+  return s;
+}
+
+void write_log(const std::filesystem::path& path, double begin, const Law& law, std::uint64_t seed) {
+  constexpr Index kSamples = 5000;
+  Rng rng({seed});
+  Table table;
+  table.columns = {"t", "pos", "vel", "acc", "torque", "simulated"};
+  table.values.resize(kSamples, 6);
+  for (Index k = 0; k < kSamples; ++k) {
+    const State s = state_at(begin + static_cast<double>(k) / kRate);
+    const double torque = kInertia * s.a + law(s) + kNoise * rng.normal();
+    table.values.row(k) << s.t, s.q, s.v, s.a, torque, kInertia * s.a;
+  }
+  write_csv(path, table);
+}
+
+/// One axis with a hidden law, in a folder of its own.
+class Bench {
+ public:
+  explicit Bench(const Law& law) {
+    write_log(folder_ / "fit.csv", 0.0, law, 1);
+    write_log(folder_ / "hold.csv", 25.0, law, 2);
+  }
+  Diagnosis diagnose(Json system) const {
+    write_file(folder_ / "system.json", system.dump());
+    DiagnosisRequest request;
+    request.system = folder_ / "system.json";
+    request.fit = {folder_ / "fit.csv"};
+    request.holdout = {folder_ / "hold.csv"};
+    return dcnn::diagnose(request, nullptr);
+  }
+  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
+
+ private:
+  test::TemporaryFolder folder_;
+};
+
+Json one_axis(const Json& more = {{"base", {"acceleration"}}}) {
+  Json axis{{"name", "wheel"},    {"measured", "torque"}, {"unit", "N*m"},
+            {"position", "pos"},  {"velocity", "vel"},    {"acceleration", "acc"}};
+  axis.update(more);
+  return {{"kind", "axes"}, {"axes", {axis}}};
+}
+
+const Json* find(const Json& report, const std::string& effect) {
+  for (const Json& f : report["findings"]) {
+    if (f["effect"] == effect) return &f;
+  }
+  return nullptr;
+}
+
+/// The finding's number, with its unit checked.
+double number(const Json& finding, const char* name, const char* unit) {
+  EXPECT_EQ(finding["parameters"][name]["unit"], unit) << finding.dump();
+  EXPECT_LT(finding["parameters"][name]["ci95"][0], finding["parameters"][name]["ci95"][1]);
+  return finding["parameters"][name]["value"];
+}
+
+TEST(DiagnoseAxes, SaysThatNothingIsMissing) {
+  const Json report = Bench([](const State&) { return 0.0; }).diagnose(one_axis()).report;
+  EXPECT_EQ(report["verdict"], "consistent") << report["findings"].dump(1);
+  EXPECT_EQ(report["targets"], Json::array({"torque"}));
+  EXPECT_EQ(report["units"], Json::array({"N*m"}));
+  EXPECT_NEAR(report["fit"]["noise_floor"][0].get<double>(), kNoise, 0.005);
+  EXPECT_NEAR(report["fit"]["holdout_rmse_after"][0].get<double>(), kNoise, 0.003);
+}
+
+TEST(DiagnoseAxes, NamesDryFrictionAndAnOffsetWithTheirValues) {
+  const Bench bench([](const State& s) { return 0.8 * std::tanh(s.v / 0.01) - 0.3; });
+  const Diagnosis diagnosis = bench.diagnose(one_axis());
+  const Json& report = diagnosis.report;
+  EXPECT_EQ(report["verdict"], "explained") << report.dump(1);
+  ASSERT_EQ(report["findings"].size(), 2U) << report["findings"].dump(1);
+  const Json *dry = find(report, "coulomb_friction"), *offset = find(report, "bias");
+  ASSERT_TRUE(dry && offset);
+  EXPECT_EQ((*dry)["axis"], "wheel");
+  EXPECT_NEAR(number(*dry, "fc", "N*m"), 0.8, 0.02);
+  EXPECT_NEAR(number(*dry, "v0", "rad/s"), 0.01, 0.01);
+  EXPECT_NEAR(number(*offset, "delta_bias", "N*m"), -0.3, 0.02);
+  EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 1.05 * kNoise);
+  EXPECT_GT(report["fit"]["holdout_rmse_before"][0].get<double>(), 0.5);
+
+  // model.json alone says what the report's prediction file says.
+  write_diagnosis(bench / "out", diagnosis);
+  const AxisMachine machine =
+      parse_axis_machine(read_json(bench / "out/model.json", Exit::kModel), "model", Exit::kModel);
+  const Recording hold = read_recording(bench / "hold.csv", ReadOptions(), machine.system);
+  const Table written = read_csv(bench / "out/holdout_0_pred.csv");
+  ASSERT_EQ(written.columns, (std::vector<std::string>{"t", "torque"}));
+  EXPECT_LT((written.values.col(1) - predict_axes(machine, hold)).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(DiagnoseAxes, NamesACubicSpring) {
+  const Bench bench([](const State& s) { return 0.6 * s.q + 2.0 * s.q * s.q * s.q; });
+  const Json report =
+      bench.diagnose(one_axis({{"base", {"acceleration", "velocity", "position"}}})).report;
+  ASSERT_EQ(report["findings"].size(), 1U) << report["findings"].dump(1);
+  const Json* spring = find(report, "cubic_spring");
+  ASSERT_TRUE(spring) << report["findings"].dump(1);
+  EXPECT_NEAR(number(*spring, "k3", "N*m/rad^3"), 2.0, 0.1);
+}
+
+TEST(DiagnoseAxes, ComparesWithASimulatorsColumn) {
+  const Bench bench([](const State& s) { return 0.1 * kInertia * s.a + 0.4 * s.v; });
+  Json system = one_axis({{"simulated", "simulated"}, {"scale", -2.0}, {"unit", "A"}});
+  for (const char* file : {"fit.csv", "hold.csv"}) {  // logged with another sign and scale
+    Table table = read_csv(bench / file);
+    table.values.col(4) *= -0.5;
+    write_csv(bench / file, table);
+  }
+  const Json report = bench.diagnose(system).report;
+  ASSERT_EQ(report["findings"].size(), 2U) << report["findings"].dump(1);
+  const Json* friction = find(report, "viscous_friction");
+  ASSERT_TRUE(friction);
+  EXPECT_NEAR(number(*friction, "c", "A*s/rad"), 0.4, 0.02);
+  // All the simulator says is the inertial torque: its scale or the inertia are the same fault.
+  EXPECT_TRUE(find(report, "gain") || find(report, "inertia"));
+}
+
+TEST(DiagnoseAxes, DoesNotNameWhatItDoesNotKnow) {
+  const Json report =
+      Bench([](const State& s) { return 0.7 * std::sin(3.0 * s.q) * s.v * s.a; })
+          .diagnose(one_axis()).report;
+  EXPECT_TRUE(report["verdict"] == "unexplained" || report["verdict"] == "partly-explained")
+      << report["verdict"];
+  EXPECT_GT(report["unnamed"]["excess_rms"][0].get<double>(), 0.05);
+}
+
+TEST(DiagnoseAxes, LowPassesBothSidesAndShowsTheRawFiguresBeside) {
+  const Bench bench([](const State& s) { return 0.8 * std::tanh(s.v / 0.01); });
+  Json system = one_axis();
+  system["lowpass_hz"] = 10;
+  const Json report = bench.diagnose(system).report;
+  ASSERT_TRUE(find(report, "coulomb_friction")) << report["findings"].dump(1);
+  const Json& fit = report["fit"];
+  // White noise behind a filter of 10 Hz of 125: a quarter is left.
+  EXPECT_LT(fit["holdout_rmse_after"][0].get<double>(), 0.35 * kNoise);
+  EXPECT_NEAR(fit["unfiltered"]["holdout_rmse_after"][0].get<double>(), kNoise, 0.005);
+  EXPECT_NEAR(fit["noise_floor"][0].get<double>(), 0.28 * kNoise, 0.03 * kNoise);
+  EXPECT_EQ(report["lowpass_hz"], 10);
+}
+
+TEST(DiagnoseAxes, PutsAxesSideBySide) {
+  const Bench bench([](const State& s) { return 0.8 * std::tanh(s.v / 0.01); });
+  Json system = one_axis();
+  Json second = system["axes"][0];
+  second["name"] = "still";
+  second["measured"] = "simulated";
+  second["base"] = Json::array({"acceleration"});
+  system["axes"].push_back(second);
+  for (const char* file : {"fit.csv", "hold.csv"}) {
+    Table table = read_csv(bench / file);
+    Rng rng({7u});
+    for (double& v : table.values.col(5)) v += kNoise * rng.normal();
+    write_csv(bench / file, table);
+  }
+  const Diagnosis diagnosis = bench.diagnose(system);
+  EXPECT_EQ(diagnosis.report["targets"], Json::array({"torque", "simulated"}));
+  EXPECT_EQ(diagnosis.report["fit"]["holdout_rmse_after"].size(), 2U);
+  ASSERT_EQ(diagnosis.report["findings"].size(), 1U);
+  EXPECT_EQ(diagnosis.report["findings"][0]["axis"], "wheel");
+  EXPECT_EQ(diagnosis.holdout.front().after.cols(), 2);
+}
+
+std::string refusal(const Bench& bench, const Json& system) {
+  try {
+    bench.diagnose(system);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit(), Exit::kData);
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    return error.what();
+  }
+  ADD_FAILURE() << "accepted " << system.dump();
+  return "";
+}
+
+TEST(DiagnoseAxes, RefusesBadDescriptionsInOneLine) {
+  const Bench bench([](const State&) { return 0.0; });
+  const auto says = [&](const Json& system, const char* what) {
+    EXPECT_NE(refusal(bench, system).find(what), std::string::npos) << refusal(bench, system);
+  };
+  says(one_axis({{"base", {"acceleration", "jerk"}}}), "jerk");
+  says(one_axis({{"simulated", "nothing"}}), "nothing");
+  says(one_axis(Json::object()), "simulator");
+  says(one_axis({{"base", {"acceleration"}}, {"simulated", "simulated"}}), "excludes");
+  Json arm = one_axis(Json::object());
+  arm["arm"] = {{"convention", "modified"}, {"dh", {{0, 0, 0, 0}, {1, 0, 0, 0}}}};
+  says(arm, "dh");
+  arm["arm"] = {{"convention", "upside-down"}, {"dh", {{0, 0, 0, 0}}}};
+  says(arm, "convention");
+  Json fast = one_axis();
+  fast["lowpass_hz"] = 500;
+  says(fast, "lowpass_hz");
+  says({{"kind", "wrist"}}, "--sim");
+}
+
+}  // namespace
+}  // namespace dcnn

@@ -1,0 +1,96 @@
+#include <iostream>
+
+#include "dcnn/conceal/challenge.h"
+#include "dcnn/conceal/inject.h"
+#include "dcnn/experiment/challenge_report.h"
+#include "support/progress.h"
+#include "support/tool.h"
+
+namespace {
+
+using namespace dcnn;
+
+constexpr const char* kExamples =
+    "  dcnn-conceal --scenarios 30 --seed 1 --out set --seal set.sealed.json\n"
+    "  dcnn-conceal --scenario single:0.5/coulomb_friction/7 --seed 1 --out set --seal one.json\n"
+    "  dcnn-diagnose --sim set/s0001/sim.json --fit set/s0001/fit_*.csv \\\n"
+    "    --holdout set/s0001/holdout_*.csv --out set/reports/s0001\n"
+    "  dcnn-conceal --inject coulomb_friction@tool_z --amplitude 0.5 --motion log.csv \\\n"
+    "    --sim sim.json --out hidden --seal hidden.sealed.json       # in your own recording\n"
+    "  dcnn-conceal --score --out set --seal set.sealed.json    # set/scores.json, "
+    "set/report.html\n";
+
+Exit print(const Tool& tool, std::size_t scenarios, std::uint64_t seed, const std::string& digest,
+           const std::filesystem::path& seal) {
+  if (tool.common().json) {
+    Tool::print({{"scenarios", scenarios}, {"seed", seed}, {"sha256", digest}});
+  } else {
+    std::cout << digest << "  " << seal.string() << "\n";
+  }
+  return Exit::kDone;
+}
+
+/// Opens the seal: OUT/scores.json and OUT/report.html.
+Exit judge(const Tool& tool, const std::filesystem::path& out, const std::filesystem::path& seal) {
+  const Json scores = conceal::score_challenge(out, seal);
+  write_challenge(out, scores);
+  if (tool.common().json) {
+    Tool::print(scores);
+  } else {
+    std::cout << challenge_text(scores);
+  }
+  return Exit::kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("dcnn-conceal",
+            "Makes recordings in which effects are concealed, with the simulator that knows "
+            "nothing of them, and seals the answers: their SHA-256 is printed and stored before "
+            "anybody looks. --score opens the seal.",
+            kExamples);
+  int scenarios = 0;
+  bool score = false;
+  std::vector<std::string> ids;
+  std::filesystem::path out, seal;
+  conceal::Injection injection;
+  auto& app = tool.app();
+  auto* many = app.add_option("--scenarios", scenarios, "how many, of every group its share");
+  app.add_option("--scenario", ids, "these, as a sealed file names them under `drawn`")
+      ->excludes(many);
+  app.add_flag("--score", score, "score OUT/reports/*/report.json against the seal")
+      ->excludes(many);
+  app.add_option("--out", out, "folder of the scenarios")->required();
+  app.add_option("--seal", seal, "file of the answers, outside that folder")->required();
+
+  auto* what = app.add_option("--inject", injection.what,
+                              "effect, effect@axis or a JSON file of effects to hide in --motion");
+  what->excludes(many)
+      ->needs(app.add_option("--motion", injection.motion, "recordings of a tool"))
+      ->needs(app.add_option("--sim", injection.simulator, "their simulator (sim.json)"));
+  app.add_option("--amplitude", injection.amplitude, "of --inject, in the log's noise")
+      ->capture_default_str()
+      ->check(CLI::PositiveNumber)
+      ->needs(what);
+  const ReadFlags read(app);
+
+  return tool.run(argc, argv, [&] {
+    if (score) return judge(tool, out, seal);
+    const std::uint64_t seed = tool.common().seed.value_or(1);
+    if (*what) {
+      injection.read = read.options();
+      return print(tool, 1, seed, conceal::inject(injection, seed, out, seal), seal);
+    }
+    require(scenarios > 0 || !ids.empty(), Exit::kUsage,
+            "give --scenarios, --scenario, --inject or --score");
+    if (ids.empty()) ids = conceal::plan(scenarios, seed);
+    Progress bar(tool.common().quiet);
+    const std::string digest =
+        conceal::conceal_challenge(ids, seed, out, seal, [&](int done, int total) {
+          bar.update(static_cast<double>(done) / total, std::to_string(done) + " scenarios");
+        });
+    bar.clear();
+    return print(tool, ids.size(), seed, digest, seal);
+  });
+}
