@@ -4,6 +4,7 @@
 
 #include "models/frame_tcn/material.h"
 #include "models/frame_tcn/model.h"
+#include "models/frame_tcn/pose_noise_moments.h"
 
 namespace dcnn::frame_tcn {
 namespace {
@@ -138,6 +139,36 @@ TEST(FrameTcn, YoungSegmentsGetTheBestEstimateOfTheBlocksTheyHave) {
     const Eigen::MatrixXd w = wiener(walk, noise, known);
     EXPECT_LT((w.row(0).head(known).transpose() - weights).norm(), 1e-5) << known << " samples";
   }
+}
+
+TEST(FrameTcn, NoiseOnThePoseHasTheVarianceOfTheDerivativesWeights) {
+  FeatureLayout layout;
+  layout.dt = 0.002;
+  layout.pose_deviation = Eigen::VectorXd::LinSpaced(6, 1.0, 6.0);  // alpha: 4
+  const PoseNoiseMoments noise(layout);
+  const Eigen::VectorXd one = Eigen::VectorXd::Ones(kChannels);
+  const auto variance = [&](int derivative, double at) {
+    const double w = savitzky_golay_weights(51, 3, derivative, at).norm();
+    return 16.0 * std::pow(w / std::pow(0.002, derivative), 2.0);
+  };
+  const Eigen::MatrixXd old = noise.of(0, 0, one, one), young = noise.of(0, 1, one, one);
+  EXPECT_NEAR(old(0, 0), 16.0, 1e-9);
+  EXPECT_NEAR(old(8, 8), 8.0, 1e-9) << "two samples";
+  EXPECT_NEAR(old(kBlocks, kBlocks) / variance(1, 25.0), 1.0, 1e-9);
+  EXPECT_NEAR(old(2 * kBlocks, 2 * kBlocks) / variance(2, 25.0), 1.0, 1e-9);
+  EXPECT_NEAR(young(2 * kBlocks, 2 * kBlocks) / variance(2, 0.0), 1.0, 1e-9) << "the first row";
+  EXPECT_EQ(young(1, 1), 0.0) << "a block that it does not know";
+}
+
+TEST(FrameTcn, AnUnknownLevelIsThatOfTheOthersOrTheWorst) {
+  Rng rng(1);
+  Net net({2, 1, true}, rng);
+  net.level_noisy.setConstant(3.0);
+  Eigen::MatrixXd rough = Eigen::MatrixXd::Constant(kChannels, 2, kUnknown);
+  rough.col(1).head(2) << 1e-2, 1e-4;  // levels -1 and -2
+  const Eigen::MatrixXd level = net.standard_levels(rough);
+  EXPECT_TRUE(level.col(0).isConstant(3.0));
+  EXPECT_TRUE(level.col(1).tail(13).isConstant(-1.5));
 }
 
 TEST(FrameTcn, GradientsAgreeWithDifferences) {
