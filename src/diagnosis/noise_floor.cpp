@@ -84,20 +84,25 @@ struct Whittle {
   double level = 0.0, likelihood = 0.0;
 };
 
-/// The level of noise of this shape, and its log-likelihood up to a constant, with ratios far above
-/// it clipped.
-Whittle fit_level(const Eigen::VectorXd& density, const Eigen::VectorXd& shape, double windows) {
-  std::vector<double> ratios;
-  for (Index i = 0; i < density.size(); ++i) ratios.push_back(density(i) / shape(i));
-  const double middle = median(ratios);
-  double sum = 0.0;
-  for (double& ratio : ratios) sum += ratio = std::min(ratio, 3.0 * middle);
-  Whittle fit;
-  fit.level = sum / static_cast<double>(ratios.size());
-  for (std::size_t i = 0; i < ratios.size(); ++i) {
-    fit.likelihood -= std::log(fit.level * shape(static_cast<Index>(i))) + ratios[i] / fit.level;
+/// Lines replaced by the level beside them.
+Eigen::VectorXd without_lines(const Eigen::VectorXd& density) {
+  constexpr Index kBeside = 10;  // bins
+  Eigen::VectorXd smooth = density;
+  for (Index i = 0; i < density.size(); ++i) {
+    const Index first = std::max<Index>(0, i - kBeside);
+    const Index last = std::min(density.size(), i + kBeside + 1);
+    const double level = median({density.data() + first, density.data() + last});
+    smooth(i) = density(i) < 3.0 * level ? density(i) : level;
   }
-  fit.likelihood *= windows;
+  return smooth;
+}
+
+/// The level of noise of this shape, and its log-likelihood up to a constant.
+Whittle fit_level(const Eigen::VectorXd& density, const Eigen::VectorXd& shape, double windows) {
+  Whittle fit;
+  fit.level = density.cwiseQuotient(shape).mean();
+  const auto n = static_cast<double>(density.size());
+  fit.likelihood = -windows * (shape.array().log().sum() + n * (std::log(fit.level) + 1.0));
   return fit;
 }
 
@@ -107,7 +112,7 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
   const Whittle white = fit_level(density, Eigen::VectorXd::Ones(density.size()), windows);
   best.white = white.level;
   double most = white.likelihood + kColourGain;
-  for (const double rho : {0.3, 0.5, 0.7, 0.8, 0.87, 0.92, 0.95, 0.97, 0.985, 0.995}) {
+  for (const double rho : {0.3, 0.5, 0.7, 0.8, 0.86, 0.9, 0.93, 0.95, 0.97, 0.985, 0.995}) {
     for (const double share : {0.0, 0.01, 0.03, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85}) {
       const Eigen::VectorXd shape =
           hz.unaryExpr([&](double f) { return share + (1.0 - share) * ar_shape(rho, f, dt); });
@@ -215,7 +220,8 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual,
     }
     Floor floor;
     if (static_cast<Index>(quiet.size()) >= kFewestBins && p.power.cols() > 0) {
-      floor = fit_floor(density(quiet), p.hz(quiet), dt, static_cast<double>(p.power.cols()));
+      floor = fit_floor(without_lines(density(quiet)), p.hz(quiet), dt,
+                        static_cast<double>(p.power.cols()));
     }
     floor.lowpass_hz = study.lowpass_hz;
     floor.dt = dt;

@@ -113,7 +113,24 @@ std::optional<double> Scan::least_detectable(const Member& member) const {
   return most / scale * needed / std::sqrt(energy);
 }
 
-Trial Scan::refine(const Trial& start, Detail detail, int evaluations) const {
+/// A line over all recordings is far narrower than one in a recording, from which its frequency was
+/// seeded: the best of a comb first.
+Trial Scan::tuned(const Trial& start, Detail detail) const {
+  Trial best = start;
+  const double width = 0.6 / longest_seconds(setting_.study);
+  const double step = std::max(0.25 / span_seconds(setting_.study), width / 40.0);
+  for (double away = -width; away <= width; away += step) {
+    Member member = start.member;
+    member.shapes(0) += away;
+    const Trial trial = evaluate(member, detail);
+    if (trial.gain > best.gain) best = trial;
+  }
+  return best;
+}
+
+Trial Scan::refine(const Trial& seed, Detail detail, int evaluations) const {
+  const bool is_line = seed.member.name() == "hum";
+  const Trial start = is_line && detail == Detail::kCoarse ? tuned(seed, detail) : seed;
   const auto& shapes = start.member.form->shapes;
   const Index n = start.member.shapes.size();
   if (n == 0) return start;
@@ -123,7 +140,8 @@ Trial Scan::refine(const Trial& start, Detail detail, int evaluations) const {
     x(i) = search_scale(shape, start.member.shapes(i));
     size(i) = shape.low > 0.0 ? 0.4 : 0.15 * (shape.high - shape.low);
     if (detail == Detail::kFine) size(i) *= 0.2;
-    if (start.member.name() == "hum" || start.member.name() == "cogging") size(i) = 0.01;
+    if (start.member.name() == "cogging") size(i) = 0.01;
+    if (is_line) size(i) = 0.1 / (span_seconds(setting_.study) * start.member.shapes(i));
     if (start.member.name() == "flexible_resonance" && i == 0) size(i) = 0.05;
   }
   Trial best = start;
@@ -180,7 +198,9 @@ Eigen::VectorXd simplex_search(const std::function<double(const Eigen::VectorXd&
         }
       }
     }
-    if ((points.back().second - points.front().second).cwiseAbs().maxCoeff() < 1e-4) break;
+    if ((points.back().second - points.front().second).cwiseAbs().maxCoeff() <
+        1e-3 * size.maxCoeff())
+      break;
   }
   return std::min_element(points.begin(), points.end(), by_value)->second;
 }

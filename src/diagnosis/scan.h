@@ -42,6 +42,8 @@ class Scan {
   const Chain& chain() const { return chain_; }
 
  private:
+  Trial tuned(const Trial& start, Detail detail) const;
+
   const Setting& setting_;
   Chain chain_;
   Chain coarse_chain_;
