@@ -82,17 +82,6 @@ void Search::judge() {
   const double explained = std::max(0.0, chi2_before_ - fit_.chi2);
   remains_ = is_alarming(bands_, explained);
   if (!remains_) return;
-    for (auto& b : bands_)
-      fprintf(stderr, "band %g-%g z %.1f excess %.0f\n", b.from_hz, b.to_hz, b.z, b.excess);
-    for (auto& m : fit_.members)
-      fprintf(stderr, "  member %s %s %g\n", m.name().c_str(), m.axis.c_str(),
-              m.shapes.size() ? m.shapes(0) : 0.);
-    for (auto& f : floors_)
-      fprintf(stderr, "  floor w %g c %g rho %g fl %g pose %g %g\n", f.white, f.coloured, f.rho,
-              f.flicker, f.static_part, f.moving_part);
-    fprintf(stderr, "cutoff %g chi2 %.0f rows %d\n", study_.derivative.cutoff_hz, fit_.chi2,
-            int(fit_.residual.size()));
-  }
   say("something is left that no effect explains: names are tested again");
   if (events_allowed_) {
     events_allowed_ = false;
