@@ -5,7 +5,6 @@
 namespace dcnn::frame_tcn {
 namespace {
 
-constexpr Index kFewest = 4;  // differences that a level is judged from
 constexpr Index kFirst = 16;  // rows whose mean stands for those before a segment
 
 }  // namespace
@@ -52,7 +51,7 @@ void BlockMeans::write(Index row, Index channel, Index count, double* out) const
 }
 
 Eigen::MatrixXd roughness(const Eigen::MatrixXd& u, const Eigen::MatrixXd& w,
-                          const std::vector<Segment>& segments, Index edge) {
+                          const std::vector<Segment>& segments, Index edge, Index fewest) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Constant(u.cols(), u.rows(), kUnknown);
   for (const Segment& s : stretches(u.rows(), segments)) {
     Eigen::VectorXd sum(s.size() + 1);
@@ -65,7 +64,7 @@ Eigen::MatrixXd roughness(const Eigen::MatrixXd& u, const Eigen::MatrixXd& w,
       for (Index i = 0; i < s.size(); ++i) {
         sum[i + 1] = sum[i] + (i < begin ? 0.0 : bend(u, s.begin + i) * bend(w, s.begin + i));
         const Index low = std::max(begin, i + 1 - kLevelSpan);
-        if (i + 1 - low >= kFewest) {
+        if (i + 1 - low >= fewest) {
           result(j, s.begin + i) = (sum[i + 1] - sum[low]) / static_cast<double>(i + 1 - low);
         }
       }

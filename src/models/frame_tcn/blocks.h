@@ -14,6 +14,7 @@ constexpr Index kBlocks = 48;    ///< 8 each of 1, 2, 4, 8, 16 and 32 samples
 constexpr Index kSpan = 504;     ///< samples that the blocks cover
 constexpr Index kLevelSpan = 256;
 constexpr double kUnknown = -1.0;
+constexpr Index kFewest = 4;  ///< differences that a level is judged from
 
 /// Samples of block k; k = 0 is the newest sample.
 constexpr Index block_size(Index k) { return Index{1} << (k / 8); }
@@ -38,9 +39,9 @@ class BlockMeans {
 
 /// Mean over the last 256 rows of the segment of the product of the second differences of u and w,
 /// (C, N). The first `edge` rows of the rates, channel 3 and above, do not count; kUnknown where
-/// fewer than 4 differences do.
+/// fewer than `fewest` differences do.
 Eigen::MatrixXd roughness(const Eigen::MatrixXd& u, const Eigen::MatrixXd& w,
-                          const std::vector<Segment>& segments, Index edge);
+                          const std::vector<Segment>& segments, Index edge, Index fewest = kFewest);
 
 /// 0.5 log10 of a mean square, held above 1e-8 of the unit.
 Eigen::MatrixXd levels(const Eigen::MatrixXd& mean_square);

@@ -36,7 +36,7 @@ double bend(const double* means) {
 
 Eigen::MatrixXd motion_signs(const Eigen::MatrixXd& x, const std::vector<Segment>& segments) {
   Eigen::MatrixXd square = Eigen::MatrixXd::Zero(3 * kKinds, x.rows());
-  const Eigen::MatrixXd rough = roughness(x, x, segments, 0);
+  const Eigen::MatrixXd rough = roughness(x, x, segments, 0, 1);
   const BlockMeans blocks(x, segments);
   double means[kBlocks];
   for (Index i = 0; i < x.rows(); ++i) {
