@@ -130,7 +130,12 @@ void write_teleop(const std::filesystem::path& folder, const TeleopConfig& confi
     }
     write_csv(folder / (result.name + ".csv"), signals(result.trace));
   }
-  write_file(folder / "frames.svg", frames_svg(config));
+  const std::string frames = frames_svg(config);
+  page.heading("Frames");
+  page.drawing(frames,
+               "Fig. 1 at the places of the configuration. The camera is carried and not used; the "
+               "hand moves along the slave's axes.");
+  write_file(folder / "frames.svg", frames);
   write_file(folder / "report.html", page.html());
   write_file(folder / "teleop.json", Json{{"variants", variants}}.dump(2) + "\n");
 }
