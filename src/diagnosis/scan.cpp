@@ -65,6 +65,7 @@ Eigen::MatrixXd Scan::columns(const Member& member, Detail detail) const {
 Trial Scan::evaluate(const Member& member, Detail detail) const {
   Trial trial;
   trial.member = member;
+  trial.price = setting_.price;
   const Eigen::MatrixXd raw = columns(member, detail), c = off_model(raw);
   const double energy = raw.squaredNorm();
   trial.kept = energy > 0.0 ? c.squaredNorm() / energy : 0.0;
