@@ -14,6 +14,7 @@ bool is_itself(const Case& study, const Member& member) {
   const std::string name = member.name();
   // On an axis the position says which way a force resists.
   if (study.axis && name == "hysteresis") return member.amplitudes(0) > 0.0;
+  if (study.axis && name == "flexible_resonance") return member.shapes(1) < 0.5;
   if (name != "stribeck_friction") return true;
   const double ratio = member.amplitudes(1) / std::max(1e-300, member.amplitudes(0));
   return ratio > 1.0 && (!study.axis || ratio < 4.0);

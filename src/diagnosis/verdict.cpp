@@ -78,6 +78,7 @@ void Search::drop_coincidences() {
 /// places and not in others.
 void Search::judge() {
   drop_coincidences();
+  if (study_.axis) keep_what_carries_over();
   bands_ = band_tests(*setting_, fit_.residual);
   const double explained = std::max(0.0, chi2_before_ - fit_.chi2);
   remains_ = is_alarming(bands_, explained);
@@ -96,6 +97,7 @@ void Search::judge() {
   }
   if (study_.axis) {
     keep_what_carries_over();
+    bands_ = band_tests(*setting_, fit_.residual);
     return;
   }
   for (bool changed = true; changed && !fit_.members.empty();) {
