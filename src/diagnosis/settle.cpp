@@ -34,6 +34,13 @@ void Search::make_setting(const std::vector<Member>& members) {
   const auto levels = noise_level(study_, raw);
   floors_ = noise_floor(study_, raw, levels);
   add_pose_noise(study_, floors_);
+  // What a machine leaves in the motion's band has nothing to do with the colour of the noise above it.
+  for (Floor& floor : floors_) {
+    if (!study_.axis) continue;
+    const double variance = floor.white + floor.coloured;
+    floor.white = variance;
+    floor.coloured = floor.flicker = 0.0;
+  }
   const Whitener whitener(study_, floors_, levels);
   const Index stride = whitener.coarse_stride();
   setting_ = std::make_unique<Setting>(Setting{
