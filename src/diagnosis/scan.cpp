@@ -14,6 +14,7 @@ bool is_itself(const Case& study, const Member& member) {
   const std::string name = member.name();
   // On an axis the position says which way a force resists.
   if (study.axis && name == "hysteresis") return member.amplitudes(0) > 0.0;
+  if (study.axis && name == "flexible_resonance") return member.shapes(1) < 0.5;
   if (name != "stribeck_friction") return true;
   const double ratio = member.amplitudes(1) / std::max(1e-300, member.amplitudes(0));
   return ratio > 1.0 && (!study.axis || ratio < 4.0);
@@ -65,6 +66,7 @@ Eigen::MatrixXd Scan::columns(const Member& member, Detail detail) const {
 Trial Scan::evaluate(const Member& member, Detail detail) const {
   Trial trial;
   trial.member = member;
+  trial.price = setting_.price;
   const Eigen::MatrixXd raw = columns(member, detail), c = off_model(raw);
   const double energy = raw.squaredNorm();
   trial.kept = energy > 0.0 ? c.squaredNorm() / energy : 0.0;

@@ -28,35 +28,10 @@ Eigen::VectorXd block_covariance(const Floor& floor, double cutoff_hz, Index blo
   return covariance;
 }
 
-/// The same of what a model leaves, read from it.
-Eigen::VectorXd shown_covariance(const Case& study, const Signals& left, Index channel, Index block,
-                                 int order) {
-  Eigen::VectorXd covariance = Eigen::VectorXd::Zero(order + 1);
-  double count = 0.0;
-  for (std::size_t k = 0; k < left.size(); ++k) {
-    for (const Segment& s : study.logs[k].motion.segments) {
-      const Index blocks = s.size() / block;
-      Eigen::VectorXd means(blocks);
-      for (Index b = 0; b < blocks; ++b) {
-        means(b) = left[k].col(channel).segment(s.begin + b * block, block).mean();
-      }
-      for (Index lag = 0; lag <= std::min<Index>(order, blocks - 1); ++lag) {
-        covariance(lag) += means.head(blocks - lag).dot(means.tail(blocks - lag));
-      }
-      count += static_cast<double>(blocks);
-    }
-  }
-  return covariance / std::max(1.0, count);
-}
-
 }  // namespace
 
 Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
                    const std::vector<Eigen::VectorXd>& levels)
-    : Whitener(study, floors, levels, nullptr) {}
-
-Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
-                   const std::vector<Eigen::VectorXd>& levels, const Signals* remainder)
     : floors_(floors), channels_(study.channel_count()) {
   const bool moving = !study.is_static();
   const double dt = moving ? study.dt() : 1.0;
@@ -74,10 +49,6 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
     if (!moving) {
       c.setZero();
       c(0) = floor.white + floor.coloured;
-    }
-    if (remainder) {
-      const Eigen::VectorXd shown = shown_covariance(study, *remainder, j, block_, longest);
-      if (shown(0) > c(0)) c = shown;
     }
     c(0) = std::max(c(0) * (1.0 + 1e-6), 1e-300);
     block_deviation_(j) = std::sqrt(c(0));

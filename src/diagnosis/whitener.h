@@ -12,10 +12,6 @@ class Whitener {
  public:
   Whitener(const Case& study, const std::vector<Floor>& floors,
            const std::vector<Eigen::VectorXd>& levels);
-  /// Whitens by the covariance that these signals themselves show, where it is above the floor's:
-  /// noise is then all that a model leaves.
-  Whitener(const Case& study, const std::vector<Floor>& floors,
-           const std::vector<Eigen::VectorXd>& levels, const Signals* remainder);
 
   /// The same map for signals seen at every stride-th sample (thinned()).
   Whitener at_stride(Index stride) const;
