@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kContact = 0.05;  // N, spec 8
 constexpr double kSettled = 1.0;   // s after the start
-constexpr double kMostCrossings = 6;
+constexpr Index kMostBounces = 2;
 
 /// Root mean square and largest size of what it was given.
 struct Size {
@@ -22,13 +22,17 @@ struct Size {
   Json maximum() const { return count ? Json(most) : Json(); }
 };
 
-/// Times that the slave lost the wall and came back: one contact has none.
-Index bounces(const Eigen::VectorXd& force) {
-  Index begins = 0;
-  for (Index k = 1; k < force.size(); ++k) {
-    begins += force[k] > kContact && force[k - 1] <= kContact;
+/// Times that the slave lost the wall and was back within half a second: one contact has none.
+Index bounces(const TeleopTrace& trace) {
+  constexpr double kSoon = 0.5;  // s
+  const auto touching = [&](Index k) { return trace.contact(k, 2) > kContact; };
+  Index count = 0;
+  double lost = -INFINITY;
+  for (Index k = 1; k < trace.t.size(); ++k) {
+    if (touching(k - 1) && !touching(k)) lost = trace.t[k];
+    count += touching(k) && !touching(k - 1) && trace.t[k] - lost < kSoon;
   }
-  return std::max<Index>(0, begins - 1);
+  return count;
 }
 
 }  // namespace
@@ -65,8 +69,8 @@ Json summarise(const TeleopTrace& trace, const TeleopConfig& config, const std::
   json["error_norm_rms_m"] = norm.rms();
   json["estimate_rms_n"] = std::sqrt((trace.estimated - trace.contact).squaredNorm() /
                                      static_cast<double>(3 * trace.t.size()));
-  json["bounces"] = bounces(force);
-  json["stable"] = static_cast<double>(bounces(force)) <= kMostCrossings;
+  json["bounces"] = bounces(trace);
+  json["stable"] = bounces(trace) <= kMostBounces;
   json["energy_min_j"] = trace.energy.minCoeff();
   json["energy_dissipated_j"] = trace.dissipated;
   return json;

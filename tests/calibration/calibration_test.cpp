@@ -41,13 +41,18 @@ TEST(Calibration, NoiseFreePairsGiveTheMountingToTheLastDigits) {
   EXPECT_TRUE(c.notes.empty());
 }
 
+/// 2.7 mrad a turn about each axis: half a degree is 3.2 deviations, which 1 draw in 60 exceeds.
 TEST(Calibration, TwentyNoisyOrientationsStayBelowHalfADegree) {
+  int below = 0;
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     const Calibration c = calibrate(random_pairs(20, 0.05, Vector3d::Zero(), seed), {});
-    EXPECT_LT(angle_between(c.R_ES, kMounting), 0.5 * kDegree) << seed;
+    const double error = angle_between(c.R_ES, kMounting);
+    below += error < 0.5 * kDegree;
+    EXPECT_LT(error, 0.8 * kDegree) << seed;
     EXPECT_NEAR(c.residual_rms, 0.05, 0.02);
     EXPECT_NEAR(c.gain, 1.0, 0.02);
   }
+  EXPECT_GE(below, 48);
 }
 
 TEST(Calibration, CovarianceDescribesTheScatterOfTheEstimates) {
