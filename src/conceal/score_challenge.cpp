@@ -42,6 +42,7 @@ Json tabulate(const Json& scenarios) {
     add_scenario(s, motion[s["motion"]]);
     add_scenario(s, noise[s["noise"]["kind"]]);
     if (s["group"] == "faint") continue;
+    if (s["effects"].size() == 1) add_holdout(s, effect[s["effects"][0]["effect"]]);
     for (const Json& e : s["effects"]) {
       add_effect(e, effect[e["effect"]]);
       add_effect(e, amplitude[amplitude_class(e["amplitude"])]);

@@ -60,6 +60,15 @@ void add_effect(const Json& e, Tally& tally) {
   }
 }
 
+void add_holdout(const Json& s, Tally& tally) {
+  const Json& h = s["holdout"];
+  if (!h.contains("oracle")) return;
+  for (const char* key : {"before", "after", "floor"}) {
+    if (!h.contains(key)) continue;
+    tally.add(std::string(key) + "_over_oracle", h[key].get<double>() / h["oracle"].get<double>());
+  }
+}
+
 void add_scenario(const Json& s, Tally& tally) {
   const std::string group = s["group"];
   const int named = static_cast<int>(s["named"].size()), wrong = s["false_names"];
@@ -79,10 +88,8 @@ void add_scenario(const Json& s, Tally& tally) {
   if (group != "faint") {
     for (const Json& e : s["effects"]) add_effect(e, tally);
   }
+  add_holdout(s, tally);
   const Json& h = s["holdout"];
-  if (h.contains("after") && h.contains("oracle")) {
-    tally.add("after_over_oracle", h["after"].get<double>() / h["oracle"].get<double>());
-  }
   if (h.contains("after") && h.contains("floor")) {
     tally.add("after_over_floor", h["after"].get<double>() / h["floor"].get<double>());
   }

@@ -28,5 +28,7 @@ class Tally {
 /// Adds one scored scenario, or one effect of it.
 void add_scenario(const Json& scored, Tally& tally);
 void add_effect(const Json& effect, Tally& tally);
+/// Held-out error before, after, and the estimated floor, each over the true law's.
+void add_holdout(const Json& scored, Tally& tally);
 
 }  // namespace dcnn::conceal

@@ -61,7 +61,7 @@ std::vector<Trial> Search::additions(const JointFit& fit) const {
     trial = scan.refine(scan.evaluate(trial.member, Detail::kFine), Detail::kFine, 14);
   });
   if (!study_.is_static() && events_allowed_) {
-    chosen.push_back(find_contact(scan));
+    if (is_listed(study_, *find_effect("contact"))) chosen.push_back(find_contact(scan));
     chosen.push_back(find_step(scan));
   }
   std::erase_if(chosen, [](const Trial& trial) { return trial.gain <= 0.0; });

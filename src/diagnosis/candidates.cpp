@@ -138,8 +138,10 @@ void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& fl
   const Case& study = scan.setting().study;
   const EffectKind& kind = *find_effect("hum");
   std::vector<Peak> peaks;
+  // A machine's motion is often periodic, and whatever depends on it has lines there.
+  const double from = study.axis ? 0.5 * study.motion_hz : 0.3;
   for (Index j = 0; j < study.channel_count(); ++j) {
-    for (const Peak& p : spectral_lines(study, left, floors, 0.3, 0.49 / study.dt(), j, 1)) {
+    for (const Peak& p : spectral_lines(study, left, floors, from, 0.49 / study.dt(), j, 1)) {
       const auto own =
           spectral_lines(study, scan.chain().prediction(), floors, p.hz - 0.3, p.hz + 0.3, j, 1);
       const bool in_motion = !own.empty() && own.front().ratio > 100.0;
@@ -163,9 +165,10 @@ bool has_temperature(const Case& study) {
 
 bool is_listed(const Case& study, const EffectKind& kind) {
   if (!study.axis) return !kind.machines_only;
-  // Of a tool's effects an axis has no body to carry, no gravity to feel and nothing to leak into.
+  // Of a tool's effects an axis has no body to carry, no gravity to feel and nothing to leak into;
+  // and what a drive leaves in some seconds of one motion is hardly ever a hand on the machine.
   static const std::set<std::string> kOfTools{"loose_load", "misalignment", "crosstalk",
-                                              "cable_field"};
+                                              "cable_field", "contact"};
   return kind.stage != Stage::kTool && kOfTools.count(kind.name) == 0;
 }
 

@@ -64,4 +64,22 @@ void set_derivative(Case& study, const DerivativeSpec& derivative) {
   }
 }
 
+double longest_seconds(const Case& study) {
+  double longest = 0.0;
+  for (const Log& log : study.logs) {
+    longest = std::max(longest, log.motion.dt * static_cast<double>(log.motion.samples()));
+  }
+  return longest;
+}
+
+double span_seconds(const Case& study) {
+  if (study.is_static()) return 0.0;
+  double begin = study.logs.front().motion.t(0), end = begin;
+  for (const Log& log : study.logs) {
+    begin = std::min(begin, log.motion.t(0));
+    end = std::max(end, log.motion.t(log.motion.samples() - 1));
+  }
+  return end - begin;
+}
+
 }  // namespace dcnn

@@ -54,6 +54,11 @@ struct Case {
   double dt() const { return logs.front().motion.dt; }
 };
 
+/// Duration of the longest recording, and from the beginning of the first to the end of the last
+/// [s].
+double longest_seconds(const Case& study);
+double span_seconds(const Case& study);
+
 /// The columns of a wrench that the case measures, (T, channels).
 Eigen::MatrixXd measured_part(const Case& study, const Wrench& wrench);
 

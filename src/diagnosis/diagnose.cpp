@@ -58,7 +58,7 @@ class Writer {
       JointFit rest = member.fixed ? fit : search_.without(m);
       std::vector<Member>& others = rest.members;
       if (member.fixed) others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
-      const double net = rest.chi2 - fit.chi2 - 10.0 * member.parameters();
+      const double net = rest.chi2 - fit.chi2 - search_.setting().price * member.parameters();
       entry["confidence"] = confidence(member, net, alternatives[m].size());
       entry["p_value"] = flip_p_value(search_.setting(), fit, m);
       entry["alternatives"] = alternatives[m];

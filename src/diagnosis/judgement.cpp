@@ -107,9 +107,11 @@ std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& 
       for (Index k = 0; k < power.size(); ++k) {
         const bool single = k == 0 || 2 * k == n;
         const double hz = static_cast<double>(k) / (static_cast<double>(n) * dt);
+        const double expected =
+            setting.whitener.expected_density(static_cast<Index>(info[begin].channel), hz);
         for (std::size_t b = 0; b < bands.size(); ++b) {
           if (hz < bands[b].from_hz || hz >= bands[b].to_hz) continue;
-          sum[b] += (single ? 1.0 : 2.0) * power(k);
+          sum[b] += (single ? 1.0 : 2.0) * power(k) / expected;
           dof[b] += single ? 1.0 : 2.0;
         }
       }

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kColourGain = 12.0;  // of the log-likelihood, before noise is called coloured
+constexpr double kUpperPart = 1.4;    // of the lowest frequency of the quiet band: its upper part
+constexpr double kColourAbove = 3.0;  // of the log-likelihood there
 constexpr Index kWindow = 1024;       // samples of one periodogram
 constexpr double kSlowest = 0.02;     // Hz: flicker noise is taken for flat below
 constexpr Index kFewestBins = 12;     // below this the quiet band says nothing
@@ -68,14 +70,18 @@ Periodograms periodograms(const Case& study, const Signals& signals, Index chann
   return result;
 }
 
-/// Median over windows of each bin, as an estimate of the density (a chi-square of two degrees has
-/// the median ln 2 of its mean).
+/// Median over windows of each bin, as an estimate of the density: the upper middle of n values of
+/// an exponential distribution is on the average sum_{i=0}^{n/2} 1/(n-i) of its mean (ln 2 for
+/// many).
 Eigen::VectorXd density_of(const Periodograms& p) {
   Eigen::VectorXd density(p.power.rows());
+  double expected = 0.0;
+  for (Index i = 0; p.power.cols() > 0 && i <= p.power.cols() / 2; ++i)
+    expected += 1.0 / double(p.power.cols() - i);
   for (Index i = 0; i < density.size(); ++i) {
     std::vector<double> values(static_cast<std::size_t>(p.power.cols()));
     for (Index k = 0; k < p.power.cols(); ++k) values[static_cast<std::size_t>(k)] = p.power(i, k);
-    density(i) = values.empty() ? 0.0 : median(values) / std::numbers::ln2;
+    density(i) = values.empty() ? 0.0 : median(values) / expected;
   }
   return density;
 }
@@ -84,20 +90,25 @@ struct Whittle {
   double level = 0.0, likelihood = 0.0;
 };
 
-/// The level of noise of this shape, and its log-likelihood up to a constant, with ratios far above
-/// it clipped.
-Whittle fit_level(const Eigen::VectorXd& density, const Eigen::VectorXd& shape, double windows) {
-  std::vector<double> ratios;
-  for (Index i = 0; i < density.size(); ++i) ratios.push_back(density(i) / shape(i));
-  const double middle = median(ratios);
-  double sum = 0.0;
-  for (double& ratio : ratios) sum += ratio = std::min(ratio, 3.0 * middle);
-  Whittle fit;
-  fit.level = sum / static_cast<double>(ratios.size());
-  for (std::size_t i = 0; i < ratios.size(); ++i) {
-    fit.likelihood -= std::log(fit.level * shape(static_cast<Index>(i))) + ratios[i] / fit.level;
+/// Lines replaced by the level beside them.
+Eigen::VectorXd without_lines(const Eigen::VectorXd& density) {
+  constexpr Index kBeside = 10;  // bins
+  Eigen::VectorXd smooth = density;
+  for (Index i = 0; i < density.size(); ++i) {
+    const Index first = std::max<Index>(0, i - kBeside);
+    const Index last = std::min(density.size(), i + kBeside + 1);
+    const double level = median({density.data() + first, density.data() + last});
+    smooth(i) = density(i) < 3.0 * level ? density(i) : level;
   }
-  fit.likelihood *= windows;
+  return smooth;
+}
+
+/// The level of noise of this shape, and its log-likelihood up to a constant.
+Whittle fit_level(const Eigen::VectorXd& density, const Eigen::VectorXd& shape, double windows) {
+  Whittle fit;
+  fit.level = density.cwiseQuotient(shape).mean();
+  const auto n = static_cast<double>(density.size());
+  fit.likelihood = -windows * (shape.array().log().sum() + n * (std::log(fit.level) + 1.0));
   return fit;
 }
 
@@ -107,12 +118,24 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
   const Whittle white = fit_level(density, Eigen::VectorXd::Ones(density.size()), windows);
   best.white = white.level;
   double most = white.likelihood + kColourGain;
-  for (const double rho : {0.3, 0.5, 0.7, 0.8, 0.87, 0.92, 0.95, 0.97, 0.985, 0.995}) {
+  // Colour must show in the upper part of the band too: motion may leak into its lowest bins.
+  Index upper = 0;
+  while (upper < hz.size() && hz(upper) < kUpperPart * hz(0)) ++upper;
+  const auto above = [&](const Eigen::VectorXd& v) {
+    return Eigen::VectorXd(v.tail(v.size() - upper));
+  };
+  const Eigen::VectorXd density_above = above(density);
+  const double white_above =
+      fit_level(density_above, Eigen::VectorXd::Ones(density_above.size()), windows).likelihood;
+  const auto shows_above = [&](const Eigen::VectorXd& shape) {
+    return fit_level(density_above, above(shape), windows).likelihood > white_above + kColourAbove;
+  };
+  for (const double rho : {0.3, 0.5, 0.7, 0.8, 0.86, 0.9, 0.93, 0.95, 0.97, 0.985, 0.995}) {
     for (const double share : {0.0, 0.01, 0.03, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85}) {
       const Eigen::VectorXd shape =
           hz.unaryExpr([&](double f) { return share + (1.0 - share) * ar_shape(rho, f, dt); });
       const Whittle fit = fit_level(density, shape, windows);
-      if (fit.likelihood <= most) continue;
+      if (fit.likelihood <= most || !shows_above(shape)) continue;
       most = fit.likelihood;
       best.white = share * fit.level;
       best.coloured = (1.0 - share) * fit.level;
@@ -124,7 +147,7 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
     const Eigen::VectorXd shape =
         hz.unaryExpr([&](double f) { return share + (1.0 - share) * top / f; });
     const Whittle fit = fit_level(density, shape, windows);
-    if (fit.likelihood <= most) continue;
+    if (fit.likelihood <= most || !shows_above(shape)) continue;
     most = fit.likelihood;
     best = Floor();
     best.white = share * fit.level;
@@ -215,7 +238,8 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual,
     }
     Floor floor;
     if (static_cast<Index>(quiet.size()) >= kFewestBins && p.power.cols() > 0) {
-      floor = fit_floor(density(quiet), p.hz(quiet), dt, static_cast<double>(p.power.cols()));
+      floor = fit_floor(without_lines(density(quiet)), p.hz(quiet), dt,
+                        static_cast<double>(p.power.cols()));
     }
     floor.lowpass_hz = study.lowpass_hz;
     floor.dt = dt;

@@ -7,7 +7,6 @@
 namespace dcnn {
 namespace {
 
-constexpr double kPerParameter = 10.0;
 constexpr std::size_t kMost = 26;  // linear candidates compared
 
 bool is_linear(const Member& member) {
@@ -31,11 +30,12 @@ struct Pool {
   std::vector<std::vector<Index>> columns;  // of the matrix below
   Eigen::MatrixXd gram;
   Eigen::VectorXd match;
+  double price = 10.0;
 
   double net_gain(std::vector<std::size_t> chosen) const {
     std::vector<Index> all;
     for (const std::size_t k : chosen) all.insert(all.end(), columns[k].begin(), columns[k].end());
-    return gain_of(gram, match, all) - kPerParameter * static_cast<double>(all.size());
+    return gain_of(gram, match, all) - price * static_cast<double>(all.size());
   }
 };
 
@@ -48,6 +48,7 @@ Pool make_pool(const Scan& scan, const std::vector<Member>& list) {
                    [](const Trial& a, const Trial& b) { return a.gain > b.gain; });
   if (trials.size() > kMost) trials.resize(kMost);
   Pool pool;
+  pool.price = scan.setting().price;
   std::vector<Eigen::MatrixXd> parts;
   Index count = 0;
   for (const Trial& trial : trials) {
@@ -85,8 +86,8 @@ bool Search::replace_pairs() {
       const Signals left = difference(study_, scan.chain().prediction());
       const Pool pool = make_pool(scan, candidates(scan, left, floors_));
       const double own = base.chi2 - fit_.chi2 -
-                         kPerParameter * (members[a].parameters() + members[b].parameters());
-      double most = own + 2.0;
+                         setting_->price * (members[a].parameters() + members[b].parameters());
+      double most = own + 0.2 * setting_->price;
       std::vector<std::size_t> best;
       for (std::size_t i = 0; i < pool.members.size(); ++i) {
         for (std::size_t j = i; j < pool.members.size(); ++j) {
@@ -102,7 +103,7 @@ bool Search::replace_pairs() {
       const JointFit fit = joint_fit(*setting_, others);
       int numbers = 0;
       for (const std::size_t k : best) numbers += pool.members[k].parameters();
-      if (base.chi2 - fit.chi2 - kPerParameter * numbers < own + 2.0) continue;
+      if (base.chi2 - fit.chi2 - setting_->price * numbers < own + 0.2 * setting_->price) continue;
       settle(others);
       return true;
     }

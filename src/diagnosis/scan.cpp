@@ -14,6 +14,7 @@ bool is_itself(const Case& study, const Member& member) {
   const std::string name = member.name();
   // On an axis the position says which way a force resists.
   if (study.axis && name == "hysteresis") return member.amplitudes(0) > 0.0;
+  if (study.axis && name == "flexible_resonance") return member.shapes(1) < 0.5;
   if (name != "stribeck_friction") return true;
   const double ratio = member.amplitudes(1) / std::max(1e-300, member.amplitudes(0));
   return ratio > 1.0 && (!study.axis || ratio < 4.0);
@@ -65,6 +66,7 @@ Eigen::MatrixXd Scan::columns(const Member& member, Detail detail) const {
 Trial Scan::evaluate(const Member& member, Detail detail) const {
   Trial trial;
   trial.member = member;
+  trial.price = setting_.price;
   const Eigen::MatrixXd raw = columns(member, detail), c = off_model(raw);
   const double energy = raw.squaredNorm();
   trial.kept = energy > 0.0 ? c.squaredNorm() / energy : 0.0;
@@ -113,7 +115,24 @@ std::optional<double> Scan::least_detectable(const Member& member) const {
   return most / scale * needed / std::sqrt(energy);
 }
 
-Trial Scan::refine(const Trial& start, Detail detail, int evaluations) const {
+/// A line over all recordings is far narrower than one in a recording, from which its frequency was
+/// seeded: the best of a comb first.
+Trial Scan::tuned(const Trial& start, Detail detail) const {
+  Trial best = start;
+  const double width = 0.6 / longest_seconds(setting_.study);
+  const double step = std::max(0.25 / span_seconds(setting_.study), width / 40.0);
+  for (double away = -width; away <= width; away += step) {
+    Member member = start.member;
+    member.shapes(0) += away;
+    const Trial trial = evaluate(member, detail);
+    if (trial.gain > best.gain) best = trial;
+  }
+  return best;
+}
+
+Trial Scan::refine(const Trial& seed, Detail detail, int evaluations) const {
+  const bool is_line = seed.member.name() == "hum";
+  const Trial start = is_line && detail == Detail::kCoarse ? tuned(seed, detail) : seed;
   const auto& shapes = start.member.form->shapes;
   const Index n = start.member.shapes.size();
   if (n == 0) return start;
@@ -123,7 +142,8 @@ Trial Scan::refine(const Trial& start, Detail detail, int evaluations) const {
     x(i) = search_scale(shape, start.member.shapes(i));
     size(i) = shape.low > 0.0 ? 0.4 : 0.15 * (shape.high - shape.low);
     if (detail == Detail::kFine) size(i) *= 0.2;
-    if (start.member.name() == "hum" || start.member.name() == "cogging") size(i) = 0.01;
+    if (start.member.name() == "cogging") size(i) = 0.01;
+    if (is_line) size(i) = 0.1 / (span_seconds(setting_.study) * start.member.shapes(i));
     if (start.member.name() == "flexible_resonance" && i == 0) size(i) = 0.05;
   }
   Trial best = start;
@@ -180,7 +200,9 @@ Eigen::VectorXd simplex_search(const std::function<double(const Eigen::VectorXd&
         }
       }
     }
-    if ((points.back().second - points.front().second).cwiseAbs().maxCoeff() < 1e-4) break;
+    if ((points.back().second - points.front().second).cwiseAbs().maxCoeff() <
+        1e-3 * size.maxCoeff())
+      break;
   }
   return std::min_element(points.begin(), points.end(), by_value)->second;
 }

@@ -15,9 +15,10 @@ struct Trial {
   double gain = 0.0;  ///< of chi-square; 0 where a sign refutes the effect
   double kept = 1.0;  ///< share of its columns' energy that the model at hand cannot imitate
   Eigen::VectorXd deviation;  ///< of each amplitude, from the noise alone
+  double price = 10.0;        ///< Setting::price
 
   /// What counts: 10 per fitted number (an exact law explains far more, a coincidence less).
-  double net_gain() const { return gain - 10.0 * member.parameters(); }
+  double net_gain() const { return gain - price * member.parameters(); }
 };
 
 /// At which samples a candidate's columns are computed: all, or as many as a search needs.
@@ -42,6 +43,8 @@ class Scan {
   const Chain& chain() const { return chain_; }
 
  private:
+  Trial tuned(const Trial& start, Detail detail) const;
+
   const Setting& setting_;
   Chain chain_;
   Chain coarse_chain_;

@@ -10,9 +10,8 @@
 namespace dcnn {
 namespace {
 
-constexpr double kLeastNetGain = 30.0;  // of chi-square after 10 per number, to name an effect
-constexpr double kLeastShare = 0.002;   // of what the model explains already
-constexpr double kPerParameter = 10.0;
+constexpr double kLeastNetGain = 3.0;    // prices, after one per number, to name an effect
+constexpr double kLeastShare = 0.002;    // of what the model explains already
 constexpr std::size_t kMostMembers = 6;  // more only ever fed what is not in the catalogue
 
 }  // namespace
@@ -47,7 +46,8 @@ bool Search::grow() {
   if (trials.empty()) return false;
   const Trial& best = trials.front();
   const double explained = std::max(0.0, chi2_before_ - fit_.chi2);
-  if (best.net_gain() < kLeastNetGain || best.gain < kLeastShare * explained) return false;
+  if (best.net_gain() < kLeastNetGain * setting_->price || best.gain < kLeastShare * explained)
+    return false;
   std::vector<Member> members = fit_.members;
   members.push_back(best.member);
   settle(members);
@@ -64,7 +64,7 @@ bool Search::simplify() {
     }
     const JointFit rest = without(m);
     const double rise = rest.chi2 - fit_.chi2;
-    if (rise >= kPerParameter * fit_.members[m].parameters() + kLeastNetGain) {
+    if (rise >= setting_->price * (fit_.members[m].parameters() + kLeastNetGain)) {
       ++m;
       continue;
     }
@@ -80,16 +80,18 @@ bool Search::swap() {
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     if (fit_.members[m].fixed) continue;
     const JointFit rest = without(m);
-    const double own = rest.chi2 - fit_.chi2 - kPerParameter * fit_.members[m].parameters();
+    const double own = rest.chi2 - fit_.chi2 - setting_->price * fit_.members[m].parameters();
     for (const Trial& trial : additions(rest)) {
       if (trial.member.kind == fit_.members[m].kind && trial.member.axis == fit_.members[m].axis) {
         continue;
       }
-      if (trial.net_gain() < own - 20.0) break;  // the linear estimate may be a little off
+      if (trial.net_gain() < own - 2.0 * setting_->price)
+        break;  // the linear estimate may be a little off
       std::vector<Member> members = rest.members;
       members.push_back(trial.member);
       const JointFit other = joint_fit(*setting_, members);
-      if (rest.chi2 - other.chi2 - kPerParameter * trial.member.parameters() > own + 2.0) {
+      if (rest.chi2 - other.chi2 - setting_->price * trial.member.parameters() >
+          own + 0.2 * setting_->price) {
         settle(members);
         return true;
       }

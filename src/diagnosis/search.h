@@ -58,7 +58,7 @@ class Search {
   void detect();
   void drop_coincidences();
   void judge();
-  void judge_against_remainder();
+  void keep_what_carries_over();
   void say(const std::string& text) const;
 
   Case study_, softer_, harder_;  // the two others smooth more and less: what smoothing alone does
@@ -73,7 +73,6 @@ class Search {
   std::optional<Member> rounding_, knocking_;  // named, but no part of what is fitted
   std::vector<BandTest> bands_;
   bool events_allowed_ = true, remains_ = false;
-  Signals remainder_;  // of a machine: taken for noise once no effect explains it
 };
 
 /// measured - predicted per recording.

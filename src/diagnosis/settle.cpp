@@ -34,7 +34,15 @@ void Search::make_setting(const std::vector<Member>& members) {
   const auto levels = noise_level(study_, raw);
   floors_ = noise_floor(study_, raw, levels);
   add_pose_noise(study_, floors_);
-  const Whitener whitener(study_, floors_, levels, remainder_.empty() ? nullptr : &remainder_);
+  // What a machine leaves in the motion's band has nothing to do with the colour of the noise above
+  // it.
+  for (Floor& floor : floors_) {
+    if (!study_.axis) continue;
+    const double variance = floor.white + floor.coloured;
+    floor.white = variance;
+    floor.coloured = floor.flicker = 0.0;
+  }
+  const Whitener whitener(study_, floors_, levels);
   const Index stride = whitener.coarse_stride();
   setting_ = std::make_unique<Setting>(Setting{
       study_, whitener, thinned(study_, stride), whitener.at_stride(stride), measured, {}, {}});
@@ -74,6 +82,10 @@ void Search::settle(const std::vector<Member>& members) {
     fit_ = joint_fit(*setting_, fit_.members);
   }
   left_ = difference(study_, predict(study_, fit_.members));
+  // A machine always leaves something that no effect explains, far above its sensor's noise: there
+  // a number counts that takes off a share of what is left.
+  constexpr double kLeastShare = 0.04;
+  if (study_.axis) setting_->price = std::max(10.0, kLeastShare * fit_.chi2);
 }
 
 }  // namespace dcnn

@@ -78,6 +78,7 @@ void Search::drop_coincidences() {
 /// places and not in others.
 void Search::judge() {
   drop_coincidences();
+  if (study_.axis) keep_what_carries_over();
   bands_ = band_tests(*setting_, fit_.residual);
   const double explained = std::max(0.0, chi2_before_ - fit_.chi2);
   remains_ = is_alarming(bands_, explained);
@@ -95,7 +96,8 @@ void Search::judge() {
     }
   }
   if (study_.axis) {
-    judge_against_remainder();
+    keep_what_carries_over();
+    bands_ = band_tests(*setting_, fit_.residual);
     return;
   }
   for (bool changed = true; changed && !fit_.members.empty();) {
@@ -115,17 +117,10 @@ void Search::judge() {
   bands_ = band_tests(*setting_, fit_.residual);
 }
 
-/// A machine's recordings always hold something that no effect explains, against which the sensor's
-/// noise is nothing: what is left becomes the noise, and names must earn their numbers against that
-/// and help on pieces of time on which they were not fitted.
-void Search::judge_against_remainder() {
+/// Of a machine, where laws are never constant to the last digit: a name must help on pieces of
+/// time on which it was not fitted.
+void Search::keep_what_carries_over() {
   constexpr double kLeastShare = 0.5;
-  remainder_ = left_;
-  settle(fit_.members);
-  chi2_before_ = joint_fit(*setting_, {}).chi2;
-  while (simplify()) {
-  }
-  explore();
   while (!fit_.members.empty()) {
     const auto shares = left_out_shares(*setting_, fit_);
     const auto worst = std::min_element(shares.begin(), shares.end());
@@ -137,21 +132,23 @@ void Search::judge_against_remainder() {
 }
 
 std::vector<std::vector<std::string>> Search::alternatives() const {
-  constexpr double kNear = 12.0, kPerNumber = 10.0;  // of chi-square
+  constexpr double kNear = 12.0;  // of chi-square
+  const double price = setting_->price;
   std::vector<std::vector<std::string>> all(fit_.members.size());
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     const Member& own = fit_.members[m];
     if (own.fixed) continue;
     const JointFit rest = without(m);
-    const double net = rest.chi2 - fit_.chi2 - kPerNumber * own.parameters();
+    const double net = rest.chi2 - fit_.chi2 - price * own.parameters();
     for (const Trial& trial : additions(rest)) {
-      if (trial.member.kind == own.kind || trial.net_gain() < net - 2.0 * kNear) continue;
+      if (trial.member.kind == own.kind || trial.net_gain() < net - 0.2 * kNear * price) continue;
       std::vector<Member> members = rest.members;
       members.push_back(trial.member);
       const JointFit other = joint_fit(*setting_, members);
       // One that needs more numbers holds the named one as a special case, or it would have won.
       const int more = std::max(0, trial.member.parameters() - own.parameters());
-      if (rest.chi2 - other.chi2 - kPerNumber * (trial.member.parameters() + more) > net - kNear &&
+      if (rest.chi2 - other.chi2 - price * (trial.member.parameters() + more) >
+              net - 0.1 * kNear * price &&
           std::find(all[m].begin(), all[m].end(), trial.member.name()) == all[m].end()) {
         all[m].push_back(trial.member.name());
       }

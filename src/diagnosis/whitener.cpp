@@ -1,6 +1,7 @@
 #include "diagnosis/whitener.h"
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace dcnn {
@@ -27,36 +28,11 @@ Eigen::VectorXd block_covariance(const Floor& floor, double cutoff_hz, Index blo
   return covariance;
 }
 
-/// The same of what a model leaves, read from it.
-Eigen::VectorXd shown_covariance(const Case& study, const Signals& left, Index channel,
-                                 Index block) {
-  Eigen::VectorXd covariance = Eigen::VectorXd::Zero(kOrder + 1);
-  double count = 0.0;
-  for (std::size_t k = 0; k < left.size(); ++k) {
-    for (const Segment& s : study.logs[k].motion.segments) {
-      const Index blocks = s.size() / block;
-      Eigen::VectorXd means(blocks);
-      for (Index b = 0; b < blocks; ++b) {
-        means(b) = left[k].col(channel).segment(s.begin + b * block, block).mean();
-      }
-      for (Index lag = 0; lag <= std::min<Index>(kOrder, blocks - 1); ++lag) {
-        covariance(lag) += means.head(blocks - lag).dot(means.tail(blocks - lag));
-      }
-      count += static_cast<double>(blocks);
-    }
-  }
-  return covariance / std::max(1.0, count);
-}
-
 }  // namespace
 
 Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
                    const std::vector<Eigen::VectorXd>& levels)
-    : Whitener(study, floors, levels, nullptr) {}
-
-Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
-                   const std::vector<Eigen::VectorXd>& levels, const Signals* remainder)
-    : channels_(study.channel_count()) {
+    : floors_(floors), channels_(study.channel_count()) {
   const bool moving = !study.is_static();
   const double dt = moving ? study.dt() : 1.0;
   block_ = moving ? std::max<Index>(1, std::llround(kBlock / study.motion_hz / dt)) : 1;
@@ -73,10 +49,6 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
     if (!moving) {
       c.setZero();
       c(0) = floor.white + floor.coloured;
-    }
-    if (remainder) {
-      const Eigen::VectorXd shown = shown_covariance(study, *remainder, j, block_);
-      if (shown(0) > c(0)) c = shown;
     }
     c(0) = std::max(c(0) * (1.0 + 1e-6), 1e-300);
     block_deviation_(j) = std::sqrt(c(0));
@@ -139,6 +111,21 @@ Whitener Whitener::at_stride(Index stride) const {
     run.first = run.thin_begin(stride);
   }
   return coarse;
+}
+
+double Whitener::expected_density(Index channel, double hz) const {
+  const Floor& floor = floors_[static_cast<std::size_t>(channel)];
+  if (floor.flicker == 0.0) return 1.0;
+  const Filter& filter = filters_[static_cast<std::size_t>(channel)];
+  std::complex<double> gain = 1.0;
+  for (std::size_t i = 0; i < filter.coefficients.back().size(); ++i) {
+    const double angle = 2.0 * std::numbers::pi * hz * block_seconds_ * double(i + 1);
+    gain -= filter.coefficients.back()[i] * std::polar(1.0, -angle);
+  }
+  // Of block means below half their rate, where the average over a block hardly attenuates.
+  const double variance = filter.deviation.back() * filter.deviation.back();
+  const double blocks = floor.density(hz, floor.dt) * floor.dt / block_seconds_;
+  return std::max(1.0, blocks * std::norm(gain) / variance);
 }
 
 Eigen::VectorXd Whitener::operator()(const Signals& signals) const {

@@ -12,10 +12,6 @@ class Whitener {
  public:
   Whitener(const Case& study, const std::vector<Floor>& floors,
            const std::vector<Eigen::VectorXd>& levels);
-  /// Whitens by the covariance that these signals themselves show, where it is above the floor's:
-  /// noise is then all that a model leaves.
-  Whitener(const Case& study, const std::vector<Floor>& floors,
-           const std::vector<Eigen::VectorXd>& levels, const Signals* remainder);
 
   /// The same map for signals seen at every stride-th sample (thinned()).
   Whitener at_stride(Index stride) const;
@@ -32,6 +28,9 @@ class Whitener {
   };
   const std::vector<Row>& row_info() const { return info_; }
   double block_seconds() const { return block_seconds_; }
+  /// Density of a channel's whitened noise at `hz`: 1 where its filter remembers long enough, more
+  /// at the lowest frequencies of flicker noise.
+  double expected_density(Index channel, double hz) const;
   /// Standard deviation of a block's noise by channel, in the target's unit.
   const Eigen::VectorXd& block_deviation() const { return block_deviation_; }
 
@@ -44,7 +43,7 @@ class Whitener {
     /// `first` in a recording of which every stride-th sample is seen.
     Index thin_begin(Index stride) const;
   };
-  /// Predictors of orders 0 … 8 and their innovation deviations.
+  /// Predictors of orders 0 … 8 (48 for flicker noise) and their innovation deviations.
   struct Filter {
     std::vector<std::vector<double>> coefficients;
     std::vector<double> deviation;
@@ -52,6 +51,7 @@ class Whitener {
 
   std::vector<Run> runs_;
   std::vector<Filter> filters_;  // per channel
+  std::vector<Floor> floors_;
   std::vector<Row> info_;
   Eigen::VectorXd inverse_level_;  // per row
   Eigen::VectorXd block_deviation_;

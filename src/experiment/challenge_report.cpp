@@ -1,5 +1,6 @@
 #include "dcnn/experiment/challenge_report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 #include <vector>
@@ -69,41 +70,51 @@ void add_table(HtmlReport& page, const std::string& title, const Json& table,
 /// Rates of one key over the rows of a table, with their intervals.
 void add_rates(HtmlReport& page, const Json& table, const std::string& key,
                const std::string& title) {
-  Chart chart{title, "", "rate", {}, {}, false, 720, 300};
-  Series series{title, {}, {}, {}, Series::Style::kMarkers};
+  Chart chart{title, "", "rate", {}, {}, false, 720, 320, true};
+  Series rates{"rate", {}, {}, {}, Series::Style::kMarkers};
+  Series intervals{"middle of the 95 % interval", {}, {}, {}, Series::Style::kMarkers};
   for (const auto& [label, summary] : table.items()) {
     const Json rate = summary.value(key, Json());
     if (rate.is_null() || rate["rate"].is_null()) continue;
     const double low = rate["low"], high = rate["high"];
-    series.x.push_back(static_cast<double>(chart.categories.size()));
-    series.y.push_back(0.5 * (low + high));
-    series.error.push_back(0.5 * (high - low));
+    rates.x.push_back(static_cast<double>(chart.categories.size()));
+    rates.y.push_back(rate["rate"]);
+    intervals.x.push_back(rates.x.back());
+    intervals.y.push_back(0.5 * (low + high));
+    intervals.error.push_back(0.5 * (high - low));
     chart.categories.push_back(label);
   }
-  chart.series.push_back(series);
-  chart.legend = false;
-  if (!series.x.empty()) page.chart(chart, "Bars are Wilson's 95 % intervals.");
+  chart.series = {rates, intervals};
+  if (!rates.x.empty()) page.chart(chart, "Wilson's 95 % intervals.");
 }
 
-void add_holdout(HtmlReport& page, const Json& scenarios) {
-  Chart chart{"Hold-out error of every scenario",
-              "as given, over the true law's",
-              "with the findings, over the true law's",
+/// What a reader should see first: the error before, after, and where it cannot fall further.
+void add_holdout(HtmlReport& page, const Json& table) {
+  Chart chart{"Held-out error where one effect is hidden, over that of the true law",
+              "",
+              "ratio (median)",
               {},
               {},
               true,
               720,
-              320};
-  Series series{"scenario", {}, {}, {}, Series::Style::kMarkers};
-  for (const Json& s : scenarios) {
-    const Json& h = s["holdout"];
-    if (!h.contains("after") || !h.contains("oracle")) continue;
-    series.x.push_back(h["before"].get<double>() / h["oracle"].get<double>());
-    series.y.push_back(h["after"].get<double>() / h["oracle"].get<double>());
+              360,
+              true};
+  for (const auto& [key, label] : Columns{{"before_over_oracle", "simulator as given"},
+                                          {"after_over_oracle", "with what was found"},
+                                          {"floor_over_oracle", "noise floor (estimated)"}}) {
+    Series series{label, {}, {}, {}, Series::Style::kMarkers};
+    for (const auto& [effect, summary] : table.items()) {
+      const Json ratio = summary.value(key, Json());
+      if (ratio.is_null()) continue;
+      const auto known = std::find(chart.categories.begin(), chart.categories.end(), effect);
+      series.x.push_back(static_cast<double>(known - chart.categories.begin()));
+      if (known == chart.categories.end()) chart.categories.push_back(effect);
+      series.y.push_back(ratio["median"]);
+    }
+    chart.series.push_back(series);
   }
-  chart.series.push_back(series);
-  chart.legend = false;
-  if (!series.x.empty()) page.chart(chart, "1 is the error of the true law at the true pose.");
+  if (!chart.categories.empty())
+    page.chart(chart, "1 is the error of the true law at the true pose.");
 }
 
 void add_failures(HtmlReport& page, const Json& scenarios) {
@@ -133,7 +144,9 @@ std::string challenge_text(const Json& scores) {
     label.resize(46, ' ');
     text += label + value + "\n";
   }
-  if (!scores["missing"].empty()) text += "not yet run: " + scores["missing"].dump() + "\n";
+  if (!scores["missing"].empty()) {
+    text += std::to_string(scores["missing"].size()) + " scenarios are not yet run\n";
+  }
   return text;
 }
 
@@ -146,9 +159,10 @@ std::string challenge_html(const Json& scores) {
       "SHA-256 is above. Amplitudes are the rms of what an effect alone changes on its strongest "
       "axis, in standard deviations of the sensor noise.");
   const Json& tables = scores["tables"];
-  add_rates(page, tables["effect"], "found_class", "Effects found");
-  add_rates(page, tables["amplitude"], "found_class", "Effects found, by amplitude");
-  add_holdout(page, scores["scenarios"]);
+  add_holdout(page, tables["effect"]);
+  add_rates(page, tables["effect"], "found_class", "Effects named or among the alternatives");
+  add_rates(page, tables["amplitude"], "found_class",
+            "Effects named or among the alternatives, by amplitude");
   const Columns effects{{"found", "named"},
                         {"found_class", "or an alternative"},
                         {"axis", "axis"},

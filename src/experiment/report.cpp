@@ -87,8 +87,12 @@ void HtmlReport::table(const std::vector<std::string>& header,
 }
 
 void HtmlReport::chart(const Chart& chart, const std::string& caption) {
-  body_ += "<figure>\n" + to_svg(chart) + "\n<figcaption>" + escape_markup(caption) +
-           "</figcaption>\n</figure>\n";
+  drawing(to_svg(chart), caption);
+}
+
+void HtmlReport::drawing(const std::string& svg, const std::string& caption) {
+  body_ +=
+      "<figure>\n" + svg + "\n<figcaption>" + escape_markup(caption) + "</figcaption>\n</figure>\n";
 }
 
 void HtmlReport::panels(std::vector<Chart> charts, const std::string& caption) {

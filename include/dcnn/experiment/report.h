@@ -43,6 +43,7 @@ class HtmlReport {
   void table(const std::vector<std::string>& header,
              const std::vector<std::vector<std::string>>& rows);
   void chart(const Chart& chart, const std::string& caption);
+  void drawing(const std::string& svg, const std::string& caption);  ///< an SVG made elsewhere
   /// One figure of several charts, two beside one another, under them the legend of the first.
   void panels(std::vector<Chart> charts, const std::string& caption);
   std::string html() const;

@@ -1,0 +1,26 @@
+// The page and pictures of the bilateral demonstration.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dcnn/teleop/teleop.h"
+
+namespace dcnn {
+
+struct TeleopResult {
+  std::string name;
+  TeleopTrace trace;
+  Json row;  ///< summarise()
+};
+
+/// Writes teleop.json, report.html, Fig. 6 of every variant as SVG with its signals as CSV, and
+/// the comparison and the frames as SVG.
+void write_teleop(const std::filesystem::path& folder, const TeleopConfig& config,
+                  const std::vector<TeleopResult>& results, std::uint64_t seed);
+
+/// The frames of Fig. 1 as SVG: their axes, projected, at the places of the configuration.
+std::string frames_svg(const TeleopConfig& config);
+
+}  // namespace dcnn

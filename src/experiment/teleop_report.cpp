@@ -1,0 +1,143 @@
+#include "dcnn/experiment/teleop_report.h"
+
+#include "dcnn/core/file.h"
+#include "dcnn/data/csv.h"
+#include "dcnn/experiment/report.h"
+#include "experiment/markup.h"
+
+namespace dcnn {
+namespace {
+
+std::vector<double> list_of(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
+
+Chart time_chart(const std::string& title, const std::string& y_label) {
+  Chart chart;
+  chart.title = title;
+  chart.x_label = "time [s]";
+  chart.y_label = y_label;
+  chart.height = 240;
+  return chart;
+}
+
+/// Rows of Fig. 6: x, y, z of master and slave, the error's norm, and the forces.
+std::vector<Chart> figure_six(const TeleopResult& result, const TeleopConfig& config) {
+  const TeleopTrace& trace = result.trace;
+  const auto t = list_of(trace.t);
+  std::vector<Chart> rows;
+  const Eigen::MatrixXd master = 1e3 * config.position_scale * trace.master;
+  for (Index k = 0; k < 3; ++k) {
+    Chart chart = time_chart(result.name + ": " + "xyz"[k], std::string(1, "xyz"[k]) + " [mm]");
+    chart.series.push_back({"master, scaled", t, list_of(master.col(k)), {}});
+    chart.series.push_back({"slave", t, list_of(1e3 * trace.slave.col(k)), {}});
+    rows.push_back(chart);
+  }
+  Chart error = time_chart(result.name + ": error norm", "error [mm]");
+  const Eigen::VectorXd norm =
+      1e3 * (trace.slave - config.position_scale * trace.master).rowwise().norm();
+  error.series.push_back({"error", t, list_of(norm), {}});
+  rows.push_back(error);
+  Chart force = time_chart(result.name + ": force along the wall's normal", "force [N]");
+  force.series.push_back({"true contact", t, list_of(trace.contact.col(2)), {}});
+  force.series.push_back({"on the hand", t, list_of(trace.felt.col(2)), {}});
+  rows.push_back(force);
+  return rows;
+}
+
+/// The contact of all variants side by side: where the slave went, and what the hand felt.
+std::vector<Chart> comparison(const std::vector<TeleopResult>& results) {
+  Chart z = time_chart("Slave during the contact", "z [mm]");
+  Chart felt = time_chart("Force on the hand, z", "force [N]");
+  for (const TeleopResult& result : results) {
+    const auto t = list_of(result.trace.t);
+    z.series.push_back({result.name, t, list_of(1e3 * result.trace.slave.col(2)), {}});
+    felt.series.push_back({result.name, t, list_of(result.trace.felt.col(2)), {}});
+  }
+  return {z, felt};
+}
+
+std::string cell(const Json& value, double scale) {
+  return value.is_number() ? significant(scale * value.get<double>(), 3) : "–";
+}
+
+void add_table(const std::vector<TeleopResult>& results, HtmlReport& page) {
+  std::vector<std::vector<std::string>> rows;
+  for (const TeleopResult& r : results) {
+    const Json& j = r.row;
+    const Json& contact = j["contact_interval_s"];
+    const std::string interval =
+        contact.is_null() ? "none" : fixed(contact[0], 1) + "-" + fixed(contact[1], 1);
+    rows.push_back(
+        {r.name, interval, cell(j["force_max_n"], 1),
+         cell(j["free_error_rms_m"], 1e3) + " / " + cell(j["free_error_max_m"], 1e3),
+         cell(j["contact_error_rms_m"], 1e3) + " / " + cell(j["contact_error_max_m"], 1e3),
+         cell(j["handle_force_free_rms_n"], 1), cell(j["master_drift_m"], 1e3),
+         j["stable"].get<bool>() ? "yes" : "no", cell(j["energy_min_j"], 1e3)});
+  }
+  page.table({"variant", "contact [s]", "F max [N]", "free error z rms / max [mm]",
+              "contact error z rms / max [mm]", "handle force, free, rms [N]", "master drift [mm]",
+              "stable", "least energy [mJ]"},
+             rows);
+}
+
+Table signals(const TeleopTrace& trace) {
+  Table table;
+  table.columns = {"t"};
+  table.values.resize(trace.t.size(), 19);
+  table.values.col(0) = trace.t;
+  Index column = 1;
+  const auto add = [&](const std::string& name, const Eigen::MatrixXd& block) {
+    for (Index k = 0; k < 3; ++k) {
+      table.columns.push_back(name + "_" + "xyz"[k]);
+      table.values.col(column++) = block.col(k);
+    }
+  };
+  add("intended", trace.intended);
+  add("master", trace.master);
+  add("slave", trace.slave);
+  add("contact", trace.contact);
+  add("estimated", trace.estimated);
+  add("felt", trace.felt);
+  return table;
+}
+
+}  // namespace
+
+void write_teleop(const std::filesystem::path& folder, const TeleopConfig& config,
+                  const std::vector<TeleopResult>& results, std::uint64_t seed) {
+  HtmlReport page("Bilateral teleoperation");
+  page.paragraph("A simulated demonstration (seed " + std::to_string(seed) +
+                 "); every mass, stiffness and delay is a free assumption and stands in the "
+                 "configuration. The hand pushes 15 mm into a wall at about 70 to 75 s.");
+  add_table(results, page);
+  page.paragraph(
+      "Errors are slave minus scaled master without correction of the delay. The least "
+      "energy is what link, slave and wall took from the hand: below zero they gave "
+      "back more than they had been given.");
+  Json variants = Json::array();
+  const auto compared = comparison(results);
+  page.heading("All variants");
+  for (std::size_t k = 0; k < compared.size(); ++k) {
+    page.chart(compared[k], "");
+    write_file(folder / ("comparison_" + std::to_string(k) + ".svg"), to_svg(compared[k]));
+  }
+  for (const TeleopResult& result : results) {
+    variants.push_back(result.row);
+    page.heading("Fig. 6 with " + result.name);
+    const auto rows = figure_six(result, config);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      page.chart(rows[k], "");
+      write_file(folder / (result.name + "_" + std::to_string(k) + ".svg"), to_svg(rows[k]));
+    }
+    write_csv(folder / (result.name + ".csv"), signals(result.trace));
+  }
+  const std::string frames = frames_svg(config);
+  page.heading("Frames");
+  page.drawing(frames,
+               "Fig. 1 at the places of the configuration. The camera is carried and not used; the "
+               "hand moves along the slave's axes.");
+  write_file(folder / "frames.svg", frames);
+  write_file(folder / "report.html", page.html());
+  write_file(folder / "teleop.json", Json{{"variants", variants}}.dump(2) + "\n");
+}
+
+}  // namespace dcnn

@@ -1,0 +1,51 @@
+// The ready configurations on real machines, whose recordings are not part of the repository.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "dcnn/diagnosis/diagnose.h"
+
+namespace dcnn {
+namespace {
+
+const std::filesystem::path kData = std::filesystem::path(DCNN_SOURCE_DIR) / "../shared/data";
+
+Json report_of(const std::string& system, const std::vector<std::string>& fit,
+               const std::string& holdout) {
+  DiagnosisRequest request;
+  request.system = std::filesystem::path(DCNN_SOURCE_DIR) / "configs/systems" / system;
+  for (const auto& file : fit) request.fit.push_back(kData / file);
+  request.holdout = {kData / holdout};
+  return diagnose(request, nullptr).report;
+}
+
+bool names(const Json& report, const std::vector<std::string>& any_of) {
+  return std::any_of(report["findings"].begin(), report["findings"].end(), [&](const Json& f) {
+    return std::find(any_of.begin(), any_of.end(), f["effect"]) != any_of.end();
+  });
+}
+
+TEST(RealMachines, ASlideShowsItsDryFriction) {
+  if (!std::filesystem::exists(kData / "emps")) GTEST_SKIP() << "no " << kData;
+  const Json report =
+      report_of("emps.json", {"emps/emps_train.csv"}, "emps/emps_test_pulses.csv");
+  EXPECT_TRUE(names(report, {"coulomb_friction"})) << report["findings"].dump(1);
+  EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 2.0);
+  EXPECT_GT(report["fit"]["holdout_rmse_before"][0].get<double>(), 9.0);
+  EXPECT_LT(report["fit"]["unfiltered"]["holdout_rmse_after"][0].get<double>(), 8.0);
+}
+
+TEST(RealMachines, ASurgicalToolShowsItsFrictionAndItsCable) {
+  if (!std::filesystem::exists(kData / "davinci_tool")) GTEST_SKIP() << "no " << kData;
+  const Json report =
+      report_of("davinci_spindle.json",
+                {"davinci_tool/run_00.csv", "davinci_tool/run_23.csv", "davinci_tool/run_40.csv"},
+                "davinci_tool/run_11.csv");
+  EXPECT_TRUE(names(report, {"coulomb_friction", "stribeck_friction", "lugre_friction"}))
+      << report["findings"].dump(1);
+  EXPECT_TRUE(names(report, {"cable_spring"})) << report["findings"].dump(1);
+  EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 0.0130);
+}
+
+}  // namespace
+}  // namespace dcnn

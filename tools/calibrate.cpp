@@ -1,0 +1,100 @@
+#include <iostream>
+
+#include "dcnn/calibration/calibration.h"
+#include "dcnn/core/file.h"
+#include "dcnn/data/rotation.h"
+#include "support/tool.h"
+
+namespace {
+
+using namespace dcnn;
+
+constexpr const char* kExamples =
+    "  dcnn-calibrate --pairs pairs.csv --out calibration.json     # columns sx,sy,sz,rx,ry,rz\n"
+    "  dcnn-calibrate --loaded with.csv --unloaded without.csv --mass-kg 0.5 --out c.json\n"
+    "  dcnn-calibrate --static poses.csv --with-bias --out c.json  # the tool is the weight\n"
+    "  dcnn-calibrate --static poses.csv --with-bias --nominal 0 0 -0.52 --out c.json\n"
+    "\n"
+    "A pair is one force as the sensor reads it (s, in S) and as it is in the pose frame (r, in "
+    "E);\n"
+    "the answer is r = R_ES*s + offset. Six or more orientations that load all three axes are\n"
+    "enough. With --nominal (rx ry rz, the mounting as designed) it says which reading of the\n"
+    "sensor's axes and sign fits when the data contradict it.";
+
+struct Input {
+  std::filesystem::path pairs, loaded, unloaded, poses;
+  std::optional<double> mass_kg;
+};
+
+Recording read_poses(const std::filesystem::path& path, ReadOptions read) {
+  read.static_list = true;
+  return read_recording(path, read, System());
+}
+
+ForcePairs load(const Input& input, const ReadOptions& read, bool with_bias) {
+  const int given = !input.pairs.empty() + !input.loaded.empty() + !input.poses.empty();
+  require(given == 1, Exit::kUsage,
+          "give one of --pairs, --loaded with --unloaded, and --static; see dcnn-calibrate --help");
+  require(input.loaded.empty() == input.unloaded.empty(), Exit::kUsage,
+          "--loaded and --unloaded belong together");
+  if (!input.pairs.empty()) {
+    require(!input.mass_kg, Exit::kUsage, "--mass-kg has no meaning with --pairs");
+    ForcePairs pairs = read_pairs(input.pairs);
+    pairs.sensor *= read.force_sign;
+    return pairs;
+  }
+  if (!input.poses.empty()) {
+    return static_pairs(read_poses(input.poses, read), input.mass_kg, with_bias);
+  }
+  require(input.mass_kg.has_value(), Exit::kUsage, "--loaded needs the hung mass: --mass-kg M");
+  return weight_pairs(read_poses(input.loaded, read), read_poses(input.unloaded, read),
+                      *input.mass_kg);
+}
+
+void print(const Calibration& c, const std::string& out) {
+  const Eigen::Vector3d rpy = euler_from_rotation(c.R_ES).reverse();
+  const Eigen::Vector3d sd = c.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  std::cout << out << ": " << c.pairs << " pairs, residual " << c.residual_rms << " N rms, gain "
+            << c.gain << "\n  rotation_rpy " << rpy.transpose() << " rad, sd " << sd.transpose()
+            << "\n  offset " << c.offset.transpose() << " N\n";
+  if (c.mass_kg) std::cout << "  mass " << *c.mass_kg << " kg\n";
+  if (c.nominal_angle)
+    std::cout << "  angle to the nominal mounting " << *c.nominal_angle << " rad\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("dcnn-calibrate", "Aligns the sensor's frame with the robot's from known forces.",
+            kExamples);
+  Input input;
+  std::filesystem::path out;
+  CalibrationOptions options;
+  std::vector<double> nominal;
+  auto& app = tool.app();
+  app.add_option("--pairs", input.pairs, "CSV of pairs: sx,sy,sz,rx,ry,rz [N], optionally w");
+  app.add_option("--loaded", input.loaded, "static poses with a mass hung at the tip");
+  app.add_option("--unloaded", input.unloaded, "the same poses without it");
+  app.add_option("--static", input.poses, "static poses; gravity on the tool is the reference");
+  app.add_option("--mass-kg", input.mass_kg, "hung mass, or the tool's (else it is estimated)");
+  app.add_flag("--with-bias", options.with_bias, "the sensor has a constant offset: find it");
+  app.add_option("--nominal", nominal, "mounting as designed: rx ry rz [rad]")->expected(3);
+  app.add_option("--out", out, "calibration.json to write")->required();
+  const ReadFlags read(app);
+
+  return tool.run(argc, argv, [&] {
+    if (!nominal.empty()) {
+      options.nominal = rotation_from_euler({nominal[2], nominal[1], nominal[0]});
+    }
+    const Calibration result = calibrate(load(input, read.options(), options.with_bias), options);
+    const Json json = to_json(result);
+    write_file(out, json.dump(2) + "\n");
+    for (const auto& note : result.notes) tool.note(note);
+    if (tool.common().json) {
+      Tool::print(json);
+    } else {
+      print(result, out.string());
+    }
+    return Exit::kDone;
+  });
+}
