@@ -12,15 +12,15 @@ using testing::error_of;
 
 TeleopConfig defaults() { return parse_teleop(Json::object(), "default"); }
 
-struct Run {
+struct Outcome {
   TeleopTrace trace;
   Json row;
 };
 
-Run run(const TeleopConfig& config, Variant::Kind kind,
-        std::unique_ptr<Compensator> compensator = nullptr) {
+Outcome run(const TeleopConfig& config, Variant::Kind kind,
+            std::unique_ptr<Compensator> compensator = nullptr) {
   Variant variant{"v", kind, std::move(compensator)};
-  Run result;
+  Outcome result;
   result.trace = run_teleop(config, variant, config.tool.model.R_ES(), 1);
   result.row = summarise(result.trace, config, "v");
   return result;
@@ -107,10 +107,10 @@ TEST(Teleop, TheGuardLeavesAStableContactAlone) {
 TEST(Teleop, JitterAndLossAreDrawnFromTheSeed) {
   TeleopConfig config = defaults();
   config.duration_s = 10.0;
-  const Run clean = run(config, Variant::Kind::kIdeal);
+  const Outcome clean = run(config, Variant::Kind::kIdeal);
   config.packet_loss = 0.2;
   config.delay_jitter_ticks = 5;
-  const Run a = run(config, Variant::Kind::kIdeal), b = run(config, Variant::Kind::kIdeal);
+  const Outcome a = run(config, Variant::Kind::kIdeal), b = run(config, Variant::Kind::kIdeal);
   EXPECT_EQ(a.trace.slave, b.trace.slave);
   EXPECT_NE(a.trace.slave, clean.trace.slave);
   EXPECT_LT((a.trace.slave - clean.trace.slave).cwiseAbs().maxCoeff(), 2e-3);
