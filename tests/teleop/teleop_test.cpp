@@ -72,7 +72,7 @@ TEST(Teleop, TheRightSimulatorTakesTheToolOff) {
 TEST(Teleop, ASimulatorWithAMemoryIsRefused) {
   TeleopConfig config = defaults();
   config.tool.effects = parse_effects(
-      Json::parse(R"([{"effect": "lowpass", "axis": null, "parameters": {"hz": 30}}])"), "e",
+      Json::parse(R"([{"effect": "lowpass", "axis": null, "parameters": {"tau_s": 0.01}}])"), "e",
       Exit::kData);
   const auto message = error_of([&] { compensate_with(config.tool, "model.json"); }, Exit::kData);
   EXPECT_TRUE(contains(message, "lowpass")) << message;
