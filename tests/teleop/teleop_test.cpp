@@ -18,7 +18,7 @@ struct Outcome {
 };
 
 Outcome run(const TeleopConfig& config, Variant::Kind kind,
-        std::unique_ptr<Compensator> compensator = nullptr) {
+            std::unique_ptr<Compensator> compensator = nullptr) {
   Variant variant{"v", kind, std::move(compensator)};
   Outcome result;
   result.trace = run_teleop(config, variant, config.tool.model.R_ES(), 1);
@@ -72,7 +72,7 @@ TEST(Teleop, TheRightSimulatorTakesTheToolOff) {
 TEST(Teleop, ASimulatorWithAMemoryIsRefused) {
   TeleopConfig config = defaults();
   config.tool.effects = parse_effects(
-      Json::parse(R"([{"effect": "lowpass", "axis": null, "parameters": {"hz": 30}}])"), "e",
+      Json::parse(R"([{"effect": "lowpass", "axis": null, "parameters": {"tau_s": 0.01}}])"), "e",
       Exit::kData);
   const auto message = error_of([&] { compensate_with(config.tool, "model.json"); }, Exit::kData);
   EXPECT_TRUE(contains(message, "lowpass")) << message;
