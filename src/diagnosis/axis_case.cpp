@@ -48,19 +48,35 @@ std::vector<Index> used_columns(const std::vector<Recording>& recordings, const 
   return independent_columns(all, kBaseTolerance);
 }
 
-/// A drive puts power into its axis, which friction takes out; a log of the reaction shows the
-/// opposite.
+/// A drive moves inertia along its acceleration and friction along its velocity; a log of the
+/// reaction shows the opposite. The more significant of the two decides, beside an offset and a
+/// spring.
 double sense_of(const std::vector<Recording>& recordings, const System& system, const Axis& axis,
                 const DerivativeSpec& derivative) {
   Targets target;
   target.names = {axis.measured};
-  double work = 0.0;
+  Eigen::Matrix4d gram = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d match = Eigen::Vector4d::Zero();
   for (const Recording& recording : recordings) {
     const Motion motion = axis_motion(recording, axis, derivative);
     if (motion.v_B.rows() == 0) continue;
-    work += measured(recording, target, system, true).col(0).dot(motion.v_B.col(0));
+    Eigen::MatrixXd A(motion.samples(), 4);
+    A.col(0).setOnes();
+    A.col(1).setZero();
+    if (recording.has(axis.position)) A.col(1) = recording.column(axis.position);
+    A.rightCols(2) << motion.v_B.col(0), motion.a_B.col(0);
+    gram += A.transpose() * A;
+    match += A.transpose() * measured(recording, target, system, true).col(0);
   }
-  return work < 0.0 ? -1.0 : 1.0;
+  const Eigen::Vector4d scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Eigen::Matrix4d scaled = scale.asDiagonal() * gram * scale.asDiagonal();
+  scaled.diagonal().array() += 1e-9;
+  const Eigen::Matrix4d inverse = scaled.inverse();
+  // In units of their own deviations, up to the noise's.
+  const Eigen::Vector4d estimate =
+      (inverse * scale.cwiseProduct(match)).cwiseQuotient(inverse.diagonal().cwiseSqrt());
+  const double along_v = estimate(2), along_a = estimate(3);
+  return (std::abs(along_v) > std::abs(along_a) ? along_v : along_a) < 0.0 ? -1.0 : 1.0;
 }
 
 void set_clock(const DiagnosisRequest& request, const std::vector<Recording>& recordings,
