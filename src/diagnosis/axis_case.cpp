@@ -40,6 +40,7 @@ std::vector<Index> used_columns(const std::vector<Recording>& recordings, const 
   Eigen::MatrixXd all(0, 0);
   for (const Recording& recording : recordings) {
     const Eigen::MatrixXd columns = base_columns(recording, system, axis, derivative);
+    if (columns.cols() == 0) return {};
     // Every fifth sample tells as much.
     const Index rows = (columns.rows() + 4) / 5, before = all.rows();
     all.conservativeResize(before + rows, columns.cols());
