@@ -80,22 +80,6 @@ double sense_of(const std::vector<Recording>& recordings, const System& system, 
   return (std::abs(along_v) > std::abs(along_a) ? along_v : along_a) < 0.0 ? -1.0 : 1.0;
 }
 
-void set_clock(const DiagnosisRequest& request, const std::vector<Recording>& recordings,
-               Case& study) {
-  std::vector<std::pair<double, double>> spans;
-  for (const Recording& r : recordings) {
-    const Eigen::VectorXd t = r.column("t");
-    spans.emplace_back(t(0), t(t.size() - 1));
-  }
-  std::sort(spans.begin(), spans.end());
-  bool overlap = false;
-  for (std::size_t k = 1; k < spans.size(); ++k) overlap |= spans[k].first < spans[k - 1].second;
-  for (const auto& span : spans) study.end_of_clock = std::max(study.end_of_clock, span.second);
-  study.shared_clock = request.shared_clock.value_or(!overlap);
-  require(!(study.shared_clock && overlap), Exit::kData, recordings.front().name,
-          ": its time overlaps another recording's; use --clock own");
-}
-
 Case axis_case(std::shared_ptr<const AxisPlan> plan) {
   Case study;
   study.own_tool = false;

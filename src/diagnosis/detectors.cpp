@@ -220,15 +220,12 @@ std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
     cosine *= 2.0 / samples;
     double gain = 0.0;
     for (Index j = 0; j < channels; ++j) {
-      const double density = floors[static_cast<std::size_t>(j)].density(hz, study.dt());
+      const double density = floors[static_cast<std::size_t>(j)].density(hz);
       gain += 0.5 * samples * (sine(0, j) * sine(0, j) + cosine(0, j) * cosine(0, j)) / density;
     }
     return gain;
   };
-  double longest = 0.0;
-  for (const Log& log : study.logs) {
-    longest = std::max(longest, log.motion.t(log.motion.samples() - 1) - log.motion.t(0));
-  }
+  const double longest = longest_seconds(study);
   const Eigen::VectorXd hz = simplex_search(
       [&](const Eigen::VectorXd& f) { return -gain_at(f(0)); },
       Eigen::VectorXd::Constant(1, strongest->hz), Eigen::VectorXd::Constant(1, 0.2 / longest), 40);
@@ -243,7 +240,7 @@ std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
     const int c = study.channels[static_cast<std::size_t>(j)];
     member.amplitudes(c) = sine(0, j);
     member.amplitudes(half + c) = cosine(0, j);
-    const double density = floors[static_cast<std::size_t>(j)].density(hz(0), study.dt());
+    const double density = floors[static_cast<std::size_t>(j)].density(hz(0));
     member.fixed_deviation(c) = member.fixed_deviation(half + c) =
         std::sqrt(2.0 * density / samples);
   }

@@ -65,28 +65,22 @@ Log make_log(Recording recording, const Case& study, bool columns) {
   return log;
 }
 
-bool overlapping(const std::vector<std::pair<double, double>>& sorted) {
-  for (std::size_t k = 1; k < sorted.size(); ++k) {
-    if (sorted[k].first < sorted[k - 1].second) return true;
-  }
-  return false;
-}
+}  // namespace
 
-void set_clock(const DiagnosisRequest& request, const std::vector<const Recording*>& recordings,
+void set_clock(const DiagnosisRequest& request, const std::vector<Recording>& recordings,
                Case& study) {
   std::vector<std::pair<double, double>> spans;
-  for (const Recording* r : recordings) {
-    spans.emplace_back(first_time(*r), last_time(*r));
+  for (const Recording& r : recordings) {
+    spans.emplace_back(first_time(r), last_time(r));
     study.end_of_clock = std::max(study.end_of_clock, spans.back().second);
   }
   std::sort(spans.begin(), spans.end());
-  const bool overlap = overlapping(spans);
+  const auto overlapping = [](const auto& a, const auto& b) { return b.first < a.second; };
+  const bool overlap = std::adjacent_find(spans.begin(), spans.end(), overlapping) != spans.end();
   study.shared_clock = request.shared_clock.value_or(!overlap);
-  require(!(study.shared_clock && overlap), Exit::kData, recordings.front()->name,
+  require(!(study.shared_clock && overlap), Exit::kData, recordings.front().name,
           ": its time overlaps another recording's; use --clock own");
 }
-
-}  // namespace
 
 LoadedCase load_wrist(const DiagnosisRequest& request) {
   LoadedCase loaded;
@@ -102,9 +96,7 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   all.insert(all.end(), holdout.begin(), holdout.end());
   choose_channels(all, request, study);
   if (!study.has_torque()) study.simulator.model.inertia.reset();
-  std::vector<const Recording*> pointers;
-  for (const Recording& r : all) pointers.push_back(&r);
-  set_clock(request, pointers, study);
+  set_clock(request, all, study);
   loaded.holdout = study;
   for (auto& r : fit) study.logs.push_back(make_log(std::move(r), study, !request.simulator));
   for (auto& r : holdout) {

@@ -204,7 +204,7 @@ Json bands(const Case& study, const Signals& left, const std::vector<Floor>& flo
         const Eigen::VectorXd power = fourier(x).cwiseAbs2() / static_cast<double>(x.size());
         for (Index i = 0; i < power.size(); ++i) {
           const double hz = static_cast<double>(i) / (static_cast<double>(x.size()) * study.dt());
-          const double noise = floors[static_cast<std::size_t>(j)].density(hz, study.dt()) *
+          const double noise = floors[static_cast<std::size_t>(j)].density(hz) *
                                static_cast<double>(s.size()) / static_cast<double>(x.size());
           for (std::size_t b = 0; b < edges.size(); ++b) {
             if (hz >= edges[b].first && hz < edges[b].second) {

@@ -127,31 +127,31 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
   const Eigen::VectorXd density_above = above(density);
   const double white_above =
       fit_level(density_above, Eigen::VectorXd::Ones(density_above.size()), windows).likelihood;
-  const auto shows_above = [&](const Eigen::VectorXd& shape) {
-    return fit_level(density_above, above(shape), windows).likelihood > white_above + kColourAbove;
+  /// Takes noise of this shape if it is likelier; `floor_of` makes it of its level.
+  const auto consider = [&](const Eigen::VectorXd& shape, const auto& floor_of) {
+    const Whittle fit = fit_level(density, shape, windows);
+    if (fit.likelihood <= most) return;
+    const Whittle upper_fit = fit_level(density_above, above(shape), windows);
+    if (upper_fit.likelihood <= white_above + kColourAbove) return;
+    most = fit.likelihood;
+    best = floor_of(fit.level);
   };
   for (const double rho : {0.3, 0.5, 0.7, 0.8, 0.86, 0.9, 0.93, 0.95, 0.97, 0.985, 0.995}) {
     for (const double share : {0.0, 0.01, 0.03, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85}) {
       const Eigen::VectorXd shape =
           hz.unaryExpr([&](double f) { return share + (1.0 - share) * ar_shape(rho, f, dt); });
-      const Whittle fit = fit_level(density, shape, windows);
-      if (fit.likelihood <= most || !shows_above(shape)) continue;
-      most = fit.likelihood;
-      best.white = share * fit.level;
-      best.coloured = (1.0 - share) * fit.level;
-      best.rho = rho;
+      consider(shape, [&](double level) {
+        return Floor{.white = share * level, .coloured = (1.0 - share) * level, .rho = rho};
+      });
     }
   }
   const double top = 0.5 / dt;
   for (const double share : {0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8}) {
     const Eigen::VectorXd shape =
         hz.unaryExpr([&](double f) { return share + (1.0 - share) * top / f; });
-    const Whittle fit = fit_level(density, shape, windows);
-    if (fit.likelihood <= most || !shows_above(shape)) continue;
-    most = fit.likelihood;
-    best = Floor();
-    best.white = share * fit.level;
-    best.flicker = (1.0 - share) * fit.level * top;
+    consider(shape, [&](double level) {
+      return Floor{.white = share * level, .flicker = (1.0 - share) * level * top};
+    });
   }
   return best;
 }
@@ -162,12 +162,12 @@ double Floor::deviation() const {
   if (lowpass_hz == 0.0 && flicker == 0.0) return std::sqrt(white + coloured);
   constexpr int kPoints = 8192;
   double sum = 0.0;
-  for (int i = 0; i < kPoints; ++i) sum += density((i + 0.5) / kPoints * 0.5 / dt, dt);
+  for (int i = 0; i < kPoints; ++i) sum += density((i + 0.5) / kPoints * 0.5 / dt);
   return std::sqrt(sum / kPoints);
 }
 
-double Floor::density(double hz, double step) const {
-  const double plain = white + (coloured > 0.0 ? coloured * ar_shape(rho, hz, step) : 0.0) +
+double Floor::density(double hz) const {
+  const double plain = white + (coloured > 0.0 ? coloured * ar_shape(rho, hz, dt) : 0.0) +
                        flicker / std::max(hz, kSlowest);
   if (lowpass_hz == 0.0) return plain;
   const double gain = 1.0 / (1.0 + std::pow(hz / lowpass_hz, 8.0));  // Butterworth, there and back

@@ -16,13 +16,13 @@ struct Floor {
   /// Spectral density of what the pose's noise adds through accelerations and gravity:
   /// static_part·|H| + moving_part·w^4·|H|, per sample.
   double static_part = 0.0, moving_part = 0.0;
-  std::string source;       ///< in words
+  std::string source = {};  ///< in words
   double lowpass_hz = 0.0;  ///< of the filter that the noise has passed; 0: none
   double dt = 0.0;          ///< s, between samples
 
   double deviation() const;  ///< of the sensor alone
   /// Density at `hz`, scaled so that white noise of variance s^2 has density s^2.
-  double density(double hz, double dt) const;
+  double density(double hz) const;
   /// What the pose's noise adds to it behind a smoother that cuts at `cutoff_hz` (0: none).
   double pose_density(double hz, double cutoff_hz) const;
 };

@@ -32,10 +32,14 @@ void Search::say(const std::string& text) const {
   if (progress_) progress_(text);
 }
 
-JointFit Search::without(std::size_t member) const {
+std::vector<Member> Search::members_without(std::size_t member) const {
   std::vector<Member> rest = fit_.members;
   rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(member));
-  return joint_fit(*setting_, rest);
+  return rest;
+}
+
+JointFit Search::without(std::size_t member) const {
+  return joint_fit(*setting_, members_without(member));
 }
 
 /// Adds the effect that gains most, if it gains enough.

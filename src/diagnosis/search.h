@@ -42,6 +42,7 @@ class Search {
 
   /// Whitens again for what these members leave, and fits them.
   void settle(const std::vector<Member>& members);
+  std::vector<Member> members_without(std::size_t member) const;
   /// The model without one member, the others refitted.
   JointFit without(std::size_t member) const;
   /// The best additions to a model, at most one per effect, refined, best first.

@@ -40,7 +40,7 @@ std::vector<Peak> spectral_lines(const Case& study, const Signals& left,
   for (Index k = 2; k + 2 < power.size(); ++k) {
     const double hz = static_cast<double>(k) / (static_cast<double>(x.size()) * dt);
     if (hz < from_hz || hz > to_hz || power(k) < power(k - 1) || power(k) < power(k + 1)) continue;
-    peaks.push_back({hz, power(k) / std::max(1e-300, floor.density(hz, dt)), 0.0});
+    peaks.push_back({hz, power(k) / std::max(1e-300, floor.density(hz)), 0.0});
   }
   std::sort(peaks.begin(), peaks.end(), [](auto& a, auto& b) { return a.ratio > b.ratio; });
   std::vector<Peak> apart;

@@ -70,7 +70,7 @@ void Search::drop_coincidences() {
       if (p > most) most = p, worst = m;
     }
     if (!worst) return;
-    settle(without(*worst).members);
+    settle(members_without(*worst));
   }
 }
 
@@ -100,18 +100,12 @@ void Search::judge() {
     bands_ = band_tests(*setting_, fit_.residual);
     return;
   }
-  for (bool changed = true; changed && !fit_.members.empty();) {
-    changed = false;
+  while (!fit_.members.empty()) {
     const auto tests = constancy(*setting_, fit_);
-    std::size_t worst = 0;
-    for (std::size_t m = 1; m < tests.size(); ++m) {
-      if (tests[m].z > tests[worst].z) worst = m;
-    }
-    if (!tests[worst].refutes()) break;
-    std::vector<Member> rest = fit_.members;
-    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(worst));
-    settle(rest);
-    changed = true;
+    const auto worst = std::max_element(tests.begin(), tests.end(),
+                                        [](const auto& a, const auto& b) { return a.z < b.z; });
+    if (!worst->refutes()) break;
+    settle(members_without(static_cast<std::size_t>(worst - tests.begin())));
   }
   drop_coincidences();
   bands_ = band_tests(*setting_, fit_.residual);

@@ -22,7 +22,7 @@ Eigen::VectorXd block_covariance(const Floor& floor, double cutoff_hz, Index blo
     const double hz = (i + 0.5) / kFrequencies * 0.5 / dt, x = std::numbers::pi * hz * dt;
     const double mean = std::sin(b * x) / (b * std::sin(x));
     const double density =
-        (floor.density(hz, dt) + floor.pose_density(hz, cutoff_hz)) * mean * mean / kFrequencies;
+        (floor.density(hz) + floor.pose_density(hz, cutoff_hz)) * mean * mean / kFrequencies;
     for (int lag = 0; lag <= order; ++lag) covariance(lag) += density * std::cos(2.0 * x * b * lag);
   }
   return covariance;
@@ -124,7 +124,7 @@ double Whitener::expected_density(Index channel, double hz) const {
   }
   // Of block means below half their rate, where the average over a block hardly attenuates.
   const double variance = filter.deviation.back() * filter.deviation.back();
-  const double blocks = floor.density(hz, floor.dt) * floor.dt / block_seconds_;
+  const double blocks = floor.density(hz) * floor.dt / block_seconds_;
   return std::max(1.0, blocks * std::norm(gain) / variance);
 }
 
