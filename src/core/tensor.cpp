@@ -10,16 +10,6 @@ namespace {
 
 constexpr std::align_val_t kAlignment{64};  // a cache line and the widest vector
 
-struct FreeAligned {
-  void operator()(Real* data) const { ::operator delete(data, kAlignment); }
-};
-using Storage = std::unique_ptr<Real[], FreeAligned>;
-
-Storage allocate(Index size) {
-  const auto bytes = static_cast<std::size_t>(size) * sizeof(Real);
-  return Storage(static_cast<Real*>(::operator new(bytes, kAlignment)));
-}
-
 thread_local bool no_gradient = false;
 thread_local std::uint64_t last_order = 0;
 
@@ -39,6 +29,16 @@ std::string to_string(const Shape& shape) {
 
 /// Values and their gradient, shared by a tensor and its reshaped views.
 struct Buffer {
+  struct FreeAligned {
+    void operator()(Real* data) const { ::operator delete(data, kAlignment); }
+  };
+  using Storage = std::unique_ptr<Real[], FreeAligned>;
+
+  static Storage allocate(Index size) {
+    const auto bytes = static_cast<std::size_t>(size) * sizeof(Real);
+    return Storage(static_cast<Real*>(::operator new(bytes, kAlignment)));
+  }
+
   Index size = 0;
   Storage values, gradient;
   bool has_gradient = false;
@@ -78,7 +78,7 @@ struct Tensor::Node {
 Tensor Tensor::uninitialised(Shape shape) {
   auto buffer = std::make_shared<Buffer>();
   buffer->size = element_count(shape);
-  buffer->values = allocate(buffer->size);
+  buffer->values = Buffer::allocate(buffer->size);
   return Tensor(std::make_shared<Node>(std::move(shape), std::move(buffer)));
 }
 
@@ -111,7 +111,7 @@ void Tensor::clear_gradient() const { node_->buffer->has_gradient = false; }
 
 Tensor::GradientSlot Tensor::gradient_slot() const {
   Buffer& buffer = *node_->buffer;
-  if (!buffer.gradient) buffer.gradient = allocate(buffer.size);
+  if (!buffer.gradient) buffer.gradient = Buffer::allocate(buffer.size);
   return {buffer.gradient.get(), std::exchange(buffer.has_gradient, true)};
 }
 

@@ -11,9 +11,6 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-const Names kPosition = {"x", "y", "z"}, kEuler = {"alpha", "beta", "gamma"};
-const Names kQuaternion = {"qw", "qx", "qy", "qz"};
-
 constexpr double kNormTolerance = 1e-3;
 constexpr double kMaxTurn = 8.0 * std::numbers::pi;   // rad; no cabled wrist turns four times
 constexpr double kMaxPitch = 2.0 * std::numbers::pi;  // rad; beta does not wind up

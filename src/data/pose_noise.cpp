@@ -12,10 +12,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-const std::vector<std::string> kPosition = {"x", "y", "z"};
-const std::vector<std::string> kEuler = {"alpha", "beta", "gamma"};
-const std::vector<std::string> kQuaternion = {"qw", "qx", "qy", "qz"};
-
 void set_columns(Recording& recording, const std::vector<std::string>& names,
                  const MatrixXd& values) {
   for (std::size_t k = 0; k < names.size(); ++k) {

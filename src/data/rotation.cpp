@@ -6,9 +6,6 @@
 namespace dcnn {
 namespace {
 
-const std::vector<std::string> kQuaternion = {"qw", "qx", "qy", "qz"};
-const std::vector<std::string> kEuler = {"alpha", "beta", "gamma"};
-
 Eigen::Vector4d quaternion_from_euler(double alpha, double beta, double gamma) {
   const double ca = std::cos(alpha / 2), sa = std::sin(alpha / 2);
   const double cb = std::cos(beta / 2), sb = std::sin(beta / 2);

@@ -12,7 +12,6 @@ using Eigen::Vector3d;
 
 constexpr double kSmallestCosine = 0.05;  // of beta; rows below are invalid, but stay finite
 
-const std::vector<std::string> kPosition = {"x", "y", "z"};
 const std::vector<std::string> kV = {"vx", "vy", "vz"}, kOmega = {"wx", "wy", "wz"};
 const std::vector<std::string> kA = {"ax", "ay", "az"}, kAlpha = {"dwx", "dwy", "dwz"};
 

@@ -11,8 +11,6 @@
 namespace dcnn {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Every combination of the seeds of a form's shapes.
 std::vector<Eigen::VectorXd> seed_grid(const EffectFit& form) {
   std::vector<Eigen::VectorXd> grid{Eigen::VectorXd(0)};
@@ -69,7 +67,7 @@ AngleBins bin_by_angle(const Case& study, const Signals& left, const std::string
 
 /// One whole period within the range of the angle.
 double least_order(const AngleBins& bins) {
-  return 2.0 * kPi / (bins.width * static_cast<double>(bins.sum.size()));
+  return 2.0 * std::numbers::pi / (bins.width * static_cast<double>(bins.sum.size()));
 }
 
 /// The order whose sine and cosine of the angle explain most of the bins, beside a line in it.

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "diagnosis/candidates.h"
+#include "diagnosis/median.h"
 #include "diagnosis/spectral_lines.h"
 #include "physics/effect_law.h"
 
@@ -77,12 +78,6 @@ Index turned_before(const Eigen::VectorXd& field, Index i, double dt) {
     if (field(k) * field(k - 1) <= 0.0) return k;
   }
   return -1;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

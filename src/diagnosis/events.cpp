@@ -8,7 +8,7 @@ namespace dcnn {
 namespace {
 
 constexpr double kGrid = 0.25;     // s, of the exhaustive search
-constexpr double kEnds = 2.5;      // s, in which a step cannot be told from a bias
+constexpr double kStepEnds = 2.5;  // s, in which a step cannot be told from a bias
 constexpr double kLongest = 60.0;  // s, of a contact
 constexpr double kPart = 0.6;      // of a recording at most: a force that stays is no event
 
@@ -63,14 +63,14 @@ Cells make_cells(const Scan& scan, bool in_base) {
   return cells;
 }
 
-struct Span {
+struct Stretch {
   double begin = 0.0, end = 0.0, gain = 0.0;
   std::size_t log = 0;
 };
 
 /// The interval of least chi-square in one pass over all pairs of cells, apart from `taken`.
-Span best_span(const Cells& cells, const Span* taken) {
-  Span best;
+Stretch best_span(const Cells& cells, const Stretch* taken) {
+  Stretch best;
   const auto n = static_cast<Index>(cells.t.size());
   std::map<std::size_t, Index> length;
   for (const std::size_t log : cells.log) ++length[log];
@@ -96,7 +96,7 @@ Span best_span(const Cells& cells, const Span* taken) {
   return best;
 }
 
-Member contact_member(const Case& study, const Span& span) {
+Member contact_member(const Case& study, const Stretch& span) {
   const EffectKind& kind = *find_effect("contact");
   Member member = make_member(kind, kind.fits[0], "", study.has_torque(), Eigen::VectorXd(0));
   member.interval_s = {span.begin, std::max(span.begin + 0.02, span.end)};
@@ -109,7 +109,7 @@ Member contact_member(const Case& study, const Span& span) {
 Trial find_contact(const Scan& scan) {
   const Case& study = scan.setting().study;
   const Cells cells = make_cells(scan, true);
-  const Span first = best_span(cells, nullptr);
+  const Stretch first = best_span(cells, nullptr);
   Trial best;
   if (first.gain < 60.0) return best;
   best = scan.evaluate(contact_member(study, first));
@@ -118,7 +118,7 @@ Trial find_contact(const Scan& scan) {
     const double whole = t(t.size() - 1) - t(0), length = ends(1) - ends(0);
     if (length < 0.05 || length > kPart * whole) return 0.0;
     if (ends(0) < t(0) - kGrid || ends(1) > t(t.size() - 1) + kGrid) return 0.0;
-    Span span = first;
+    Stretch span = first;
     span.begin = ends(0);
     span.end = ends(1);
     const Trial trial = scan.evaluate(contact_member(study, span));
@@ -130,10 +130,10 @@ Trial find_contact(const Scan& scan) {
     simplex_search(loss, Eigen::Vector2d(begin, end), Eigen::Vector2d(size, -size), 24);
   }
   // A second interval nearly as good: this is no single event.
-  Span taken = first;
+  Stretch taken = first;
   taken.begin = best.member.interval_s->first;
   taken.end = best.member.interval_s->second;
-  const Span second = best_span(cells, &taken);
+  const Stretch second = best_span(cells, &taken);
   if (second.gain > 0.5 * first.gain) best.gain = 0.0;
   return best;
 }
@@ -166,7 +166,7 @@ Trial find_step(const Scan& scan) {
     const double first = study.shared_clock ? study.logs.front().motion.t(0) : motion.t(0);
     const double last = study.shared_clock ? study.end_of_clock : motion.t(motion.samples() - 1);
     const double rest = all - weight;
-    if (t > first + kEnds && t < last - kEnds && weight > 0.0 && rest > 0.0) {
+    if (t > first + kStepEnds && t < last - kStepEnds && weight > 0.0 && rest > 0.0) {
       const double gain =
           (before / weight - (total - before) / rest).squaredNorm() * weight * rest / all;
       ranked.emplace_back(std::max(gain, (total - before).squaredNorm() / rest), c);

@@ -6,11 +6,11 @@
 
 #include "dcnn/data/fourier.h"
 #include "dcnn/data/rotation.h"
+#include "diagnosis/median.h"
 
 namespace dcnn {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kColourGain = 12.0;  // of the log-likelihood, before noise is called coloured
 constexpr double kUpperPart = 1.4;    // of the lowest frequency of the quiet band: its upper part
 constexpr double kColourAbove = 3.0;  // of the log-likelihood there
@@ -18,15 +18,10 @@ constexpr Index kWindow = 1024;       // samples of one periodogram
 constexpr double kSlowest = 0.02;     // Hz: flicker noise is taken for flat below
 constexpr Index kFewestBins = 12;     // below this the quiet band says nothing
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Shape of AR(1) noise of unit variance.
 double ar_shape(double rho, double hz, double dt) {
-  return (1.0 - rho * rho) / (1.0 - 2.0 * rho * std::cos(2.0 * kPi * hz * dt) + rho * rho);
+  return (1.0 - rho * rho) /
+         (1.0 - 2.0 * rho * std::cos(2.0 * std::numbers::pi * hz * dt) + rho * rho);
 }
 
 /// Periodograms of windows of one signal, (bins, windows), scaled so that white noise of variance
@@ -43,8 +38,8 @@ Periodograms periodograms(const Case& study, const Signals& signals, Index chann
   }
   const Index n = std::max<Index>(16, shortest);
   const Eigen::VectorXd taper =
-      (1.0 - (Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5) * 2.0 * kPi /
-              static_cast<double>(n))
+      (1.0 - (Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5) * 2.0 *
+              std::numbers::pi / static_cast<double>(n))
                  .cos())
           .matrix() *
       0.5;
@@ -176,7 +171,7 @@ double Floor::density(double hz) const {
 
 double Floor::pose_density(double hz, double cutoff_hz) const {
   if (cutoff_hz <= 0.0) return 0.0;
-  const double w = 2.0 * kPi * hz;
+  const double w = 2.0 * std::numbers::pi * hz;
   return (static_part + moving_part * w * w * w * w) / (1.0 + std::pow(hz / cutoff_hz, 8.0));
 }
 

@@ -10,34 +10,34 @@ namespace {
 
 constexpr std::size_t kPoints = 1500;  // in one picture
 
-struct Coordinate {
+struct Abscissa {
   Eigen::VectorXd x;
   Eigen::MatrixXd direction;  // (T,3), or no rows: by channel
   std::string label;
 };
 
 /// What the law of a member is a function of, in one recording.
-std::optional<Coordinate> coordinate_of(const Member& member, const Motion& motion) {
+std::optional<Abscissa> coordinate_of(const Member& member, const Motion& motion) {
   if (motion.is_static()) return std::nullopt;
   if (member.kind->axis == AxisRule::kLine) {
     const Line line = line_of(member.axis, motion);
     const bool turns = member.axis.starts_with("w_");
-    return Coordinate{line.velocity, line.n_S,
-                      turns ? "angular velocity [rad/s]" : "velocity along the axis [m/s]"};
+    return Abscissa{line.velocity, line.n_S,
+                    turns ? "angular velocity [rad/s]" : "velocity along the axis [m/s]"};
   }
   if (member.kind->axis == AxisRule::kAngle) {
     const AngleLine line = angle_line_of(member.axis, motion);
-    return Coordinate{line.angle, line.n_S,
-                      "angle " + member.axis.substr(0, member.axis.find(':')) + " [rad]"};
+    return Abscissa{line.angle, line.n_S,
+                    "angle " + member.axis.substr(0, member.axis.find(':')) + " [rad]"};
   }
   if (member.kind->stage == Stage::kOffset || member.interval_s) {
-    return Coordinate{motion.t, {}, "time [s]"};
+    return Abscissa{motion.t, {}, "time [s]"};
   }
   return std::nullopt;
 }
 
 /// The component of a signal along the direction, or in one channel.
-double along(const Case& study, const Coordinate& c, const Eigen::MatrixXd& signal, Index row,
+double along(const Case& study, const Abscissa& c, const Eigen::MatrixXd& signal, Index row,
              Index channel) {
   if (c.direction.rows() == 0) return signal(row, channel);
   double sum = 0.0;

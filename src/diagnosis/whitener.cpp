@@ -7,8 +7,8 @@
 namespace dcnn {
 namespace {
 
-constexpr double kBlock = 0.4;  // periods of the fastest motion: 20 ms for 20 Hz
-constexpr double kEnd = 5.0;    // of a segment, left out at either end, likewise
+constexpr double kBlockPeriods = 0.4;  // periods of the fastest motion: 20 ms for 20 Hz
+constexpr double kEnd = 5.0;           // of a segment, left out at either end, likewise
 constexpr int kOrder = 8;
 constexpr int kLongOrder = 48;  // flicker noise remembers long
 constexpr int kFrequencies = 4096;
@@ -35,7 +35,7 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
     : floors_(floors), channels_(study.channel_count()) {
   const bool moving = !study.is_static();
   const double dt = moving ? study.dt() : 1.0;
-  block_ = moving ? std::max<Index>(1, std::llround(kBlock / study.motion_hz / dt)) : 1;
+  block_ = moving ? std::max<Index>(1, std::llround(kBlockPeriods / study.motion_hz / dt)) : 1;
   if (block_ > 3) block_ += block_ % 2;  // two halves: coarse_stride()
   block_seconds_ = static_cast<double>(block_) * dt;
   const double cutoff = study.derivative.kind == DerivativeSpec::Kind::kSpectral && moving

@@ -8,9 +8,9 @@
 namespace dcnn {
 namespace {
 
-using Numbers = std::vector<Estimate>;
+using Estimates = std::vector<Estimate>;
 
-double value_of(const Numbers& numbers, const std::string& name) {
+double value_of(const Estimates& numbers, const std::string& name) {
   for (const Estimate& e : numbers) {
     if (e.name == name) return e.value;
   }
@@ -18,7 +18,7 @@ double value_of(const Numbers& numbers, const std::string& name) {
 }
 
 /// Length of a vector among the numbers: all whose names begin so and end so.
-double length_of(const Numbers& numbers, const std::string& begin, const std::string& end) {
+double length_of(const Estimates& numbers, const std::string& begin, const std::string& end) {
   double square = 0.0;
   for (const Estimate& e : numbers) {
     if (e.name.starts_with(begin) && e.name.ends_with(end)) square += e.value * e.value;
@@ -47,7 +47,7 @@ std::string brief(double value) {
   return text;
 }
 
-std::string in_words(const Member& member, const Numbers& n) {
+std::string in_words(const Member& member, const Estimates& n) {
   const std::string id = member.name(), where = place(member.axis);
   const auto number = [&](const char* name) { return brief(value_of(n, name)); };
   if (id == "mass") {

@@ -41,13 +41,13 @@ void widen(double& low, double& high) {
 
 }  // namespace
 
-double Axis::place(double value) const {
+double ChartAxis::place(double value) const {
   if (!log) return (value - low) / (high - low);
   if (value <= low) return 0;
   return std::log(value / low) / std::log(high / low);
 }
 
-Axis linear_axis(double low, double high, int wanted, bool outward) {
+ChartAxis linear_axis(double low, double high, int wanted, bool outward) {
   widen(low, high);
   const double step = round_step((high - low) / std::max(wanted, 1));
   constexpr double kSlack = 1e-9;
@@ -55,7 +55,7 @@ Axis linear_axis(double low, double high, int wanted, bool outward) {
     low = step * std::floor(low / step + kSlack);
     high = step * std::ceil(high / step - kSlack);
   }
-  Axis axis{.low = low, .high = high, .log = false, .ticks = {}, .multiplier = {}};
+  ChartAxis axis{.low = low, .high = high, .log = false, .ticks = {}, .multiplier = {}};
   const int exponent = common_exponent(std::max(std::abs(low), std::abs(high)));
   const double unit = std::pow(10.0, exponent);
   if (exponent != 0) axis.multiplier = "×10" + superscript(exponent);
@@ -69,14 +69,14 @@ Axis linear_axis(double low, double high, int wanted, bool outward) {
   return axis;
 }
 
-Axis log_axis(double low, double high) {
+ChartAxis log_axis(double low, double high) {
   const int first = static_cast<int>(std::floor(std::log10(low) + 1e-9));
   const int last = std::max(first + 1, static_cast<int>(std::ceil(std::log10(high) - 1e-9)));
-  Axis axis{.low = std::pow(10.0, first),
-            .high = std::pow(10.0, last),
-            .log = true,
-            .ticks = {},
-            .multiplier = {}};
+  ChartAxis axis{.low = std::pow(10.0, first),
+                 .high = std::pow(10.0, last),
+                 .log = true,
+                 .ticks = {},
+                 .multiplier = {}};
   const int decades = last - first;
   if (decades == 2) {
     for (const double factor : {2.0, 5.0}) {
@@ -101,12 +101,12 @@ Axis log_axis(double low, double high) {
   return axis;
 }
 
-Axis category_axis(const std::vector<std::string>& words) {
-  Axis axis{.low = -0.5,
-            .high = static_cast<double>(words.size()) - 0.5,
-            .log = false,
-            .ticks = {},
-            .multiplier = {}};
+ChartAxis category_axis(const std::vector<std::string>& words) {
+  ChartAxis axis{.low = -0.5,
+                 .high = static_cast<double>(words.size()) - 0.5,
+                 .log = false,
+                 .ticks = {},
+                 .multiplier = {}};
   for (std::size_t i = 0; i < words.size(); ++i) {
     axis.ticks.push_back({static_cast<double>(i), words[i]});
   }

@@ -12,7 +12,7 @@ struct Tick {
 };
 
 /// A linear or logarithmic axis over [low, high].
-struct Axis {
+struct ChartAxis {
   double low = 0, high = 1;
   bool log = false;
   std::vector<Tick> ticks;
@@ -24,13 +24,13 @@ struct Axis {
 
 /// About `wanted` ticks at 1, 2 or 5 times a power of ten inside [low, high]; `outward` extends the
 /// range to whole ticks. An empty range is widened.
-Axis linear_axis(double low, double high, int wanted, bool outward);
+ChartAxis linear_axis(double low, double high, int wanted, bool outward);
 
 /// Whole decades around [low, high], both positive; of two decades only what is needed, in steps of
 /// 1, 2 and 5.
-Axis log_axis(double low, double high);
+ChartAxis log_axis(double low, double high);
 
 /// One tick per word, at 0, 1, …
-Axis category_axis(const std::vector<std::string>& words);
+ChartAxis category_axis(const std::vector<std::string>& words);
 
 }  // namespace dcnn

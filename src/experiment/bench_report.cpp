@@ -5,6 +5,7 @@
 
 #include "dcnn/experiment/bench.h"
 #include "dcnn/experiment/report.h"
+#include "experiment/markup.h"
 
 namespace dcnn {
 namespace {
@@ -67,11 +68,6 @@ std::vector<std::string> cells(const BenchRow& row) {
 const std::vector<std::string> kHeader{
     "file",     "from",     "L",        "calls",           "call [us]",      "total [s]",
     "p50 [us]", "p99 [us]", "max [us]", "per sample [us]", "paper call [s]", "paper total [s]"};
-
-std::string padded(std::string text, std::size_t width) {
-  text.resize(std::max(width, text.size()), ' ');
-  return text;
-}
 
 Chart sample_chart(const Bench& bench) {
   Chart chart;

@@ -5,13 +5,12 @@
 #include "dcnn/core/file.h"
 #include "dcnn/data/csv.h"
 #include "dcnn/experiment/report.h"
+#include "experiment/series.h"
 
 namespace dcnn {
 namespace {
 
-std::vector<double> list_of(const Eigen::VectorXd& v) { return {v.begin(), v.end()}; }
-
-std::string number(const Json& value) {
+std::string shown(const Json& value) {
   if (value.is_null()) return "";
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value.get<double>());
@@ -39,7 +38,7 @@ void add_errors(const Json& report, HtmlReport& page) {
     for (std::size_t j = 0; j < fit[key].size(); ++j) {
       series.x.push_back(static_cast<double>(j));
       series.y.push_back(fit[key][j].get<double>());
-      row.push_back(number(fit[key][j]));
+      row.push_back(shown(fit[key][j]));
     }
     rows.push_back(row);
     chart.series.push_back(series);
@@ -60,16 +59,16 @@ void add_findings(const Json& report, HtmlReport& page) {
   for (const Json& f : report["findings"]) {
     std::string parameters;
     for (const auto& [name, p] : f["parameters"].items()) {
-      parameters += (parameters.empty() ? "" : "; ") + name + " = " + number(p["value"]) + " [" +
-                    number(p["ci95"][0]) + ", " + number(p["ci95"][1]) + "] " +
+      parameters += (parameters.empty() ? "" : "; ") + name + " = " + shown(p["value"]) + " [" +
+                    shown(p["ci95"][0]) + ", " + shown(p["ci95"][1]) + "] " +
                     p["unit"].get<std::string>();
     }
     std::string alternatives;
     for (const Json& a : f["alternatives"]) {
       alternatives += (alternatives.empty() ? "" : ", ") + a.get<std::string>();
     }
-    rows.push_back({text_of(f["effect"]), text_of(f["axis"]), parameters, number(f["confidence"]),
-                    number(f["holdout_gain"]), alternatives});
+    rows.push_back({text_of(f["effect"]), text_of(f["axis"]), parameters, shown(f["confidence"]),
+                    shown(f["holdout_gain"]), alternatives});
   }
   if (rows.empty()) {
     page.paragraph("No effect is named.");
@@ -127,19 +126,17 @@ void add_places(const Json& report, HtmlReport& page) {
   page.heading("Where the simulator as given differs");
   std::vector<std::vector<std::string>> rows;
   for (const Json& a : report["where"]["axes"]) {
-    rows.push_back({"axis " + text_of(a["axis"]), number(a["share"]), number(a["excess_rms"])});
+    rows.push_back({"axis " + text_of(a["axis"]), shown(a["share"]), shown(a["excess_rms"])});
   }
   for (const Json& s : report["where"]["segments"]) {
-    rows.push_back(
-        {"time " + number(s["interval_s"][0]) + " to " + number(s["interval_s"][1]) + " s",
-         number(s["share"]), number(s["excess_rms"])});
+    rows.push_back({"time " + shown(s["interval_s"][0]) + " to " + shown(s["interval_s"][1]) + " s",
+                    shown(s["share"]), shown(s["excess_rms"])});
   }
   for (const Json& r : report["where"]["regimes"]) {
-    rows.push_back({text_of(r["signal"]) + ": " + text_of(r["condition"]), number(r["share"]), ""});
+    rows.push_back({text_of(r["signal"]) + ": " + text_of(r["condition"]), shown(r["share"]), ""});
   }
   for (const Json& b : report["where"]["bands"]) {
-    rows.push_back(
-        {number(b["hz"][0]) + " to " + number(b["hz"][1]) + " Hz", number(b["share"]), ""});
+    rows.push_back({shown(b["hz"][0]) + " to " + shown(b["hz"][1]) + " Hz", shown(b["share"]), ""});
   }
   page.table({"place", "share of the excess", "excess rms"}, rows);
 }
@@ -148,7 +145,7 @@ void add_limits(const Json& report, HtmlReport& page) {
   page.heading("What was not found, and from which size on it would have been");
   std::vector<std::vector<std::string>> rows;
   for (const Json& n : report["not_detected"]) {
-    rows.push_back({text_of(n["effect"]), number(n["minimum_detectable_rms"]), ""});
+    rows.push_back({text_of(n["effect"]), shown(n["minimum_detectable_rms"]), ""});
   }
   for (const Json& n : report["not_testable"]) {
     rows.push_back({text_of(n["effect"]), "", text_of(n["why"])});

@@ -7,16 +7,10 @@
 #include "dcnn/experiment/evaluate.h"
 #include "dcnn/experiment/report.h"
 #include "dcnn/experiment/train.h"
+#include "experiment/levels.h"
 
 namespace dcnn {
 namespace {
-
-std::string level_name(const SnrLevel& level) {
-  char text[32];
-  if (!level) return "clean";
-  std::snprintf(text, sizeof text, "%g dB", *level);
-  return text;
-}
 
 std::string with_spread(const Spread& s) {
   char text[64];

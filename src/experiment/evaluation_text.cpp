@@ -2,17 +2,18 @@
 #include <cstdio>
 
 #include "dcnn/experiment/evaluate.h"
+#include "experiment/levels.h"
+#include "experiment/markup.h"
 
 namespace dcnn {
 namespace {
 
-Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-Json level_json(const SnrLevel& level) { return level ? Json(*level) : Json(); }
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
 Json row_json(const EvaluationRow& row) {
   Json json = {
       {"model", row.model}, {"file", row.file},       {"snr_db", level_json(row.snr_db)},
-      {"run", row.run},     {"rmse", row.score.rmse}, {"rmse_overall", number(row.score.overall)}};
+      {"run", row.run},     {"rmse", row.score.rmse}, {"rmse_overall", or_null(row.score.overall)}};
   if (row.score.overall_torque) json["rmse_overall_torque"] = *row.score.overall_torque;
   return json;
 }
@@ -37,7 +38,7 @@ Json summary_json(const EvaluationSummary& s, const Score& unidentified) {
   }
   json["max_abs_error"] = s.first.max_abs;
   json["r2"] = s.first.r2;
-  json["vector_rmse"] = number(s.first.vector_rmse);
+  json["vector_rmse"] = or_null(s.first.vector_rmse);
   json["ratio_to_unidentified"] = s.overall && unidentified.overall && *unidentified.overall > 0.0
                                       ? Json(s.overall->mean / *unidentified.overall)
                                       : Json();
@@ -52,11 +53,6 @@ std::string cell(const char* format, double value) {
 
 constexpr std::size_t kColumn = 22;
 constexpr const char* kUnidentified = "(no identification)";
-
-std::string padded(std::string text, std::size_t width) {
-  text.resize(std::max(width, text.size()), ' ');
-  return text;
-}
 
 }  // namespace
 
@@ -75,7 +71,7 @@ Json to_json(const Evaluation& evaluation) {
     json["summary"].push_back(summary_json(s, evaluation.unidentified));
   }
   json["unidentified"] = {{"rmse", evaluation.unidentified.rmse},
-                          {"rmse_overall", number(evaluation.unidentified.overall)}};
+                          {"rmse_overall", or_null(evaluation.unidentified.overall)}};
   if (!evaluation.unfiltered.empty()) {
     json["unfiltered"] = Json::array();
     for (const auto& row : evaluation.unfiltered) json["unfiltered"].push_back(row_json(row));

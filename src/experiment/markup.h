@@ -14,6 +14,9 @@ std::string significant(double value, int digits);
 /// A fixed number of decimals, never "-0".
 std::string fixed(double value, int decimals);
 
+/// Filled with spaces to `width` bytes.
+std::string padded(std::string text, std::size_t width);
+
 /// Characters of a UTF-8 text.
 int character_count(const std::string& text);
 

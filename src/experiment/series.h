@@ -1,9 +1,14 @@
 // What a series of a chart shows.
 #pragma once
 
+#include <Eigen/Dense>
+#include <vector>
+
 #include "dcnn/experiment/report.h"
 
 namespace dcnn {
+
+inline std::vector<double> list_of(const Eigen::VectorXd& v) { return {v.begin(), v.end()}; }
 
 inline bool has_line(const Series& series) {
   return series.style == Series::Style::kLine || series.style == Series::Style::kLineAndMarkers;

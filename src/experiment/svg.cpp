@@ -150,7 +150,7 @@ class Drawing {
                    "text-anchor=\"middle\" transform=\"rotate(-90 14 " + number(centre) + ")\"");
   }
 
-  static std::string with_multiplier(const std::string& label, const Axis& axis) {
+  static std::string with_multiplier(const std::string& label, const ChartAxis& axis) {
     return axis.multiplier.empty() ? label : label + " (" + axis.multiplier + ")";
   }
 
@@ -202,7 +202,7 @@ class Drawing {
   std::vector<std::vector<std::size_t>> points_;  // drawable, by series
   std::size_t bar_series_ = 0, marker_series_ = 0;
   double slot_ = 1;  // width of a group of bars in x
-  Axis x_, y_;
+  ChartAxis x_, y_;
   double left_ = 0, right_ = 0, top_ = 0, bottom_ = 0,
          height_ = 0;    // of the plot, and of the picture
   bool tilted_ = false;  // long words under the axis

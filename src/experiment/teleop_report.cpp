@@ -4,11 +4,10 @@
 #include "dcnn/data/csv.h"
 #include "dcnn/experiment/report.h"
 #include "experiment/markup.h"
+#include "experiment/series.h"
 
 namespace dcnn {
 namespace {
-
-std::vector<double> list_of(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
 
 Chart time_chart(const std::string& title, const std::string& y_label) {
   Chart chart;

@@ -1,13 +1,12 @@
 #include "models/augmented.h"
 
 #include "dcnn/core/random.h"
+#include "models/random_streams.h"
 
 namespace dcnn {
 namespace {
 
 // Streams of random numbers that one seed feeds.
-enum RandomStream : std::uint64_t { kLevelOrder = 200, kLevelNoise };
-
 /// Number of the level of each row.
 std::vector<std::size_t> levels_of_rows(Index rows, std::size_t levels, std::uint64_t seed) {
   std::vector<std::size_t> result;

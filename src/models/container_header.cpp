@@ -10,7 +10,7 @@
 namespace dcnn {
 namespace {
 
-constexpr std::uint64_t kLargest = std::numeric_limits<Index>::max();
+constexpr std::uint64_t kMostBytes = std::numeric_limits<Index>::max();
 
 template <class Numbers>
 std::string bracketed(const Numbers& numbers) {
@@ -87,7 +87,7 @@ class HeaderReader {
     std::uint64_t number = 0;
     const char* end = text_.data() + text_.size();
     const auto [rest, error] = std::from_chars(text_.data() + place_, end, number);
-    if (error != std::errc() || number > kLargest) reject("a size or offset is out of range");
+    if (error != std::errc() || number > kMostBytes) reject("a size or offset is out of range");
     place_ = static_cast<std::size_t>(rest - text_.data());
     return number;
   }
@@ -118,7 +118,7 @@ std::uint64_t tensor_bytes(const TensorEntry& tensor) {
   for (const Index extent : tensor.shape) {
     std::uint64_t product = 0;
     const auto factor = static_cast<std::uint64_t>(extent);
-    if (__builtin_mul_overflow(bytes, factor, &product)) return kLargest;
+    if (__builtin_mul_overflow(bytes, factor, &product)) return kMostBytes;
     bytes = product;
   }
   return bytes;

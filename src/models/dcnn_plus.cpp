@@ -42,7 +42,7 @@ Json remainder_layers(Options options, Index targets, Index features) {
 /// Spec 2.6. Noise of every level in each epoch, in blocks of 2 s at 500 Hz: with so few epochs one
 /// level an epoch would leave most of them out. Batch norm takes its statistics from those noisy
 /// rows, behind which the weights were trained.
-Json preset(const std::string& name, bool axes) {
+Json preset_dcnn_plus(const std::string& name, bool axes) {
   Json json = {
       {"model", {{"body", "convolutions"}, {"padding", "valid"}, {"dropout", 0.7}}},
       {"training",
@@ -69,14 +69,14 @@ Json preset(const std::string& name, bool axes) {
 /// validation trajectory, with dropout 0.5, 2 epochs gave 0.126 N without noise and 8 gave 0.270 N;
 /// with dropout 0.8, 2 epochs gave 0.117 N, the linear part alone 0.121 N.
 Json plus_preset(const std::string& name, bool axes) {
-  Json json = preset(name, axes);
+  Json json = preset_dcnn_plus(name, axes);
   json["training"]["epochs"] = 2;
   if (!axes || name == "paper") json["model"]["dropout"] = 0.8;
   return json;
 }
 
-std::unique_ptr<Model> make(const std::string& name, const std::string& input,
-                            const Problem& problem) {
+std::unique_ptr<Model> make_dcnn_plus(const std::string& name, const std::string& input,
+                                      const Problem& problem) {
   Options options(problem.configuration, problem.where, Exit::kUsage);
   Options model = options.child("model");
   Json chosen = model.raw("input");
@@ -86,11 +86,13 @@ std::unique_ptr<Model> make(const std::string& name, const std::string& input,
 }
 
 std::unique_ptr<Model> make_plus(const Problem& problem) {
-  return make("dcnn-plus", "body", problem);
+  return make_dcnn_plus("dcnn-plus", "body", problem);
 }
-std::unique_ptr<Model> make_t(const Problem& problem) { return make("dcnn-t", "lines", problem); }
+std::unique_ptr<Model> make_t(const Problem& problem) {
+  return make_dcnn_plus("dcnn-t", "lines", problem);
+}
 
-std::unique_ptr<Model> load(const Container& file, const std::string& where) {
+std::unique_ptr<Model> load_dcnn_plus(const Container& file, const std::string& where) {
   return std::make_unique<NetworkModel>(file, where);
 }
 
@@ -99,8 +101,8 @@ std::unique_ptr<Model> load(const Container& file, const std::string& where) {
 extern const ModelKind dcnn_plus_model, dcnn_t_model;
 const ModelKind dcnn_plus_model{
     "dcnn-plus", "four 2x2 modules beside a linear part, in the sensor frame (not the paper's)",
-    plus_preset, make_plus, load};
-const ModelKind dcnn_t_model{"dcnn-t", "the same on causal line fits over the last 0.26 s", preset,
-                             make_t, load};
+    plus_preset, make_plus, load_dcnn_plus};
+const ModelKind dcnn_t_model{"dcnn-t", "the same on causal line fits over the last 0.26 s",
+                             preset_dcnn_plus, make_t, load_dcnn_plus};
 
 }  // namespace dcnn

@@ -159,7 +159,7 @@ InertialParameters constrained(const JointProblem& problem, LogCholesky start) {
     VectorXd wanted = VectorXd::Zero(stacked.rows());
     wanted.head(error.size()) = -error;
     LogCholesky next = start;
-    next.point() += stacked.colPivHouseholderQr().solve(wanted);
+    next.point() += stacked.householderQr().solve(wanted);
     for (const Index k : {0, 2, 5, 9}) next.point()[k] = std::max(next.point()[k], kFlat);
     const double reached = cost(next);
     if (!(reached < least)) {

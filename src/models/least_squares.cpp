@@ -55,8 +55,8 @@ Eigen::VectorXd LeastSquares::column_rms() const {
 Eigen::VectorXd solve(const DenseProblem& problem) {
   const Eigen::VectorXd inverse_size =
       problem.size.unaryExpr([](double s) { return s > 0.0 ? 1.0 / s : 1.0; });
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(problem.a * inverse_size.asDiagonal(),
-                                           Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::HouseholderQRPreconditioner> svd(
+      problem.a * inverse_size.asDiagonal(), Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::VectorXd& d = svd.singularValues();
   Eigen::VectorXd filter = d;
   for (double& value : filter) {

@@ -8,8 +8,6 @@
 namespace dcnn {
 namespace {
 
-std::vector<double> list_of(const Eigen::VectorXd& v) { return {v.begin(), v.end()}; }
-
 Eigen::VectorXd stored_vector(const Container& file, const std::string& name, Index size) {
   const auto& values = stored_values<double>(file, name, "checkpoint");
   require(static_cast<Index>(values.size()) == size, Exit::kModel, "checkpoint: '", name,
@@ -19,7 +17,8 @@ Eigen::VectorXd stored_vector(const Container& file, const std::string& name, In
 
 }  // namespace
 
-LevenbergMarquardt::LevenbergMarquardt(const LeastSquares& training, const LeastSquares* validation,
+LevenbergMarquardt::LevenbergMarquardt(const NonlinearLeastSquares& training,
+                                       const NonlinearLeastSquares* validation,
                                        const Settings& settings, Eigen::VectorXd start)
     : training_(training),
       validation_(validation),

@@ -15,9 +15,9 @@ struct NormalEquations {
 };
 
 /// Errors whose squares are to be small.
-class LeastSquares {
+class NonlinearLeastSquares {
  public:
-  virtual ~LeastSquares() = default;
+  virtual ~NonlinearLeastSquares() = default;
   virtual double loss(const Eigen::VectorXd& weights) const = 0;  ///< mean square of the errors
   virtual NormalEquations linearise(const Eigen::VectorXd& weights) const = 0;
 };
@@ -32,7 +32,7 @@ class LevenbergMarquardt {
   };
 
   /// Without `validation` the last weights are the best ones.
-  LevenbergMarquardt(const LeastSquares& training, const LeastSquares* validation,
+  LevenbergMarquardt(const NonlinearLeastSquares& training, const NonlinearLeastSquares* validation,
                      const Settings& settings, Eigen::VectorXd start);
 
   bool done() const;
@@ -56,8 +56,8 @@ class LevenbergMarquardt {
   bool step(const NormalEquations& equations);
   void validate();
 
-  const LeastSquares& training_;
-  const LeastSquares* validation_;
+  const NonlinearLeastSquares& training_;
+  const NonlinearLeastSquares* validation_;
   Settings settings_;
   Eigen::VectorXd weights_, best_;
   double mu_, loss_, best_loss_ = 0.0;

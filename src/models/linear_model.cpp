@@ -13,7 +13,7 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double kGravity = 9.81;  // m/s^2
+constexpr double kStandardGravity = 9.81;  // m/s^2
 constexpr Index kLongestFilter = 1 << 16;
 constexpr Index kRowsAtATime = 2048;  // terms in memory that does not grow with the recording
 
@@ -124,7 +124,7 @@ double LinearModel::gravity_mass() const {
   const double size = A.norm() / std::sqrt(3.0);
   const double determinant = A.determinant();
   if (std::abs(determinant) < kDetermined * size * size * size) return 0.0;
-  return -std::cbrt(determinant) / kGravity;
+  return -std::cbrt(determinant) / kStandardGravity;
 }
 
 std::vector<std::string> LinearModel::notes() const {

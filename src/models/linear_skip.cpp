@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dcnn/core/random.h"
+#include "models/random_streams.h"
 #include "models/tensor_io.h"
 
 namespace dcnn {
@@ -11,8 +12,7 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr std::uint64_t kSkipNoise = 300;  // stream of random numbers
-constexpr Index kRowsAtATime = 1024;
+constexpr Index kSkipRows = 1024;
 constexpr const char* kName = "skip.weights";
 
 /// [1, inputs] of some rows, as the network sees them.
@@ -42,8 +42,8 @@ LinearSkip LinearSkip::fit(const Samples& training, const NoiseSpec& noise, cons
     const auto key = Rng({seed, kSkipNoise, level}).bits();
     const PreparedStream stream =
         input.prepare(noisy(training, noise, map, noise.levels[level], key), map);
-    for (Index first = 0; first < training.rows(); first += kRowsAtATime) {
-      const Index n = std::min(kRowsAtATime, training.rows() - first);
+    for (Index first = 0; first < training.rows(); first += kSkipRows) {
+      const Index n = std::min(kSkipRows, training.rows() - first);
       const Eigen::MatrixXd a = design(input, stream, map, first, n);
       normal.noalias() += a.transpose() * a;
       moment.noalias() += a.transpose() * training.y.middleRows(first, n);

@@ -55,7 +55,7 @@ class WindowInput : public NetworkInput {
   Index features_, length_;
 };
 
-const std::vector<std::string> kKinds{"map", "window", "body", "lines"};
+const std::vector<std::string> kInputKinds{"map", "window", "body", "lines"};
 
 bool is_sensor(const std::string& kind) { return kind == "body" || kind == "lines"; }
 
@@ -74,7 +74,7 @@ std::unique_ptr<NetworkInput> make_input(const Json& json, const FeatureLayout& 
                                          const std::string& where) {
   Options options(json, where, Exit::kUsage);
   if (!options.has("kind")) options.reject("kind", "is missing");
-  const auto kind = options.choice("kind", "map", kKinds);
+  const auto kind = options.choice("kind", "map", kInputKinds);
   std::unique_ptr<NetworkInput> input;
   if (is_sensor(kind)) {
     input = std::make_unique<SensorColumns>(kind, options, layout);
@@ -89,7 +89,7 @@ std::unique_ptr<NetworkInput> stored_input(const Json& json, Index features,
                                            const std::string& where) {
   Options options(json, where, Exit::kModel);
   if (!options.has("kind")) options.reject("kind", "is missing");
-  const auto kind = options.choice("kind", "map", kKinds);
+  const auto kind = options.choice("kind", "map", kInputKinds);
   std::unique_ptr<NetworkInput> input;
   if (is_sensor(kind)) {
     input = std::make_unique<SensorColumns>(kind, options, features, where);

@@ -5,13 +5,12 @@
 
 #include "dcnn/nn/optimizer.h"
 #include "models/linear_skip.h"
+#include "models/random_streams.h"
 #include "models/tensor_io.h"
 #include "models/trainer.h"
 
 namespace dcnn {
 namespace {
-
-enum RandomStream : std::uint64_t { kInitialWeights = 100 };
 
 /// What a file says that its model consists of.
 constexpr const char *kNetwork = "network", *kLinear = "linear", *kBoth = "linear and network";
@@ -82,7 +81,7 @@ NetworkModel::NetworkModel(std::string kind, const Json& input, const Json& laye
   input_ = make_input(input, problem.layout, problem.where);
   if (skip) skip_ = std::make_unique<LinearSkip>();
   if (layers.empty()) return;
-  Rng rng({seed_, kInitialWeights});
+  Rng rng({seed_, kNetworkWeights});
   network_ = std::make_unique<Network>(layers, input_->shape(), rng);
 }
 

@@ -38,17 +38,18 @@ class Ns : public ClosedFormModel {
   Index outputs_ = 0;
 };
 
-Json preset(const std::string& name, bool /*axes*/) { return closed_form_preset(name); }
+Json preset_ns(const std::string& name, bool /*axes*/) { return closed_form_preset(name); }
 
-std::unique_ptr<Model> make(const Problem& problem) { return std::make_unique<Ns>(problem); }
+std::unique_ptr<Model> make_ns(const Problem& problem) { return std::make_unique<Ns>(problem); }
 
-std::unique_ptr<Model> load(const Container& file, const std::string& where) {
+std::unique_ptr<Model> load_ns(const Container& file, const std::string& where) {
   return std::make_unique<Ns>(file, where);
 }
 
 }  // namespace
 
 extern const ModelKind ns_model;
-const ModelKind ns_model{"ns", "no identification: predicts zero", preset, make, load, true};
+const ModelKind ns_model{"ns", "no identification: predicts zero", preset_ns, make_ns, load_ns,
+                         true};
 
 }  // namespace dcnn

@@ -85,7 +85,7 @@ class InertialModel : public LinearModel {
   bool is_remainder_ = false;
 };
 
-Json preset(const std::string& name, bool /*axes*/) {
+Json preset_rigid(const std::string& name, bool /*axes*/) {
   Json json = closed_form_preset(name);
   json["model"] = {{"form", "regression"}};
   return json;
@@ -99,7 +99,7 @@ Index filter_samples(const Options& model, double seconds, double dt) {
   return static_cast<Index>(samples);
 }
 
-std::unique_ptr<Model> make(const Problem& problem) {
+std::unique_ptr<Model> make_rigid(const Problem& problem) {
   Options options(problem.configuration, problem.where, Exit::kUsage);
   Options model = options.child("model");
   const std::string form = model.choice("form", "regression", {"regression", "inertial"});
@@ -120,7 +120,7 @@ std::unique_ptr<Model> make(const Problem& problem) {
   return std::make_unique<InertialModel>(problem);
 }
 
-std::unique_ptr<Model> load(const Container& file, const std::string& where) {
+std::unique_ptr<Model> load_rigid(const Container& file, const std::string& where) {
   if (stored_text(file, "form", where) == kInertial.name) {
     return std::make_unique<InertialModel>(file, where);
   }
@@ -130,8 +130,9 @@ std::unique_ptr<Model> load(const Container& file, const std::string& where) {
 }  // namespace
 
 extern const ModelKind rigid_model;
-const ModelKind rigid_model{"rigid", "the rigid tool: regression on its terms, or its parameters",
-                            preset,  make,
-                            load,    true};
+const ModelKind rigid_model{
+    "rigid",      "the rigid tool: regression on its terms, or its parameters",
+    preset_rigid, make_rigid,
+    load_rigid,   true};
 
 }  // namespace dcnn

@@ -6,7 +6,7 @@
 namespace dcnn {
 namespace {
 
-const LinearModel::Form kRegression{"regression", Terms::kRigid};
+const LinearModel::Form kRecursive{"regression", Terms::kRigid};
 
 /// The terms of the rigid tool learned online, sample by sample (the scheme of arXiv 2604.23696):
 /// one pass over the training rows in time. What it predicts on other recordings is the state at
@@ -14,7 +14,7 @@ const LinearModel::Form kRegression{"regression", Terms::kRigid};
 class Rls : public LinearModel {
  public:
   Rls(const Problem& problem, double forgetting)
-      : LinearModel("rls", kRegression, problem), forgetting_(forgetting) {}
+      : LinearModel("rls", kRecursive, problem), forgetting_(forgetting) {}
 
  protected:
   void learn(const Samples& training) override {
@@ -37,13 +37,13 @@ class Rls : public LinearModel {
   double forgetting_;
 };
 
-Json preset(const std::string& name, bool /*axes*/) {
+Json preset_rls(const std::string& name, bool /*axes*/) {
   Json json = closed_form_preset(name);
   json["model"] = {{"forgetting", 0.9999}};
   return json;
 }
 
-std::unique_ptr<Model> make(const Problem& problem) {
+std::unique_ptr<Model> make_rls(const Problem& problem) {
   Options options(problem.configuration, problem.where, Exit::kUsage);
   Options model = options.child("model");
   const double forgetting = model.number("forgetting", 0.9999, 0.9, 1.0);
@@ -52,14 +52,14 @@ std::unique_ptr<Model> make(const Problem& problem) {
   return std::make_unique<Rls>(problem, forgetting);
 }
 
-std::unique_ptr<Model> load(const Container& file, const std::string& where) {
-  return std::make_unique<LinearModel>(file, std::vector{kRegression}, where);
+std::unique_ptr<Model> load_rls(const Container& file, const std::string& where) {
+  return std::make_unique<LinearModel>(file, std::vector{kRecursive}, where);
 }
 
 }  // namespace
 
 extern const ModelKind rls_model;
 const ModelKind rls_model{"rls", "the rigid tool's terms by recursive least squares, online",
-                          preset, make, load};
+                          preset_rls, make_rls, load_rls};
 
 }  // namespace dcnn

@@ -42,7 +42,7 @@ Eigen::VectorXd read_vector(Options& options, const std::string& key, Index size
 }
 
 template <class Vector>
-Json list_of(const Vector& v) {
+Json json_of(const Vector& v) {
   return std::vector<double>(v.data(), v.data() + v.size());
 }
 
@@ -142,10 +142,10 @@ void SensorColumns::write(const PreparedStream& stream, const InputMap& /*map*/,
 Json SensorColumns::to_json() const {
   Json json = {{"kind", is_lines() ? "lines" : "body"},
                {"frame", frame_.to_json()},
-               {"channel_mean", list_of(channel_mean_)},
-               {"knee", list_of(knee_)},
-               {"mean", list_of(mean_)},
-               {"deviation", list_of(deviation_)}};
+               {"channel_mean", json_of(channel_mean_)},
+               {"knee", json_of(knee_)},
+               {"mean", json_of(mean_)},
+               {"deviation", json_of(deviation_)}};
   if (is_lines()) json["lengths"] = lengths_;
   return json;
 }

@@ -52,12 +52,6 @@ std::vector<Index> chosen(Options& model, const FeatureLayout& layout) {
   return named(model, inputs, layout);
 }
 
-Eigen::RowVectorXd stored_row(const Container& file, const std::string& name,
-                              const std::string& where) {
-  const auto& values = stored_values<double>(file, name, where);
-  return Eigen::Map<const Eigen::RowVectorXd>(values.data(), static_cast<Index>(values.size()));
-}
-
 }  // namespace
 
 std::vector<Index> all_rows(Index n) {

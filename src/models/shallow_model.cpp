@@ -5,14 +5,13 @@
 #include <utility>
 
 #include "models/augmented.h"
+#include "models/random_streams.h"
 #include "models/tensor_io.h"
 
 namespace dcnn {
 namespace {
 
 // Streams of random numbers that one seed feeds.
-enum RandomStream : std::uint64_t { kInitialWeights = 300, kDivision, kNoise };
-
 constexpr double kTrainingShare = 0.70, kValidationShare = 0.15;  // the rest is unused (spec 2.3)
 constexpr Index kLeastRows = 20;
 constexpr std::size_t kMostHidden = 4;
@@ -43,14 +42,6 @@ ShallowNetwork::Shape stored_shape(const Container& file, const std::string& whe
   options.finish();
   return shape;
 }
-
-Eigen::RowVectorXd stored_row(const Container& file, const std::string& name,
-                              const std::string& where) {
-  const auto& values = stored_values<double>(file, name, where);
-  return Eigen::Map<const Eigen::RowVectorXd>(values.data(), static_cast<Index>(values.size()));
-}
-
-std::vector<double> list_of(const Eigen::RowVectorXd& v) { return {v.begin(), v.end()}; }
 
 std::string name_of(std::size_t layer) { return "layer" + std::to_string(layer); }
 
@@ -136,7 +127,7 @@ ShallowModel::Division ShallowModel::divide(const Samples& training) const {
   require(used >= kLeastRows, Exit::kData, "only ", used,
           " training rows; give longer recordings or a smaller training.stride");
   std::vector<Index> order = all_rows(used);
-  Rng rng({seed_, kDivision});
+  Rng rng({seed_, kShallowDivision});
   if (training_.division == "random") order = permutation(used, rng);
   for (Index& row : order) row *= training_.stride;
   if (training_.division == "held-out") return {order, {}};
@@ -164,7 +155,7 @@ bool ShallowModel::fit(const Samples& training, const Samples& validation, FitSe
   shape.inputs = input_.count();
   network_ = ShallowNetwork(shape);
 
-  const Samples noisy = augmented(training, noise_, map_, Rng({seed_, kNoise}).bits());
+  const Samples noisy = augmented(training, noise_, map_, Rng({seed_, kShallowNoise}).bits());
   const Division division = divide(noisy);
   const ShallowResiduals to_fit = residuals(noisy, division.training);
   const bool held_out = training_.division == "held-out";
@@ -173,7 +164,7 @@ bool ShallowModel::fit(const Samples& training, const Samples& validation, FitSe
       "training.division 'held-out' needs validation rows; give training.validation or --valid");
   const ShallowResiduals to_stop = held_out ? residuals(validation, all_rows(validation.rows()))
                                             : residuals(noisy, division.validation);
-  Rng rng({seed_, kInitialWeights});
+  Rng rng({seed_, kShallowWeights});
   LevenbergMarquardt optimiser(to_fit, &to_stop, training_.optimiser,
                                network_.initial_weights(rng));
   if (session.checkpoint) optimiser.restore(*session.checkpoint);

@@ -8,7 +8,7 @@ namespace dcnn {
 
 /// e = scale_k·(target_k - output_k). Rows are summed in fixed pieces that are added in order: the
 /// same bytes for any number of threads.
-class ShallowResiduals : public LeastSquares {
+class ShallowResiduals : public NonlinearLeastSquares {
  public:
   /// `inputs` (N, inputs) and `targets` (N, outputs) as the network has them; `scale` (outputs) is
   /// what one of its units is worth in an error.

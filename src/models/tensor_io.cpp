@@ -31,4 +31,10 @@ const std::string& stored_text(const Container& file, const std::string& key,
   return found->second;
 }
 
+Eigen::RowVectorXd stored_row(const Container& file, const std::string& name,
+                              const std::string& where) {
+  const auto& values = stored_values<double>(file, name, where);
+  return Eigen::Map<const Eigen::RowVectorXd>(values.data(), static_cast<Index>(values.size()));
+}
+
 }  // namespace dcnn

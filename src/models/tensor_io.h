@@ -28,6 +28,16 @@ const std::vector<T>& stored_values(const Container& file, const std::string& na
   return *values;
 }
 
+/// A stored tensor of numbers as a row.
+Eigen::RowVectorXd stored_row(const Container& file, const std::string& name,
+                              const std::string& where);
+
+/// The entries of an Eigen vector.
+template <class Vector>
+std::vector<double> list_of(const Vector& v) {
+  return {v.begin(), v.end()};
+}
+
 /// A metadata text, else Error(kModel).
 const std::string& stored_text(const Container& file, const std::string& key,
                                const std::string& where);

@@ -6,14 +6,13 @@
 
 #include "dcnn/nn/loss.h"
 #include "models/linear_skip.h"
+#include "models/random_streams.h"
 #include "models/tensor_io.h"
 
 namespace dcnn {
 namespace {
 
 // Streams of random numbers that one seed feeds.
-enum RandomStream : std::uint64_t { kShuffle = 1, kLevel, kNoise, kDropout, kCollectOrder };
-
 std::vector<NamedTensor> copies(const std::vector<NamedTensor>& tensors) {
   std::vector<NamedTensor> result;
   for (const NamedTensor& t : tensors) {
@@ -83,9 +82,9 @@ void Trainer::begin_epoch() {
   order_ = permutation((training_.rows() - start + spec_.stride - 1) / spec_.stride, shuffle);
   for (std::int64_t& row : order_) row = start + spec_.stride * row;
   const NoiseSpec& noise = model_.noise_;
-  const auto key = Rng({model_.seed_, kNoise, epoch}).bits();
+  const auto key = Rng({model_.seed_, kEpochNoise, epoch}).bits();
   if (noise.block_rows == 0) {
-    snr_ = noise.levels[Rng({model_.seed_, kLevel, epoch}).below(noise.levels.size())];
+    snr_ = noise.levels[Rng({model_.seed_, kEpochLevel, epoch}).below(noise.levels.size())];
     noisy_ = model_.input_->prepare(noisy(training_, noise, model_.map_, snr_, key), model_.map_);
   } else {
     noisy_ = model_.input_->prepare(noisy_blocks(training_, noise, model_.map_, key), model_.map_);

@@ -13,7 +13,7 @@
 namespace dcnn {
 namespace {
 
-constexpr double kMax = 1e6;  // bound of noise levels: any unit, any real sensor
+constexpr double kMostNoise = 1e6;  // bound of noise levels: any unit, any real sensor
 constexpr Index kMaxSamples = 20'000'000;
 
 /// What a random stream is for; the third number of its key.
@@ -50,11 +50,12 @@ Setup read_setup(Options& options, const std::string& where,
   setup.as_quaternion =
       options.choice("orientation", "euler", {"euler", "quaternion"}) == "quaternion";
   Options pose = options.child("pose_noise");
-  setup.position_noise = pose.number("m", 0.0, 0.0, kMax);
+  setup.position_noise = pose.number("m", 0.0, 0.0, kMostNoise);
   setup.angle_noise = pose.number("rad", 0.0, 0.0, std::numbers::pi);
   pose.finish();
   Options force = options.child("force_noise");
-  setup.sensor_noise = {force.number("n", 0.0, 0.0, kMax), force.number("nm", 0.0, 0.0, kMax),
+  setup.sensor_noise = {force.number("n", 0.0, 0.0, kMostNoise),
+                        force.number("nm", 0.0, 0.0, kMostNoise),
                         force.number("ar", 0.0, -0.999999, 0.999999)};
   force.finish();
   setup.actual = setup.nominal;
@@ -189,7 +190,7 @@ Sampling read_sampling(Options& entry, double dt) {
     entry.reject("samples", "must be between 1 and ", kMaxSamples, ", not ", sampling.samples);
   }
   sampling.dt = dt;
-  sampling.t0 = entry.number("t0_s", 0.0, -kMax, kMax);
+  sampling.t0 = entry.number("t0_s", 0.0, -kMostNoise, kMostNoise);
   return sampling;
 }
 

@@ -8,7 +8,7 @@
 namespace dcnn {
 namespace {
 
-const Eigen::VectorXd kZero3 = Eigen::VectorXd::Zero(3);
+const Eigen::VectorXd kNowhere = Eigen::VectorXd::Zero(3);
 
 /// A sum of sines, amplitude·sin(omega t + phase).
 struct Tone {
@@ -19,9 +19,9 @@ using Tones = std::vector<Tone>;
 /// How the tones of one coordinate are drawn.
 using Draw = Tones (*)(int tones, double low_hz, double high_hz, Rng& rng);
 
-/// Log-spaced over the band, each up to 0.15 of a spacing higher than a regular grid. With one grid for
-/// all six coordinates every feature would be a mix of the same twelve sines and cosines, and no
-/// identifier could tell from one recording which feature makes the force.
+/// Log-spaced over the band, each up to 0.15 of a spacing higher than a regular grid. With one grid
+/// for all six coordinates every feature would be a mix of the same twelve sines and cosines, and
+/// no identifier could tell from one recording which feature makes the force.
 Tones equal_tones(int tones, double low_hz, double high_hz, Rng& rng) {
   constexpr double kShift = 0.15;
   Tones list;
@@ -66,7 +66,7 @@ struct Group {
 
 Group read_group(Options& options, const std::string& size_key, const std::string& centre_key,
                  bool to_peak) {
-  Group group{read_list(options, size_key, kZero3), read_list(options, centre_key, kZero3),
+  Group group{read_list(options, size_key, kNowhere), read_list(options, centre_key, kNowhere),
               to_peak};
   if ((group.size.array() < 0.0).any()) options.reject(size_key, "must not be negative");
   return group;

@@ -7,7 +7,7 @@
 namespace dcnn {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 /// Quintic smoothstep.
 double smooth(double u) {
@@ -31,8 +31,8 @@ Eigen::Vector3d intended_motion(double t, double push_m) {
   const double held = held_clock(t);
   const double swing = 1.0 - smooth((t - 60.0) / 5.0) + smooth(t - 79.0);
   const double push = smooth((t - 68.0) / 3.0) - smooth((t - 74.0) / 2.5);
-  return {0.03 * std::sin(kTurn * 0.07 * held), 0.03 * std::sin(kTurn * 0.05 * held),
-          0.02 * std::sin(kTurn * 0.1 * t) * swing - push_m * push};
+  return {0.03 * std::sin(kTwoPi * 0.07 * held), 0.03 * std::sin(kTwoPi * 0.05 * held),
+          0.02 * std::sin(kTwoPi * 0.1 * t) * swing - push_m * push};
 }
 
 }  // namespace dcnn

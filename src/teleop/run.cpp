@@ -15,7 +15,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kStep = 1e-3;  // s, integration
 constexpr Index kStepsPerTick = 2;
-constexpr double kTick = kStepsPerTick * kStep;
+constexpr double kControlStep = kStepsPerTick * kStep;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 struct Body {
@@ -55,13 +55,13 @@ class Session {
     damping_ =
         2.0 * config.slave_damping_ratio * std::sqrt(config.slave_stiffness * config.slave_mass);
     // First order, exact for a force held over a tick.
-    smoothing_ = 1.0 - std::exp(-kTurn * config.force_lowpass_hz * kTick);
+    smoothing_ = 1.0 - std::exp(-kTurn * config.force_lowpass_hz * kControlStep);
     hand_.v = intended_rate(0.0);
     master_.v = slave_.v = hand_.v;
   }
 
   TeleopTrace run() {
-    const auto ticks = static_cast<Index>(std::lround(config_.duration_s / kTick));
+    const auto ticks = static_cast<Index>(std::lround(config_.duration_s / kControlStep));
     TeleopTrace trace;
     trace.t.resize(ticks);
     trace.energy.resize(ticks);
@@ -70,7 +70,7 @@ class Session {
       block->resize(ticks, 3);
     }
     for (Index k = 0; k < ticks; ++k) {
-      control(static_cast<double>(k) * kTick);
+      control(static_cast<double>(k) * kControlStep);
       store(k, trace);
       for (Index s = 0; s < kStepsPerTick; ++s) {
         integrate((static_cast<double>(k * kStepsPerTick + s)) * kStep);
@@ -97,7 +97,7 @@ class Session {
   /// What the sensor reads in S: the tool's own force and the contact.
   Vector3d measured(double t, const Orientation& o) {
     Trajectory instant;
-    instant.dt = kTick;
+    instant.dt = kControlStep;
     instant.t = Eigen::VectorXd::Constant(1, t);
     instant.position = slave_.x.transpose();
     instant.velocity = slave_.v.transpose();
@@ -133,7 +133,7 @@ class Session {
     Vector3d force = config_.force_scale * arrived;
     if (arrived.norm() < config_.force_dead_zone) force.setZero();
     if (force.norm() > config_.force_limit) force *= config_.force_limit / force.norm();
-    felt_ = guard_.act(force, master_.v, kTick);
+    felt_ = guard_.act(force, master_.v, kControlStep);
     if (felt_.norm() > config_.force_limit) felt_ *= config_.force_limit / felt_.norm();
     sent << master_.x, master_.v;
     command_ = config_.position_scale * forward_.pass(sent);
@@ -154,7 +154,7 @@ class Session {
   }
 
   void store(Index k, TeleopTrace& trace) const {
-    const double t = static_cast<double>(k) * kTick;
+    const double t = static_cast<double>(k) * kControlStep;
     trace.t[k] = t;
     trace.intended.row(k) = intended_motion(t, config_.push_m);
     trace.master.row(k) = master_.x;

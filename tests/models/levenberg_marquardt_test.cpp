@@ -8,7 +8,7 @@ namespace dcnn {
 namespace {
 
 /// e = A·w - b.
-class Linear : public LeastSquares {
+class Linear : public NonlinearLeastSquares {
  public:
   Linear(Index rows, Index columns, std::uint64_t seed) : a(rows, columns), b(rows) {
     Rng rng(seed);
@@ -29,7 +29,7 @@ class Linear : public LeastSquares {
 };
 
 /// Rosenbrock's valley as errors 10(w2 - w1²) and 1 - w1.
-class Rosenbrock : public LeastSquares {
+class Rosenbrock : public NonlinearLeastSquares {
  public:
   static Eigen::Vector2d errors(const Eigen::VectorXd& w) {
     return {10.0 * (w[1] - w[0] * w[0]), 1.0 - w[0]};
@@ -43,7 +43,7 @@ class Rosenbrock : public LeastSquares {
 };
 
 /// A loss the training does not look at: its least value lies near `w`.
-class Distance : public LeastSquares {
+class Distance : public NonlinearLeastSquares {
  public:
   explicit Distance(Eigen::VectorXd w) : goal(std::move(w)) {}
   double loss(const Eigen::VectorXd& w) const override { return (w - goal).squaredNorm(); }

@@ -12,6 +12,11 @@
 
 namespace dcnn {
 
+/// Columns of a pose (contract.md section 2).
+inline const std::vector<std::string> kPosition = {"x", "y", "z"};
+inline const std::vector<std::string> kEuler = {"alpha", "beta", "gamma"};
+inline const std::vector<std::string> kQuaternion = {"qw", "qx", "qy", "qz"};
+
 /// Rows [begin, end) without a gap in time: no derivative, window or noise crosses its ends.
 struct Segment {
   Index begin = 0, end = 0;
@@ -26,7 +31,7 @@ struct ReadOptions {
   bool resample = false;       ///< put an irregular clock on a regular one
   double resample_hz = 0.0;    ///< 0: the recording's own median rate
   bool static_list = false;    ///< accept a list of poses without time
-  bool motion_only = false;   ///< nothing measured is needed: the log is to be predicted
+  bool motion_only = false;    ///< nothing measured is needed: the log is to be predicted
 };
 
 struct Recording {
@@ -49,8 +54,9 @@ struct Recording {
   void set(const std::string& name, const Eigen::VectorXd& values);
 };
 
-/// Reads, checks and converts one recording. `system` names the columns that must be there: for `wrist`
-/// time, an orientation and a force; for `axes` those of the description. All faults are Error(kData).
+/// Reads, checks and converts one recording. `system` names the columns that must be there: for
+/// `wrist` time, an orientation and a force; for `axes` those of the description. All faults are
+/// Error(kData).
 Recording read_recording(const std::filesystem::path& path, const ReadOptions& options,
                          const System& system);
 
@@ -60,7 +66,8 @@ struct Targets {
 };
 Targets find_targets(const Recording& recording, const System& system);
 
-/// (T, targets): measured values times the axis' scale, zero-phase low-passed where the system says so
+/// (T, targets): measured values times the axis' scale, zero-phase low-passed where the system says
+/// so
 /// (`filtered` false leaves that out).
 Eigen::MatrixXd measured(const Recording& recording, const Targets& targets, const System& system,
                          bool filtered = true);

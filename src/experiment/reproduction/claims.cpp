@@ -15,17 +15,17 @@ const std::vector<std::string> kNetworks{"ffnn-s", "cfnn-s", "ffnn-m", "cfnn-m",
 const std::vector<std::string> kIdentifiers{"cf",     "ffnn-s", "cfnn-s", "ffnn-m",
                                             "cfnn-m", "lstm",   "dcnn"};
 
-struct Named {
+struct NamedModel {
   std::string name;
   double value;
 };
 
-using Values = std::optional<std::vector<Named>>;
+using Values = std::optional<std::vector<NamedModel>>;
 
 /// Mean over the noisy levels of a number of each model; nothing where a model or a level lacks it.
 template <class Pick>
 Values averages(const Scores& scores, const std::vector<std::string>& names, Pick pick) {
-  std::vector<Named> result;
+  std::vector<NamedModel> result;
   for (const auto& name : names) {
     const ModelScores* model = scores.find(name);
     if (model == nullptr) return std::nullopt;
@@ -68,7 +68,7 @@ Values deviation_averages(const Scores& scores, const std::vector<std::string>& 
 
 Values call_times(const std::vector<Timing>& timings, const std::vector<std::string>& names,
                   int length) {
-  std::vector<Named> result;
+  std::vector<NamedModel> result;
   for (const auto& name : names) {
     const auto row = std::find_if(timings.begin(), timings.end(), [&](const Timing& t) {
       return t.entry == name && t.length == length && !t.from_pose;
@@ -80,23 +80,24 @@ Values call_times(const std::vector<Timing>& timings, const std::vector<std::str
 }
 
 /// "ffnn-s 0.267, cfnn-s 0.270"
-std::string words(const std::vector<Named>& values, double scale = 1) {
+std::string listed(const std::vector<NamedModel>& values, double scale = 1) {
   std::string text;
   for (const auto& [name, value] : values)
     text += (text.empty() ? "" : ", ") + name + " " + significant(value * scale, 4);
   return text;
 }
 
-double value_of(const std::vector<Named>& values, const std::string& name) {
-  return std::find_if(values.begin(), values.end(), [&](const Named& v) { return v.name == name; })
+double value_of(const std::vector<NamedModel>& values, const std::string& name) {
+  return std::find_if(values.begin(), values.end(),
+                      [&](const NamedModel& v) { return v.name == name; })
       ->value;
 }
 
 /// `name` is below all the others.
-bool is_least(const std::vector<Named>& values, const std::string& name) {
+bool is_least(const std::vector<NamedModel>& values, const std::string& name) {
   const double own = value_of(values, name);
   return std::all_of(values.begin(), values.end(),
-                     [&](const Named& v) { return v.name == name || own < v.value; });
+                     [&](const NamedModel& v) { return v.name == name || own < v.value; });
 }
 
 Verdict verdict(bool holds) { return holds ? Verdict::kHolds : Verdict::kFails; }
@@ -116,7 +117,7 @@ Claim claim_1(const Scores& scores) {
     }
   }
   claim.verdict = verdict(holds);
-  claim.numbers = "Fy: " + words(*y) + " N; Fz: " + words(*z) + " N";
+  claim.numbers = "Fy: " + listed(*y) + " N; Fz: " + listed(*z) + " N";
   return claim;
 }
 
@@ -125,7 +126,7 @@ Claim claim_2(const Scores& scores) {
   const auto x = axis_averages(scores, kIdentifiers, "fx");
   if (!x) return claim;
   claim.verdict = verdict(is_least(*x, "dcnn"));
-  claim.numbers = "Fx: " + words(*x) + " N";
+  claim.numbers = "Fx: " + listed(*x) + " N";
   return claim;
 }
 
@@ -139,7 +140,7 @@ Claim claim_3(const Scores& scores) {
   if (!deviations) return claim;
   claim.verdict = verdict(is_least(*deviations, "dcnn"));
   claim.numbers = "SD of the overall RMSE over draws on " + std::to_string(scores.samples) +
-                  " test samples: " + words(*deviations, 1e3) + " mN";
+                  " test samples: " + listed(*deviations, 1e3) + " mN";
   return claim;
 }
 
@@ -155,7 +156,7 @@ Claim claim_4(const Scores& scores, const std::vector<Timing>& timings) {
   const auto times = call_times(timings, kIdentifiers, 1);
   if (!overall || !times) return claim;
   const double none = value_of(*overall, kNoIdentification), cf = value_of(*overall, "cf");
-  const bool below = std::all_of(overall->begin(), overall->end(), [&](const Named& v) {
+  const bool below = std::all_of(overall->begin(), overall->end(), [&](const NamedModel& v) {
     return v.name == kNoIdentification || v.value < none;
   });
   const bool fastest = is_least(*times, "cf");
@@ -167,7 +168,7 @@ Claim claim_4(const Scores& scores, const std::vector<Timing>& timings) {
   claim.numbers = std::string("below NS: ") + (below ? "all" : "not all") + "; CF " +
                   (fastest ? "is" : "is not") + " the fastest; " + std::to_string(better) + " of " +
                   std::to_string(kNetworks.size()) +
-                  " networks are more accurate than CF. Overall: " + words(*overall) + " N";
+                  " networks are more accurate than CF. Overall: " + listed(*overall) + " N";
   return claim;
 }
 
@@ -180,7 +181,7 @@ Claim claim_5(const std::vector<Timing>& timings) {
   const auto times = call_times(timings, {"ffnn-m", "cfnn-m", "lstm", "dcnn"}, 1);
   if (!times) return claim;
   claim.verdict = verdict(is_least(*times, "dcnn"));
-  claim.numbers = words(*times, 1e6) + " µs";
+  claim.numbers = listed(*times, 1e6) + " µs";
   return claim;
 }
 

@@ -5,6 +5,7 @@
 
 #include "dcnn/core/file.h"
 #include "dcnn/experiment/train.h"
+#include "experiment/levels.h"
 #include "experiment/markup.h"
 #include "experiment/svg_marks.h"
 
@@ -102,10 +103,6 @@ Series over_time(const std::string& label, int look, const Table& table, const s
 }
 
 }  // namespace
-
-std::string level_name(const SnrLevel& level) {
-  return level ? significant(*level, 4) + " dB" : "clean";
-}
 
 std::string label_of(const std::vector<Entry>& entries, const std::string& name) {
   for (const Entry& entry : entries) {

@@ -27,7 +27,6 @@ std::vector<Chart> residual_panels(const Results& results, const Scores& scores,
 /// Time per call over the length.
 Chart timing_chart(const std::vector<Timing>& timings, const std::vector<Entry>& entries);
 
-std::string level_name(const SnrLevel& level);  ///< "clean", "20 dB"
 std::string label_of(const std::vector<Entry>& entries, const std::string& name);
 
 }  // namespace dcnn

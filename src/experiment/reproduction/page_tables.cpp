@@ -1,5 +1,6 @@
 #include "experiment/reproduction/page_tables.h"
 
+#include "experiment/levels.h"
 #include "experiment/markup.h"
 #include "experiment/reproduction/figures.h"
 #include "experiment/reproduction/paper_times.h"

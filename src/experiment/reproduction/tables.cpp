@@ -5,6 +5,7 @@
 
 #include "dcnn/core/file.h"
 #include "dcnn/experiment/train.h"
+#include "experiment/levels.h"
 #include "experiment/reproduction/paper_times.h"
 
 namespace dcnn {
@@ -15,8 +16,6 @@ std::string decimal(double value) {
   std::snprintf(text, sizeof text, "%.9g", value);
   return text;
 }
-
-Json level_json(const SnrLevel& level) { return level ? Json(*level) : Json(); }
 
 /// One line per draw: level,model,run,<targets>,overall (spec 5.1).
 std::string draws_csv(const Scores& scores) {

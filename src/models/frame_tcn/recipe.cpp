@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "models/random_streams.h"
 #include "models/tensor_io.h"
 
 namespace dcnn::frame_tcn {
 namespace {
 
-enum RandomStream : std::uint64_t { kGates = 112, kHead = 113 };
 constexpr Index kGateBatch = 500, kHeadBatch = 250;
 constexpr double kClip = 5.0;
 
@@ -107,7 +107,7 @@ void Recipe::finish_epoch(double loss) {
 double Recipe::gate_step(Index step) {
   Net& net = model_.net_;
   if (net.gate_size() == 0) return 0.0;
-  Rng rng({spec_.seed, kGates, static_cast<std::uint64_t>(step)});
+  Rng rng({spec_.seed, kTcnGates, static_cast<std::uint64_t>(step)});
   Batch b = batch(rng, kGateBatch, true);
   net.denoise(b.pass);
   Eigen::MatrixXd d = b.pass.clean - b.clean;
@@ -130,7 +130,7 @@ double Recipe::gate_step(Index step) {
 
 double Recipe::head_step(Index step) {
   Net& net = model_.net_;
-  Rng rng({spec_.seed, kHead, static_cast<std::uint64_t>(step)});
+  Rng rng({spec_.seed, kTcnHead, static_cast<std::uint64_t>(step)});
   Batch b = batch(rng, kHeadBatch, false);
   net.denoise(b.pass);
   net.features(b.pass);

@@ -2,11 +2,11 @@
 #include <cmath>
 
 #include "models/frame_tcn/recipe.h"
+#include "models/random_streams.h"
 
 namespace dcnn::frame_tcn {
 namespace {
 
-enum RandomStream : std::uint64_t { kNoise = 110 };
 constexpr int kDraws = 3;  // of unit noise of each kind
 constexpr Index kCopyStride = 4;
 constexpr double kNoisiest = 5.0;     // dB above the least that are called so
@@ -36,7 +36,7 @@ void Recipe::make_noise() {
         noise_deviation(spec_.noise, model_.map_, training_.x, 0.0).cwiseQuotient(scale);
     for (std::uint64_t k = 0; k < kDraws; ++k) {
       noise_.push_back({with_noise(Eigen::MatrixXd::Zero(x_.rows(), kChannels), deviation,
-                                   Rng({spec_.seed, kNoise, k}).bits()),
+                                   Rng({spec_.seed, kTcnNoise, k}).bits()),
                         false});
     }
   }

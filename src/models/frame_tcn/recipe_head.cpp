@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "models/frame_tcn/recipe.h"
+#include "models/random_streams.h"
 
 namespace dcnn::frame_tcn {
 namespace {
 
-enum RandomStream : std::uint64_t { kUnits = 114, kRidgeDraw, kBins };
 constexpr Index kRidgeBatch = 500;
 constexpr Index kLeastBatches = 8, kMostBatches = 80;
 constexpr double kRidge = 3e-4;
@@ -118,7 +118,7 @@ void Recipe::begin_head() {
 /// Scales of z and of the saturating units, on clean rows.
 void Recipe::measure_units() {
   Net& net = model_.net_;
-  Rng rng({spec_.seed, kUnits});
+  Rng rng({spec_.seed, kTcnUnits});
   Batch b;
   for (Index i = 0; i < 4000; ++i) {
     Draw d;
@@ -141,7 +141,7 @@ void Recipe::solve_head(bool weighted) {
   Net& net = model_.net_;
   HeadEquations equations(net.columns_z(), net.plan().triples);
   for (Index k = 0; k < ridge_batches(); ++k) {
-    Rng rng({spec_.seed, kRidgeDraw, static_cast<std::uint64_t>(k)});
+    Rng rng({spec_.seed, kTcnRidge, static_cast<std::uint64_t>(k)});
     Batch b = batch(rng, kRidgeBatch, false);
     net.denoise(b.pass);
     net.features(b.pass);
@@ -158,7 +158,7 @@ void Recipe::solve_head(bool weighted) {
 void Recipe::measure_bins() {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(bins_.size()), count = sum;
   for (Index k = 0; k < ridge_batches() / 2; ++k) {
-    Rng rng({spec_.seed, kBins, static_cast<std::uint64_t>(k)});
+    Rng rng({spec_.seed, kTcnBins, static_cast<std::uint64_t>(k)});
     Batch b = batch(rng, kRidgeBatch, false);
     model_.net_.denoise(b.pass);
     model_.net_.features(b.pass);
