@@ -25,6 +25,7 @@ void SensorFrame::mount(const Eigen::Vector3d& rpy) {
 }
 
 void SensorFrame::turn(Eigen::RowVectorXd& x) const {
+  if (identity_) return;
   const auto block = [&](Block b) { return x.segment<3>(first_[b]).transpose(); };
   const Eigen::Vector3d euler = block(kOrientation);
   const Eigen::Matrix3d R_SB = R_SE_ * rotation_from_euler(euler).transpose();

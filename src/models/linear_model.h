@@ -55,6 +55,7 @@ class LinearModel : public ClosedFormModel {
   void filter_over(Index samples) { filter_ = samples; }
 
   Eigen::MatrixXd predict(const Stream& stream) const override;
+  std::unique_ptr<Predictor> predictor() const override;
   Index parameter_count() const override { return weights_.size(); }
   void save(Container& file) const override;
   /// Says so when the fitted mass is negative (contract.md section 1).
@@ -79,7 +80,7 @@ class LinearModel : public ClosedFormModel {
 
   Form form_;
   FeatureLayout layout_;
-  std::unique_ptr<Regressors> regressors_;
+  std::shared_ptr<const Regressors> regressors_;
   Eigen::MatrixXd weights_;  // (terms, targets)
   Index filter_ = 1;         // samples; 1 is none
   bool is_force_ = false;    // the targets begin with the whole force on the sensor

@@ -69,16 +69,22 @@ LinearSkip LinearSkip::fit(const Samples& training, const NoiseSpec& noise, cons
 
 Eigen::MatrixXd LinearSkip::of(const Tensor& inputs) const {
   const Index n = inputs.dim(0), cells = weights_.rows() - 1;
-  Eigen::MatrixXd result(n, weights_.cols());
-  for (Index j = 0; j < result.cols(); ++j) {
-    for (Index i = 0; i < n; ++i) {
-      const Real* x = inputs.data() + i * cells;
-      double sum = weights_(0, j);
-      for (Index k = 0; k < cells; ++k) sum += weights_(1 + k, j) * static_cast<double>(x[k]);
-      result(i, j) = sum;
-    }
+  Eigen::MatrixXd result(n, targets());
+  Eigen::VectorXd row(targets());
+  for (Index i = 0; i < n; ++i) {
+    of(inputs.data() + i * cells, row);
+    result.row(i) = row.transpose();
   }
   return result;
+}
+
+void LinearSkip::of(const Real* inputs, Eigen::VectorXd& y) const noexcept {
+  const Index cells = weights_.rows() - 1;
+  for (Index j = 0; j < targets(); ++j) {
+    double sum = weights_(0, j);
+    for (Index k = 0; k < cells; ++k) sum += weights_(1 + k, j) * static_cast<double>(inputs[k]);
+    y[j] = sum;
+  }
 }
 
 void LinearSkip::save(Container& file) const {

@@ -20,6 +20,8 @@ class LinearSkip {
 
   /// (n, targets) for inputs (n, …).
   Eigen::MatrixXd of(const Tensor& inputs) const;
+  /// (targets) for one sample's inputs; allocates nothing.
+  void of(const Real* inputs, Eigen::VectorXd& y) const noexcept;
   /// Root of the mean square that the fit left of each target, noisy rows included.
   const Eigen::VectorXd& residual() const { return residual_; }
   Index targets() const { return weights_.cols(); }

@@ -9,6 +9,49 @@ namespace {
 
 constexpr double kLongestWindow = 4096;
 
+class StreamingMap final : public StreamingInput {
+ public:
+  explicit StreamingMap(InputMap map)
+      : map_(std::move(map)),
+        cells_(static_cast<std::size_t>(map_.features() * InputMap::kColumns)) {}
+  void reset() noexcept override {}
+  const Real* push(const Eigen::VectorXd& x) noexcept override {
+    map_.write(x.data(), cells_.data());
+    return cells_.data();
+  }
+
+ private:
+  InputMap map_;
+  std::vector<Real> cells_;
+};
+
+/// The last rows in a ring that holds every row twice, so that a window is one piece of it.
+class StreamingWindow final : public StreamingInput {
+ public:
+  StreamingWindow(const Eigen::VectorXd& mean, const Eigen::ArrayXd& scale, Index length)
+      : mean_(mean), scale_(scale), ring_(mean.size(), 2 * length), length_(length) {}
+  void reset() noexcept override { fresh_ = true; }
+  const Real* push(const Eigen::VectorXd& x) noexcept override {
+    next_ = fresh_ || next_ + 1 == length_ ? 0 : next_ + 1;
+    auto row = ring_.col(next_);
+    row = ((x - mean_).array() / scale_).matrix().cast<Real>();
+    if (fresh_) {
+      for (Index k = 1; k < 2 * length_; ++k) ring_.col(k) = ring_.col(0);
+      fresh_ = false;
+    } else {
+      ring_.col(next_ + length_) = row;
+    }
+    return ring_.col(next_ + 1).data();
+  }
+
+ private:
+  Eigen::VectorXd mean_;
+  Eigen::ArrayXd scale_;
+  Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic> ring_;  // (F, 2T)
+  Index length_, next_ = 0;
+  bool fresh_ = true;
+};
+
 /// Eq. 7 of one row.
 class MapInput : public NetworkInput {
  public:
@@ -21,6 +64,9 @@ class MapInput : public NetworkInput {
   void write(const PreparedStream& stream, const InputMap& map, Index row,
              Real* out) const override {
     map.write(stream.values.row(row).data(), out);
+  }
+  std::unique_ptr<StreamingInput> streaming(const InputMap& map) const override {
+    return std::make_unique<StreamingMap>(map);
   }
   Json to_json() const override { return {{"kind", "map"}}; }
 
@@ -36,9 +82,8 @@ class WindowInput : public NetworkInput {
   bool per_sample() const override { return length_ == 1; }
   PreparedStream prepare(const Stream& stream, const InputMap& map) const override {
     PreparedStream prepared = prepare_rows(stream);
-    const Eigen::ArrayXd scale = (map.deviation().array() < 1e-12).select(1.0, map.deviation());
     prepared.values.rowwise() -= map.mean().transpose();
-    prepared.values.array().rowwise() /= scale.transpose();
+    prepared.values.array().rowwise() /= scale(map).transpose();
     return prepared;
   }
   void write(const PreparedStream& stream, const InputMap& /*map*/, Index row,
@@ -49,9 +94,16 @@ class WindowInput : public NetworkInput {
       for (Index j = 0; j < features_; ++j) *out++ = static_cast<Real>(x[j]);
     }
   }
+  std::unique_ptr<StreamingInput> streaming(const InputMap& map) const override {
+    return std::make_unique<StreamingWindow>(map.mean(), scale(map), length_);
+  }
   Json to_json() const override { return {{"kind", "window"}, {"length", length_}}; }
 
  private:
+  static Eigen::ArrayXd scale(const InputMap& map) {
+    return (map.deviation().array() < 1e-12).select(1.0, map.deviation());
+  }
+
   Index features_, length_;
 };
 

@@ -4,6 +4,16 @@
 namespace dcnn {
 namespace {
 
+class NsPredictor final : public Predictor {
+ public:
+  explicit NsPredictor(Index outputs) : zero_(Eigen::VectorXd::Zero(outputs)) {}
+  void reset() noexcept override {}
+  const Eigen::VectorXd& push(const Eigen::VectorXd& /*x*/) noexcept override { return zero_; }
+
+ private:
+  Eigen::VectorXd zero_;
+};
+
 /// No identification (spec 2.1): what every other model is measured by.
 class Ns : public ClosedFormModel {
  public:
@@ -23,6 +33,9 @@ class Ns : public ClosedFormModel {
 
   Eigen::MatrixXd predict(const Stream& stream) const override {
     return Eigen::MatrixXd::Zero(stream.rows(), outputs_);
+  }
+  std::unique_ptr<Predictor> predictor() const override {
+    return std::make_unique<NsPredictor>(outputs_);
   }
   Index parameter_count() const override { return 0; }
   void save(Container& file) const override {

@@ -1,6 +1,7 @@
 #include "models/regressors.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dcnn {
 namespace {
@@ -30,20 +31,18 @@ class AxisRegressors : public Regressors {
     for (Index k = 0; k < terms_of_all + static_cast<Index>(others_.size()) + 1; ++k) add_group(1);
   }
 
-  Eigen::MatrixXd of(const Eigen::MatrixXd& x) const override {
-    Eigen::MatrixXd terms(x.rows(), count());
+  void write(const Eigen::RowVectorXd& x, Eigen::RowVectorXd& terms) const override {
     Index k = 0;
     for (const Index column : positions_) {
-      const auto q = x.col(column).array();
-      terms.col(k++) = q;
+      const double q = x[column];
+      terms[k++] = q;
       for (Index harmonic = 1; harmonic <= harmonics_; ++harmonic) {
-        terms.col(k++) = (static_cast<double>(harmonic) * q).sin();
-        terms.col(k++) = (static_cast<double>(harmonic) * q).cos();
+        terms[k++] = std::sin(static_cast<double>(harmonic) * q);
+        terms[k++] = std::cos(static_cast<double>(harmonic) * q);
       }
     }
-    for (const Index column : others_) terms.col(k++) = x.col(column);
-    terms.col(k).setOnes();
-    return terms;
+    for (const Index column : others_) terms[k++] = x[column];
+    terms[k] = 1.0;
   }
 
  private:
@@ -52,6 +51,17 @@ class AxisRegressors : public Regressors {
 };
 
 }  // namespace
+
+Eigen::MatrixXd Regressors::of(const Eigen::MatrixXd& x) const {
+  Eigen::MatrixXd terms(x.rows(), count());
+  Eigen::RowVectorXd from(x.cols()), to(count());
+  for (Index i = 0; i < x.rows(); ++i) {
+    from = x.row(i);
+    write(from, to);
+    terms.row(i) = to;
+  }
+  return terms;
+}
 
 void Regressors::add_group(Index terms) {
   const Index kind = groups_.empty() ? 0 : groups_.back() + 1;
@@ -66,11 +76,11 @@ WristColumns wrist_columns(const FeatureLayout& layout) {
           .angular_acceleration = place_of(layout, body ? "dwx" : "ddalpha")};
 }
 
-std::unique_ptr<Regressors> axis_regressors(const FeatureLayout& layout, Terms terms) {
-  return std::make_unique<AxisRegressors>(layout, terms);
+std::shared_ptr<const Regressors> axis_regressors(const FeatureLayout& layout, Terms terms) {
+  return std::make_shared<AxisRegressors>(layout, terms);
 }
 
-std::unique_ptr<Regressors> make_regressors(const FeatureLayout& layout, Terms terms) {
+std::shared_ptr<const Regressors> make_regressors(const FeatureLayout& layout, Terms terms) {
   const bool axes = layout.spec.set == FeatureSpec::Set::kAxes;
   return axes ? axis_regressors(layout, terms) : wrist_regressors(layout, terms);
 }

@@ -30,7 +30,9 @@ class Regressors {
   /// (count) terms of one kind have the same number.
   const std::vector<Index>& groups() const { return groups_; }
   /// Terms of rows of features: (n, F) to (n, count).
-  virtual Eigen::MatrixXd of(const Eigen::MatrixXd& x) const = 0;
+  Eigen::MatrixXd of(const Eigen::MatrixXd& x) const;
+  /// Of one row (F) to (count); allocates nothing.
+  virtual void write(const Eigen::RowVectorXd& x, Eigen::RowVectorXd& terms) const = 0;
 
  protected:
   /// Enrols `terms` more terms of one new kind.
@@ -40,7 +42,8 @@ class Regressors {
   std::vector<Index> groups_;
 };
 
-std::unique_ptr<Regressors> make_regressors(const FeatureLayout& layout, Terms terms);
+/// Shared: a predictor keeps the terms of its model.
+std::shared_ptr<const Regressors> make_regressors(const FeatureLayout& layout, Terms terms);
 
 /// Where the blocks of three begin among the features of a wrist; -1 where one is left out.
 struct WristColumns {
@@ -49,7 +52,7 @@ struct WristColumns {
 WristColumns wrist_columns(const FeatureLayout& layout);
 
 /// The parts of make_regressors().
-std::unique_ptr<Regressors> wrist_regressors(const FeatureLayout& layout, Terms terms);
-std::unique_ptr<Regressors> axis_regressors(const FeatureLayout& layout, Terms terms);
+std::shared_ptr<const Regressors> wrist_regressors(const FeatureLayout& layout, Terms terms);
+std::shared_ptr<const Regressors> axis_regressors(const FeatureLayout& layout, Terms terms);
 
 }  // namespace dcnn

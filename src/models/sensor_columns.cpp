@@ -8,8 +8,6 @@
 namespace dcnn {
 namespace {
 
-constexpr double kClip = 5.0;
-constexpr double kKnee = 0.08;
 constexpr double kLeastSaturated = 0.3;  // deviation of a tanh entry
 constexpr Index kSaturated[] = {3, 4};   // column of tanh: body, lines
 constexpr double kConstant = 1e-9;       // a deviation below this share of the mean is rounding

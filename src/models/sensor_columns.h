@@ -32,9 +32,14 @@ class SensorColumns : public NetworkInput {
   PreparedStream prepare(const Stream& stream, const InputMap& map) const override;
   void write(const PreparedStream& stream, const InputMap& map, Index row,
              Real* out) const override;
+  std::unique_ptr<StreamingInput> streaming(const InputMap& map) const override;
   Json to_json() const override;
 
  private:
+  class Streaming;
+  static constexpr double kClip = 5.0;
+  static constexpr double kKnee = 0.08;
+
   bool is_lines() const { return !lengths_.empty(); }
   /// Columns before standardisation, (N, 5 F), channel by channel.
   PreparedStream raw(const Stream& stream) const;

@@ -136,6 +136,26 @@ RowMatrix ShallowInput::read(const Stream& stream, const InputMap& map,
   return values;
 }
 
+ShallowInput::Streaming::Streaming(const ShallowInput& input, const InputMap& map)
+    : columns_(input.columns_),
+      least_(input.least_),
+      scale_(2.0 / (input.most_ - input.least_).array()) {
+  if (input.input_) input_ = input.input_->streaming(map);
+}
+
+void ShallowInput::Streaming::reset() noexcept {
+  if (input_) input_->reset();
+}
+
+void ShallowInput::Streaming::push(const Eigen::VectorXd& x, Eigen::RowVectorXd& signals) noexcept {
+  const Real* cells = input_ ? input_->push(x) : nullptr;
+  for (Index j = 0; j < least_.size(); ++j) {
+    const Index column = columns_[static_cast<std::size_t>(j)];
+    const double value = cells ? static_cast<double>(cells[column]) : x[column];
+    signals[j] = (value - least_[j]) * scale_[j] - 1.0;
+  }
+}
+
 void ShallowInput::save(Container& file) const {
   file.metadata["input"] = (input_ ? input_->to_json() : Json()).dump();
   file.tensors.push_back({"input_columns", {count()}, columns_});

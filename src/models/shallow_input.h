@@ -26,6 +26,20 @@ class ShallowInput {
   RowMatrix read(const Stream& stream, const InputMap& map, const std::vector<Index>& rows) const;
   void save(Container& file) const;
 
+  /// read() for rows that come one by one, after learn().
+  class Streaming {
+   public:
+    Streaming(const ShallowInput& input, const InputMap& map);
+    void reset() noexcept;
+    /// Sets the first count() of `signals` at the row x (F). Allocates, locks and throws nothing.
+    void push(const Eigen::VectorXd& x, Eigen::RowVectorXd& signals) noexcept;
+
+   private:
+    std::unique_ptr<StreamingInput> input_;  // null: the features themselves
+    std::vector<Index> columns_;
+    Eigen::RowVectorXd least_, scale_;
+  };
+
  private:
   Index available(Index features) const;
   RowMatrix raw(const Stream& stream, const InputMap& map, const std::vector<Index>& rows) const;

@@ -31,6 +31,7 @@ class ShallowModel : public Model {
 
   bool fit(const Samples& training, const Samples& validation, FitSession& session) override;
   Eigen::MatrixXd predict(const Stream& stream) const override;
+  std::unique_ptr<Predictor> predictor() const override;
   Index parameter_count() const override { return network_.parameter_count(); }
   const InputMap& map() const override { return map_; }
   void save(Container& file) const override;

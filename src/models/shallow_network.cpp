@@ -7,23 +7,48 @@
 namespace dcnn {
 namespace {
 
-/// to (n, units) = biases + signals·weights; `to_row` values lie between its rows.
+/// Rows of signals and where their sums go; `signals_row`, `to_row` values lie between them.
+struct Rows {
+  const double* signals;
+  Index signals_row;
+  double* to;
+  Index to_row, count;
+};
+
+/// to (n, units) = biases + signals·weights.
 void layer_sums(const ShallowNetwork::Layer& layer, const Eigen::VectorXd& weights,
-                const RowMatrix& signals, double* to, Index to_row) {
+                const Rows& rows) {
   const double* of_layer = weights.data() + layer.offset;
   const Run run{0, 0, layer.width};
-  tile_product(TileProduct<double>{.a = signals.data() + layer.first,
-                                   .a_row = signals.cols(),
+  tile_product(TileProduct<double>{.a = rows.signals + layer.first,
+                                   .a_row = rows.signals_row,
                                    .a_step = 1,
                                    .b = of_layer + layer.units,
                                    .b_step = layer.units,
                                    .runs = {&run, 1},
-                                   .out = to,
-                                   .out_row = to_row,
+                                   .out = rows.to,
+                                   .out_row = rows.to_row,
                                    .start = of_layer,
                                    .start_row = 0,
-                                   .rows = signals.rows(),
+                                   .rows = rows.count,
                                    .columns = layer.units});
+}
+
+/// Fills in the hidden units of (n, signals) and the outputs.
+void run_layers(const ShallowNetwork& network, const Eigen::VectorXd& weights, double* signals,
+                Index count, double* outputs) {
+  const Index width = network.signals();
+  for (const ShallowNetwork::Layer& layer : network.layers()) {
+    if (&layer == &network.layers().back()) {
+      layer_sums(layer, weights, {signals, width, outputs, network.shape().outputs, count});
+      return;
+    }
+    layer_sums(layer, weights, {signals, width, signals + layer.place, width, count});
+    for (Index row = 0; row < count; ++row) {
+      double* unit = signals + row * width + layer.place;
+      for (Index i = 0; i < layer.units; ++i) unit[i] = std::tanh(unit[i]);
+    }
+  }
 }
 
 /// Directions drawn at random, lengths and biases such that the active ranges of the units, whose
@@ -69,17 +94,14 @@ Eigen::VectorXd ShallowNetwork::initial_weights(Rng& rng) const {
 }
 
 RowMatrix ShallowNetwork::forward(const Eigen::VectorXd& weights, RowMatrix& signals) const {
-  for (const Layer& layer : layers_) {
-    if (&layer == &layers_.back()) break;
-    layer_sums(layer, weights, signals, signals.data() + layer.place, signals.cols());
-    for (Index row = 0; row < signals.rows(); ++row) {
-      double* unit = signals.data() + row * signals.cols() + layer.place;
-      for (Index i = 0; i < layer.units; ++i) unit[i] = std::tanh(unit[i]);
-    }
-  }
   RowMatrix outputs(signals.rows(), shape_.outputs);
-  layer_sums(layers_.back(), weights, signals, outputs.data(), outputs.cols());
+  run_layers(*this, weights, signals.data(), signals.rows(), outputs.data());
   return outputs;
+}
+
+void ShallowNetwork::forward(const Eigen::VectorXd& weights, Eigen::RowVectorXd& signals,
+                             Eigen::RowVectorXd& outputs) const {
+  run_layers(*this, weights, signals.data(), 1, outputs.data());
 }
 
 }  // namespace dcnn

@@ -50,6 +50,10 @@ class ShallowNetwork {
   /// row's result does not depend on the others.
   RowMatrix forward(const Eigen::VectorXd& weights, RowMatrix& signals) const;
 
+  /// The same for one sample: outputs from signals whose inputs are set. Allocates nothing.
+  void forward(const Eigen::VectorXd& weights, Eigen::RowVectorXd& signals,
+               Eigen::RowVectorXd& outputs) const;
+
  private:
   Shape shape_;
   std::vector<Layer> layers_;

@@ -22,19 +22,7 @@ class WristRegressors : public Regressors {
         columns_(wrist_columns(layout)),
         R_SE_(rotation_from_euler(layout.spec.sensor_rotation_rpy.reverse()).transpose()) {}
 
-  Eigen::MatrixXd of(const Eigen::MatrixXd& x) const override {
-    Eigen::MatrixXd terms(x.rows(), count());
-    RowVectorXd row(count());
-    for (Index i = 0; i < x.rows(); ++i) {
-      write(x.row(i), row);
-      terms.row(i) = row;
-    }
-    return terms;
-  }
-
  protected:
-  virtual void write(const RowVectorXd& x, RowVectorXd& terms) const = 0;
-
   const WristColumns& columns() const { return columns_; }
   bool is_body() const { return body_; }
 
@@ -70,7 +58,7 @@ class Gravity : public WristRegressors {
     add_group(1);
   }
 
- protected:
+ public:
   void write(const RowVectorXd& x, RowVectorXd& terms) const override {
     terms << motion(x).u.transpose(), 1.0;
   }
@@ -80,7 +68,7 @@ class Fourier : public WristRegressors {
  public:
   explicit Fourier(const FeatureLayout& layout) : WristRegressors(layout) { add_group(27); }
 
- protected:
+ public:
   void write(const RowVectorXd& x, RowVectorXd& terms) const override {
     const Vector3d o = block(x, columns().orientation);
     const Vector3d one = is_body() ? o : Vector3d(o.array().sin());
@@ -106,7 +94,7 @@ class Rigid : public WristRegressors {
     add_group(1);
   }
 
- protected:
+ public:
   void write(const RowVectorXd& x, RowVectorXd& terms) const override {
     const BodyMotion m = motion(x);
     Index next = 0;
@@ -127,10 +115,10 @@ class Rigid : public WristRegressors {
 
 }  // namespace
 
-std::unique_ptr<Regressors> wrist_regressors(const FeatureLayout& layout, Terms terms) {
-  if (terms == Terms::kGravity) return std::make_unique<Gravity>(layout);
-  if (terms == Terms::kFourier) return std::make_unique<Fourier>(layout);
-  return std::make_unique<Rigid>(layout);
+std::shared_ptr<const Regressors> wrist_regressors(const FeatureLayout& layout, Terms terms) {
+  if (terms == Terms::kGravity) return std::make_shared<Gravity>(layout);
+  if (terms == Terms::kFourier) return std::make_shared<Fourier>(layout);
+  return std::make_shared<Rigid>(layout);
 }
 
 }  // namespace dcnn

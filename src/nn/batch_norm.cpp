@@ -57,6 +57,28 @@ struct Statistics {
   bool of_batch;  // they depend on x, so the gradient flows through them
 };
 
+/// At inference, where no layer before it could take it (Network::folded()).
+class BatchNormStep final : public PlanStep {
+ public:
+  BatchNormStep(Statistics statistics, Values scale, Values shift, Index rows)
+      : statistics_(std::move(statistics)),
+        scale_(std::move(scale)),
+        shift_(std::move(shift)),
+        rows_(rows) {}
+  void run(const Real* x, Real* y) noexcept override {
+    for (Index r = 0; r < rows_; ++r) {
+      for (std::size_t c = 0; c < scale_.size(); ++c) {
+        *y++ = (*x++ - statistics_.mean[c]) * scale_[c] + shift_[c];
+      }
+    }
+  }
+
+ private:
+  Statistics statistics_;
+  Values scale_, shift_;
+  Index rows_;
+};
+
 /// y = gamma·(x - mean)/sqrt(variance + eps) + beta per channel over batch and positions (Ioffe and
 /// Szegedy 2015). (N, …, C) in, the same shape out.
 class BatchNorm final : public Layer {
@@ -84,6 +106,15 @@ class BatchNorm final : public Layer {
                   [x, gamma = gamma_, beta = beta_, s = std::move(statistics)](const Tensor& out) {
                     backward(x, gamma, beta, s, out.gradient_data());
                   });
+  }
+
+  std::unique_ptr<PlanStep> plan(const Shape& sample, PlanStep*) const override {
+    Statistics statistics = stored();
+    Values scale(statistics.inverse);
+    for (std::size_t c = 0; c < scale.size(); ++c) scale[c] *= gamma_.data()[c];
+    return std::make_unique<BatchNormStep>(std::move(statistics), std::move(scale),
+                                           Values(beta_.values().begin(), beta_.values().end()),
+                                           element_count(sample) / gamma_.size());
   }
 
   std::vector<NamedTensor> state() const override {

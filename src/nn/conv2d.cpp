@@ -3,11 +3,23 @@
 #include "dcnn/nn/layer.h"
 #include "nn/init.h"
 #include "nn/kernels/channels.h"
-#include "nn/kernels/convolution.h"
+#include "nn/kernels/convolution_plan.h"
 #include "nn/pieces.h"
 
 namespace dcnn {
 namespace {
+
+class Conv2dStep final : public PlanStep {
+ public:
+  Conv2dStep(const ConvShape& shape, const Tensor& weight, const Tensor& bias)
+      : plan_(shape, weight, bias) {}
+  void run(const Real* x, Real* y) noexcept override { plan_.run(x, relu_, y); }
+  bool absorb_relu() override { return relu_ = true; }
+
+ private:
+  ConvolutionPlan plan_;
+  bool relu_ = false;
+};
 
 /// Cross-correlation, stride 1, plus bias. (N, H, W, C) in, (N, H', W', filters) out; weight
 /// (window_h, window_w, C, filters). With `same` H' = H, W' = W and the odd zero of an even window
@@ -28,6 +40,10 @@ class Conv2d final : public Layer {
                   [s, x, weight = weight_, bias = bias_](const Tensor& out) {
                     backward(s, x, weight, bias, out.gradient_data());
                   });
+  }
+
+  std::unique_ptr<PlanStep> plan(const Shape&, PlanStep*) const override {
+    return std::make_unique<Conv2dStep>(shape_, weight_, bias_);
   }
 
   std::vector<NamedTensor> state() const override {

@@ -28,6 +28,8 @@ class Dropout final : public Layer {
     });
   }
 
+  std::unique_ptr<PlanStep> plan(const Shape&, PlanStep*) const override { return nullptr; }
+
  private:
   void draw(std::uint64_t key, Index begin, Index count, Real* mask) const {
     const auto drop_below = static_cast<std::uint64_t>(rate_ * 0x1p32);

@@ -9,6 +9,7 @@ class Flatten final : public Layer {
   Tensor forward(const Tensor& x, Pass&) const override {
     return x.reshaped({x.dim(0), x.size() / x.dim(0)});
   }
+  std::unique_ptr<PlanStep> plan(const Shape&, PlanStep*) const override { return nullptr; }
 };
 
 LayerPtr make_flatten(Options&, const Shape&, Rng&) { return std::make_unique<Flatten>(); }

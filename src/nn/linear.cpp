@@ -8,6 +8,19 @@
 namespace dcnn {
 namespace {
 
+class LinearStep final : public PlanStep {
+ public:
+  LinearStep(const Tensor& weight, const Tensor& bias)
+      : weight_(Tensor::from(weight.shape(), weight.values())),
+        bias_(Tensor::from(bias.shape(), bias.values())) {}
+  void run(const Real* x, Real* y) noexcept override {
+    affine(x, weight_.data(), bias_.data(), weight_.dim(1), weight_.dim(0), y);
+  }
+
+ private:
+  Tensor weight_, bias_;
+};
+
 /// y = W·x + b. (N, inputs) in, (N, outputs) out; weight (outputs, inputs).
 class Linear final : public Layer {
  public:
@@ -25,6 +38,10 @@ class Linear final : public Layer {
     return record(y, {x, weight_, bias_}, [x, weight = weight_, bias = bias_](const Tensor& out) {
       backward(x, weight, bias, out.gradient_data());
     });
+  }
+
+  std::unique_ptr<PlanStep> plan(const Shape&, PlanStep*) const override {
+    return std::make_unique<LinearStep>(weight_, bias_);
   }
 
   std::vector<NamedTensor> state() const override {

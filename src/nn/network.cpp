@@ -61,7 +61,8 @@ Network::Network(const Json& layers, const Shape& input, Rng& rng)
     stack_.push_back(kind.make(options, Shape(x.shape().begin() + 1, x.shape().end()), rng));
     options.finish();
     require(i < kMostLayers && parameter_count() <= kMostWeights, Exit::kUsage, place,
-            ": more than ", kMostLayers, " layers or ", kMostWeights, " weights; use a smaller network");
+            ": more than ", kMostLayers, " layers or ", kMostWeights,
+            " weights; use a smaller network");
     for (auto& named : stack_.back()->state()) {
       named.name = std::to_string(i) + "." + kind.name + "." + named.name;
       state_.push_back(std::move(named));
@@ -112,6 +113,22 @@ Network Network::folded() const {
     fold(to[0].tensor, to[1].tensor, output_first, stack_[norm_of[k]]->state());
   }
   return network;
+}
+
+Plan Network::plan() const {
+  const Network network = folded();
+  const NoGradient guard;
+  Pass pass;
+  Plan plan;
+  PlanStep* before = nullptr;
+  Tensor x(with_batch(input_));
+  for (const auto& layer : network.stack_) {
+    auto step = layer->plan(Shape(x.shape().begin() + 1, x.shape().end()), before);
+    if (step) before = step.get();
+    x = layer->forward(x, pass);
+    plan.add(std::move(step), x.size());
+  }
+  return plan;
 }
 
 }  // namespace dcnn

@@ -5,6 +5,15 @@
 namespace dcnn {
 namespace {
 
+class ReluStep final : public PlanStep {
+ public:
+  explicit ReluStep(Index size) : size_(size) {}
+  void run(const Real* x, Real* y) noexcept override { relu_forward(x, size_, y); }
+
+ private:
+  Index size_;
+};
+
 /// y = max(x, 0). Any shape in, the same shape out.
 class Relu final : public Layer {
  public:
@@ -20,6 +29,11 @@ class Relu final : public Layer {
         relu_gradient(out.data() + begin, dy + begin, count, {dx.data + begin, dx.add});
       });
     });
+  }
+
+  std::unique_ptr<PlanStep> plan(const Shape& sample, PlanStep* before) const override {
+    if (before && before->absorb_relu()) return nullptr;
+    return std::make_unique<ReluStep>(element_count(sample));
   }
 };
 

@@ -6,6 +6,17 @@
 namespace dcnn {
 namespace {
 
+class TanhStep final : public PlanStep {
+ public:
+  explicit TanhStep(Index size) : size_(size) {}
+  void run(const Real* x, Real* y) noexcept override {
+    for (Index i = 0; i < size_; ++i) y[i] = std::tanh(x[i]);
+  }
+
+ private:
+  Index size_;
+};
+
 /// y = tanh(x). Any shape in, the same shape out.
 class Tanh final : public Layer {
  public:
@@ -21,6 +32,10 @@ class Tanh final : public Layer {
         for (Index i = begin; i < begin + count; ++i) dx[i] += dy[i] * (1 - value[i] * value[i]);
       });
     });
+  }
+
+  std::unique_ptr<PlanStep> plan(const Shape& sample, PlanStep*) const override {
+    return std::make_unique<TanhStep>(element_count(sample));
   }
 };
 

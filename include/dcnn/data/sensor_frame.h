@@ -21,12 +21,14 @@ class SensorFrame {
   /// (N, F) to (N, F), block by block in the same places.
   Eigen::MatrixXd of(Eigen::MatrixXd x) const;
 
+  /// Of one row in its place; allocates nothing.
+  void turn(Eigen::RowVectorXd& x) const;
+
   /// Null for the identity, else {rotation_rpy, blocks: first column of each block, -1 without}.
   Json to_json() const;
   static SensorFrame parse(const Json& json, Index features, const std::string& where, Exit exit);
 
  private:
-  void turn(Eigen::RowVectorXd& x) const;
   void mount(const Eigen::Vector3d& rpy);
 
   enum Block { kOrientation, kVelocity, kAngularVelocity, kAcceleration, kAngularAcceleration };

@@ -13,6 +13,7 @@
 #include "dcnn/data/input_map.h"
 #include "dcnn/data/noise.h"
 #include "dcnn/models/container.h"
+#include "dcnn/models/predictor.h"
 
 namespace dcnn {
 
@@ -74,6 +75,8 @@ class Model {
   /// (N, targets), one row per row of the stream; the rows before the first one of a segment are
   /// taken to equal it.
   virtual Eigen::MatrixXd predict(const Stream& stream) const = 0;
+  /// The model as it is now for one sample after another; it may outlive the model.
+  virtual std::unique_ptr<Predictor> predictor() const = 0;
   /// Every prediction depends on its own row alone, so that rows can be left out.
   virtual bool per_sample() const { return false; }
   virtual Index parameter_count() const = 0;

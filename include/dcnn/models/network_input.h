@@ -17,6 +17,17 @@ struct PreparedStream {
   std::vector<Index> segment_begin;  ///< (N) first row of the segment each row lies in
 };
 
+/// A network's input as rows come one by one.
+class StreamingInput {
+ public:
+  virtual ~StreamingInput() = default;
+  /// The next row begins a segment.
+  virtual void reset() noexcept = 0;
+  /// The input (element_count(shape())) at the row x (F), valid until the next call. Allocates,
+  /// locks and throws nothing.
+  virtual const Real* push(const Eigen::VectorXd& x) noexcept = 0;
+};
+
 class NetworkInput {
  public:
   virtual ~NetworkInput() = default;
@@ -30,6 +41,8 @@ class NetworkInput {
   /// Writes the network's input for one row.
   virtual void write(const PreparedStream& stream, const InputMap& map, Index row,
                      Real* out) const = 0;
+  /// The same for rows that come one by one, after learn().
+  virtual std::unique_ptr<StreamingInput> streaming(const InputMap& map) const = 0;
   /// What make_input() makes it from, statistics included.
   virtual Json to_json() const = 0;
 };

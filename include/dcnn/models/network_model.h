@@ -48,6 +48,7 @@ class NetworkModel : public Model {
 
   bool fit(const Samples& training, const Samples& validation, FitSession& session) override;
   Eigen::MatrixXd predict(const Stream& stream) const override;
+  std::unique_ptr<Predictor> predictor() const override;
   bool per_sample() const override;
   Index parameter_count() const override;
   const InputMap& map() const override { return map_; }

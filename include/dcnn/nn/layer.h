@@ -9,6 +9,7 @@
 #include "dcnn/core/options.h"
 #include "dcnn/core/random.h"
 #include "dcnn/core/tensor.h"
+#include "dcnn/nn/plan.h"
 
 namespace dcnn {
 
@@ -17,10 +18,11 @@ struct Pass {
   enum class Mode {
     kInfer,    ///< dropout is the identity, batch norm uses its stored statistics
     kTrain,    ///< dropout draws, batch norm uses the batch and updates running statistics
-    kCollect,  ///< no dropout; batch norm uses the batch and pools its statistics over batches (spec 2.4)
+    kCollect,  ///< no dropout; batch norm uses the batch and pools its statistics over batches
+               ///< (spec 2.4)
   };
   Mode mode = Mode::kInfer;
-  Rng rng{0};           ///< dropout draws one key per call from it, so threads do not matter
+  Rng rng{0};              ///< dropout draws one key per call from it, so threads do not matter
   Index batch_number = 0;  ///< kCollect: 0 for the first batch of the pass
 };
 
@@ -40,6 +42,9 @@ class Layer {
  public:
   virtual ~Layer() = default;
   virtual Tensor forward(const Tensor& x, Pass& pass) const = 0;
+  /// The layer at inference as a step for one sample of this shape, given the step before it (null
+  /// for the first); null where it does nothing then, or where that step does it too.
+  virtual std::unique_ptr<PlanStep> plan(const Shape& sample, PlanStep* before) const = 0;
   /// Trained weights and stored statistics: what a model file holds.
   virtual std::vector<NamedTensor> state() const { return {}; }
 };
@@ -49,7 +54,7 @@ using LayerPtr = std::unique_ptr<Layer>;
 /// One row of the list of layers (layers.def): how it is named, made and tested.
 struct LayerKind {
   const char* name;
-  const char* example;  ///< options for the shared tests, JSON
+  const char* example;                         ///< options for the shared tests, JSON
   std::initializer_list<Index> example_input;  ///< (N, …)
   /// `input` is the shape of one sample, without N.
   LayerPtr (*make)(Options&, const Shape& input, Rng&);

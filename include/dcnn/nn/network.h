@@ -30,6 +30,9 @@ class Network {
   /// connected layer before it (y = (Wx + b - mean)·gamma/sqrt(var + eps) + beta).
   Network folded() const;
 
+  /// folded() for one sample after another.
+  Plan plan() const;
+
  private:
   Json layers_;
   Shape input_;

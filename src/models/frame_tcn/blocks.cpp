@@ -25,14 +25,17 @@ BlockMeans::BlockMeans(const Eigen::MatrixXd& x, const std::vector<Segment>& seg
   }
 }
 
-Index BlockMeans::known(Index row) const {
-  const Index rows = row + 1 - begin_[static_cast<std::size_t>(row)];
+Index known_blocks(Index rows) {
   Index count = 0;
   for (Index covered = 0; count < kBlocks; ++count) {
     covered += block_size(count);
     if (covered > rows) break;
   }
   return count;
+}
+
+Index BlockMeans::known(Index row) const {
+  return known_blocks(row + 1 - begin_[static_cast<std::size_t>(row)]);
 }
 
 void BlockMeans::write(Index row, Index channel, Index count, double* out) const {
@@ -73,8 +76,6 @@ Eigen::MatrixXd roughness(const Eigen::MatrixXd& u, const Eigen::MatrixXd& w,
   return result;
 }
 
-Eigen::MatrixXd levels(const Eigen::MatrixXd& mean_square) {
-  return 0.5 * mean_square.array().max(1e-16).log10();
-}
+Eigen::MatrixXd levels(const Eigen::MatrixXd& mean_square) { return level(mean_square); }
 
 }  // namespace dcnn::frame_tcn

@@ -19,6 +19,9 @@ constexpr Index kFewest = 4;  ///< differences that a level is judged from
 /// Samples of block k; k = 0 is the newest sample.
 constexpr Index block_size(Index k) { return Index{1} << (k / 8); }
 
+/// Blocks that so many rows fill, 0 to 48.
+Index known_blocks(Index rows);
+
 /// Block means of any row in constant time.
 class BlockMeans {
  public:
@@ -44,6 +47,10 @@ Eigen::MatrixXd roughness(const Eigen::MatrixXd& u, const Eigen::MatrixXd& w,
                           const std::vector<Segment>& segments, Index edge, Index fewest = kFewest);
 
 /// 0.5 log10 of a mean square, held above 1e-8 of the unit.
+template <class Squares>
+auto level(const Eigen::DenseBase<Squares>& mean_square) {
+  return 0.5 * mean_square.derived().array().max(1e-16).log10();
+}
 Eigen::MatrixXd levels(const Eigen::MatrixXd& mean_square);
 
 /// The stretches of a stream: its segments, or all rows where it names none.

@@ -14,15 +14,6 @@ void write_group(const BlockMeans& blocks, const std::vector<Index>& channels, I
   }
 }
 
-/// Which of kHistories a row has enough blocks for.
-std::size_t history_of(const BlockMeans& blocks, Index row) {
-  const Index known = blocks.known(row);
-  if (known == kBlocks) return 0;
-  std::size_t h = 1;
-  while (h + 1 < kHistories.size() && kHistories[h + 1] <= known) ++h;
-  return h;
-}
-
 /// Rows of the newest `known` blocks of each channel among those of all 48.
 std::vector<Index> newest_blocks(Index channels, Index known) {
   std::vector<Index> rows;
@@ -35,8 +26,16 @@ std::vector<Index> newest_blocks(Index channels, Index known) {
 }  // namespace
 
 std::vector<Index> group_channels(Index group) {
-  if (group < 3) return {group, group + 6, group + 12};
-  return {group, group + 6};
+  std::vector<Index> channels;
+  for (Index k = 0; k < channel_count(group); ++k) channels.push_back(group_channel(group, k));
+  return channels;
+}
+
+std::size_t history_of(Index known) {
+  if (known == kBlocks) return 0;
+  std::size_t h = 1;
+  while (h + 1 < kHistories.size() && kHistories[h + 1] <= known) ++h;
+  return h;
 }
 
 Front::Front(Index count) : experts(count) {
@@ -52,8 +51,8 @@ Front::Front(Index count) : experts(count) {
 Eigen::MatrixXd Front::apply(const BlockMeans& blocks, Index first, Index count) const {
   Eigen::MatrixXd result(kChannels * experts, count);
   for (Index begin = 0, end = 0; begin < count; begin = end) {
-    const std::size_t history = history_of(blocks, first + begin);
-    while (end < count && history_of(blocks, first + end) == history) ++end;
+    const std::size_t history = history_of(blocks.known(first + begin));
+    while (end < count && history_of(blocks.known(first + end)) == history) ++end;
     apply(blocks, first + begin, history, result.middleCols(begin, end - begin));
   }
   return result;

@@ -16,7 +16,12 @@ constexpr Index kGroups = 6;  ///< rotation about, then translation along each a
 constexpr std::array<Index, 9> kHistories{kBlocks, 1, 2, 4, 8, 16, 24, 32, 40};
 
 /// The channels that one group reads and estimates: theta, theta', theta'' or v, a of one axis.
+constexpr Index channel_count(Index group) { return group < 3 ? 3 : 2; }
+constexpr Index group_channel(Index group, Index k) { return group + 6 * k; }
 std::vector<Index> group_channels(Index group);
+
+/// Which of kHistories is for a row with so many known blocks.
+std::size_t history_of(Index known);
 
 /// One group's weights for each of kHistories, (channels·experts, channels·known), row
 /// c·experts + e.

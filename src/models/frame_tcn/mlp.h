@@ -14,8 +14,13 @@ struct Mlp {
   /// y (outputs, n) of x (inputs, n); h (hidden, n) is kept for the gradient.
   void forward(const double* p, const Eigen::MatrixXd& x, Eigen::MatrixXd& h,
                Eigen::MatrixXd& y) const {
-    h = ((W1(p) * x).colwise() + b1(p)).array().tanh();
-    y = (W2(p) * h).colwise() + b2(p);
+    // In place: one column allocates nothing once h and y have their sizes.
+    h.resize(hidden, x.cols());
+    h.noalias() = W1(p) * x;
+    h = (h.colwise() + b1(p)).array().tanh();
+    y.resize(outputs, x.cols());
+    y.noalias() = W2(p) * h;
+    y.colwise() += b2(p);
   }
   /// Adds dLoss/dp to g; x has no gradient.
   void backward(const double* p, const Eigen::MatrixXd& x, const Eigen::MatrixXd& h,

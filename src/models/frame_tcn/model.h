@@ -40,6 +40,7 @@ class FrameTcn : public Model {
 
   bool fit(const Samples& training, const Samples& validation, FitSession& session) override;
   Eigen::MatrixXd predict(const Stream& stream) const override;
+  std::unique_ptr<Predictor> predictor() const override;
   Index parameter_count() const override;
   const InputMap& map() const override { return map_; }
   void save(Container& file) const override;

@@ -63,8 +63,16 @@ Eigen::Map<const Eigen::MatrixXd> Net::sensor(Index triple) const {
 }
 
 Eigen::MatrixXd Net::standard_levels(const Eigen::MatrixXd& roughness) const {
-  Eigen::MatrixXd standard =
-      ((levels(roughness).colwise() - level_mean).array().colwise() / level_scale.array());
+  Eigen::MatrixXd standard;
+  put_standard_levels(roughness, standard);
+  return standard;
+}
+
+void Net::put_standard_levels(const Eigen::MatrixXd& roughness, Eigen::MatrixXd& standard) const {
+  standard.resize(kChannels, roughness.cols());
+  for (Index i = 0; i < roughness.cols(); ++i) {
+    standard.col(i) = (level(roughness.col(i)) - level_mean.array()) / level_scale.array();
+  }
   for (Index i = 0; i < standard.cols(); ++i) {
     double sum = 0.0, known = 0.0;
     for (Index c = 0; c < kChannels; ++c) {
@@ -76,7 +84,6 @@ Eigen::MatrixXd Net::standard_levels(const Eigen::MatrixXd& roughness) const {
       if (roughness(c, i) == kUnknown) standard(c, i) = known > 0.0 ? sum / known : level_noisy[c];
     }
   }
-  return standard;
 }
 
 void Net::denoise(Pass& pass) const {
@@ -126,11 +133,12 @@ void Net::features(Pass& pass) const {
 void Net::product(Pass& pass) const {
   pass.out.resize(3 * plan_.triples, pass.columns());
   for (Index t = 0; t < plan_.triples; ++t) {
-    const Eigen::MatrixXd in_world = world(t).transpose() * pass.z;
+    pass.in_world.resize(3, pass.columns());
+    pass.in_world.noalias() = world(t).transpose() * pass.z;
     pass.out.middleRows(3 * t, 3).noalias() = sensor(t).transpose() * pass.z;
     for (Index i = 0; i < pass.columns(); ++i) {
       const Frame& f = pass.frames[static_cast<std::size_t>(i)];
-      pass.out.col(i).segment<3>(3 * t) += f.to_sensor * in_world.col(i);
+      pass.out.col(i).segment<3>(3 * t) += f.to_sensor * pass.in_world.col(i);
     }
   }
 }

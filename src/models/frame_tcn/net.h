@@ -19,7 +19,7 @@ struct Pass {
   Eigen::MatrixXd levels;   ///< (15, n) standardised: given
   Eigen::MatrixXd experts;  ///< (15·experts, n) estimates by the convolutions: given
   Eigen::MatrixXd gate_hidden, share, clean;  ///< clean (15, n): denoised, in units of scale
-  Eigen::MatrixXd gain_hidden, gain, tanh, z;
+  Eigen::MatrixXd gain_hidden, gain, tanh, z, in_world;
   Eigen::MatrixXd out;  ///< (3·triples, n), in units of the spread
   std::vector<Frame> frames;
   Index columns() const { return experts.cols(); }
@@ -42,6 +42,7 @@ class Net {
   /// Standardised levels of a roughness (15, n). One that is not known equals the mean of those
   /// that are; where none is, noise is taken to be the worst of the training.
   Eigen::MatrixXd standard_levels(const Eigen::MatrixXd& roughness) const;
+  void put_standard_levels(const Eigen::MatrixXd& roughness, Eigen::MatrixXd& standard) const;
   /// Shares of the experts by the levels of noise, and the channels they make.
   void denoise(Pass& pass) const;
   /// z of the denoised channels: everything before the last linear map.

@@ -1,0 +1,36 @@
+// A network as a fixed list of operations on one sample.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "dcnn/core/tensor.h"
+
+namespace dcnn {
+
+/// One operation with its shapes fixed, its weights packed and its working memory its own.
+class PlanStep {
+ public:
+  virtual ~PlanStep() = default;
+  /// y (outputs) of x (inputs), which do not overlap. Allocates, locks and throws nothing.
+  virtual void run(const Real* x, Real* y) noexcept = 0;
+  /// Takes a ReLU of its outputs into itself; false where it cannot.
+  virtual bool absorb_relu() { return false; }
+};
+
+/// Made by Network::plan(). Holds copies of the weights.
+class Plan {
+ public:
+  /// The next operation, which makes so many values; null where the layer does nothing.
+  void add(std::unique_ptr<PlanStep> step, Index outputs);
+  Index outputs() const { return outputs_; }
+  /// The network's output for one sample, valid until the next call.
+  const Real* run(const Real* x) noexcept;
+
+ private:
+  std::vector<std::unique_ptr<PlanStep>> steps_;
+  Index outputs_ = 0;
+  Tensor from_, to_;  // each as large as the largest output
+};
+
+}  // namespace dcnn

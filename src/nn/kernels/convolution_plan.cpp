@@ -1,0 +1,41 @@
+#include "nn/kernels/convolution_plan.h"
+
+#include "nn/kernels/elementwise.h"
+#include "nn/kernels/taps.h"
+
+namespace dcnn {
+
+ConvolutionPlan::ConvolutionPlan(const ConvShape& shape, const Tensor& weights, const Tensor& bias)
+    : shape_(shape),
+      weights_(Tensor::from(weights.shape(), weights.values())),
+      bias_(Tensor::from(bias.shape(), bias.values())) {
+  for (Index row = 0; row < shape.out_h; ++row) {
+    for (Index begin = 0, end = 0; begin < shape.out_w; begin = end) {
+      const Taps taps = column_taps(shape, begin);
+      for (end = begin + 1; end < shape.out_w && column_taps(shape, end) == taps;) ++end;
+      Stretch stretch{{}, end - begin, (row * shape.out_w + begin) * shape.out_c};
+      position_runs(shape, row, begin, stretch.runs);
+      stretches_.push_back(std::move(stretch));
+    }
+  }
+}
+
+void ConvolutionPlan::run(const Real* x, bool relu, Real* y) const noexcept {
+  for (const Stretch& stretch : stretches_) {
+    tile_product({.a = x,
+                  .a_row = shape_.in_c,
+                  .a_step = 1,
+                  .b = weights_.data(),
+                  .b_step = shape_.out_c,
+                  .runs = stretch.runs,
+                  .out = y + stretch.out,
+                  .out_row = shape_.out_c,
+                  .start = bias_.data(),
+                  .start_row = 0,
+                  .rows = stretch.length,
+                  .columns = shape_.out_c});
+  }
+  if (relu) relu_forward(y, shape_.out_size(), y);
+}
+
+}  // namespace dcnn
