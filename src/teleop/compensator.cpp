@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "data/feature_blocks.h"
-#include "dcnn/core/random.h"
 #include "dcnn/data/rotation.h"
 #include "dcnn/data/streaming_features.h"
 #include "dcnn/teleop/teleop.h"
@@ -75,28 +74,10 @@ void require_instantaneous(const Simulator& simulator, const std::string& where,
   }
 }
 
-/// A row alone gives what it gives behind others.
-bool looks_at_newest_row_only(const Identifier& identifier) {
-  const InputMap& map = identifier.model->map();
-  Rng rng(1);
-  constexpr Index kRows = 80;
-  Stream many;
-  many.x = map.mean().transpose().replicate(kRows, 1);
-  for (Index k = 0; k < many.x.size(); ++k) {
-    const Index column = k / kRows;
-    many.x(k % kRows, column) += 0.3 * std::max(1e-3, std::abs(map.mean()[column])) * rng.normal();
-  }
-  many.segments = {{0, kRows}};
-  const Stream one{many.x.bottomRows(1), {{0, 1}}};
-  const Eigen::RowVectorXd together = identifier.model->predict(many).bottomRows(1);
-  const Eigen::RowVectorXd alone = identifier.model->predict(one);
-  return (together - alone).norm() <= 1e-4 * (1.0 + alone.norm());
-}
-
 class ModelCompensator : public Compensator {
  public:
   ModelCompensator(const Identifier& identifier, const std::string& where)
-      : identifier_(identifier), features_(identifier.layout), where_(where) {
+      : predictor_(identifier.model->predictor()), features_(identifier.layout), where_(where) {
     constexpr std::array<const char*, 3> kForce{"fx", "fy", "fz"};
     for (std::size_t i = 0; i < 3; ++i) {
       const auto& names = identifier.targets.names;
@@ -112,21 +93,19 @@ class ModelCompensator : public Compensator {
   }
 
   Vector3d push(const Vector3d& position, const Vector3d& euler) override {
-    row_.x = features_.push(position, euler).transpose();
-    const Eigen::MatrixXd predicted = identifier_.model->predict(row_);
-    Vector3d force(predicted(0, columns_[0]), predicted(0, columns_[1]), predicted(0, columns_[2]));
+    const Eigen::VectorXd& predicted = predictor_->push(features_.push(position, euler));
+    Vector3d force(predicted[columns_[0]], predicted[columns_[1]], predicted[columns_[2]]);
     if (base_) force += base_->push(position, euler);
     require(force.allFinite(), Exit::kModel, where_, ": its prediction is not finite");
     return force;
   }
 
  private:
-  const Identifier& identifier_;
+  std::unique_ptr<Predictor> predictor_;
   StreamingFeatures features_;
   std::string where_;
   std::array<Index, 3> columns_{};
   std::unique_ptr<SimulatorCompensator> base_;
-  Stream row_{Eigen::MatrixXd(), {{0, 1}}};
 };
 
 }  // namespace
@@ -140,9 +119,6 @@ std::unique_ptr<Compensator> compensate_with(const Identifier& identifier,
           where, ": its derivatives look into the future; train it with --online");
   require(std::abs(layout.dt / kTick - 1.0) < 0.01, Exit::kModel, where, ": trained at ",
           1.0 / layout.dt, " Hz, the control runs at 500 Hz; train it on a recording at 500 Hz");
-  require(looks_at_newest_row_only(identifier), Exit::kModel, where, ": model '", identifier.name,
-          "' looks at more than the newest row, which is not supported here; give one that does "
-          "not");
   return std::make_unique<ModelCompensator>(identifier, where);
 }
 
