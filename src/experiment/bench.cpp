@@ -72,7 +72,11 @@ FeatureLayout causal(FeatureLayout layout) {
 class Stopwatch {
  public:
   Stopwatch(const Model& model, const Input& input, const BenchRequest& request)
-      : model_(model), input_(input), request_(request) {}
+      : model_(model),
+        predictor_(model.predictor()),
+        input_(input),
+        request_(request),
+        row_(input.x.cols()) {}
 
   void run(BenchRow& row, StreamingFeatures* features) {
     row.features_included = features != nullptr;
@@ -85,6 +89,7 @@ class Stopwatch {
     std::vector<double> all, means, totals;
     for (int repetition = 0; repetition < request_.repetitions; ++repetition) {
       if (features) features->reset();
+      predictor_->reset();
       double sum = 0.0;
       const auto begin = Clock::now();
       for (Index first = 0; first < samples; first += row.length) {
@@ -109,14 +114,27 @@ class Stopwatch {
   }
 
   double call(Index first, Index count, StreamingFeatures* features) {
+    return count == 1 ? call_online(first, features) : call_batch(first, count, features);
+  }
+
+  /// One sample, as it comes while the motion goes on.
+  double call_online(Index sample, StreamingFeatures* features) {
+    row_ = input_.x.row(sample).transpose();
+    const auto begin = Clock::now();
+    const Eigen::VectorXd& predicted =
+        predictor_->push(features ? newest(sample, *features) : row_);
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    require(predicted.allFinite(), Exit::kFailure, "a prediction is not finite");
+    return seconds;
+  }
+
+  double call_batch(Index first, Index count, StreamingFeatures* features) {
     stream_.segments = {{0, count}};
     stream_.x.resize(count, input_.x.cols());
     if (!features) stream_.x = input_.x.middleRows(first, count);
     const auto begin = Clock::now();
     for (Index i = 0; features && i < count; ++i) {
-      const Eigen::Vector3d position = input_.pose.row(first + i).head<3>().transpose();
-      const Eigen::Vector3d euler = input_.pose.row(first + i).tail<3>().transpose();
-      stream_.x.row(i) = features->push(position, euler).transpose();
+      stream_.x.row(i) = newest(first + i, *features).transpose();
     }
     const MatrixXd predicted = model_.predict(stream_);
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -124,10 +142,18 @@ class Stopwatch {
     return seconds;
   }
 
+  const Eigen::VectorXd& newest(Index sample, StreamingFeatures& features) const {
+    const Eigen::Vector3d position = input_.pose.row(sample).head<3>().transpose();
+    const Eigen::Vector3d euler = input_.pose.row(sample).tail<3>().transpose();
+    return features.push(position, euler);
+  }
+
   const Model& model_;
+  std::unique_ptr<Predictor> predictor_;
   const Input& input_;
   const BenchRequest& request_;
   Stream stream_;
+  Eigen::VectorXd row_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "nn/init.h"
 #include "nn/kernels/channels.h"
 #include "nn/kernels/elementwise.h"
+#include "nn/kernels/few_outputs.h"
 #include "nn/kernels/tile.h"
 #include "nn/pieces.h"
 
@@ -14,7 +15,7 @@ class LinearStep final : public PlanStep {
       : weight_(Tensor::from(weight.shape(), weight.values())),
         bias_(Tensor::from(bias.shape(), bias.values())) {}
   void run(const Real* x, Real* y) noexcept override {
-    affine(x, weight_.data(), bias_.data(), weight_.dim(1), weight_.dim(0), y);
+    few_outputs(x, weight_.data(), bias_.data(), weight_.dim(1), weight_.dim(0), y);
   }
 
  private:

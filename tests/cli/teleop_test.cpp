@@ -38,19 +38,28 @@ TEST(TeleopTool, AModelInTheLoopTakesMostOfTheWeightOffTheHand) {
     const auto trained = run("train", arguments);
     ASSERT_EQ(trained.exit_code, 0) << trained.err;
   }
+  const auto linear =
+      testing::temporary_file("linear.json", R"({"model": {"name": "dcnn-t", "body": "none"}})");
+  const auto windowed = run("train", {"--config", linear.string(), "--train", data, "--online",
+                                      "--quiet", "--out", (folder / "window.dcnn").string()});
+  ASSERT_EQ(windowed.exit_code, 0) << windowed.err;
   const auto out = folder / "teleop";
   const auto result =
-      run("teleop", {"--model", (folder / "on.dcnn").string(), "--corrected",
-                     (folder / "sim.json").string(), "--config", (configs / "teleop.json").string(),
-                     "--out", out.string(), "--json", "--quiet"});
+      run("teleop",
+          {"--model", (folder / "on.dcnn").string(), "--model", (folder / "window.dcnn").string(),
+           "--corrected", (folder / "sim.json").string(), "--config",
+           (configs / "teleop.json").string(), "--out", out.string(), "--json", "--quiet"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Json rows = parse_json(result.out, "teleop", Exit::kFailure)["variants"];
-  ASSERT_EQ(rows.size(), 5U);
+  ASSERT_EQ(rows.size(), 6U);
   EXPECT_EQ(rows[3]["name"], "rigid");
   EXPECT_LT(rows[3]["handle_force_free_rms_n"].get<double>(),
             0.1 * rows[2]["handle_force_free_rms_n"].get<double>());
-  EXPECT_EQ(rows[4]["name"], "corrected");
-  EXPECT_LT(rows[4]["master_drift_m"].get<double>(), 1e-3);
+  EXPECT_EQ(rows[4]["name"], "dcnn-t");
+  EXPECT_LT(rows[4]["handle_force_free_rms_n"].get<double>(),
+            0.2 * rows[2]["handle_force_free_rms_n"].get<double>());
+  EXPECT_EQ(rows[5]["name"], "corrected");
+  EXPECT_LT(rows[5]["master_drift_m"].get<double>(), 1e-3);
   const std::string page = test::slurp(out / "report.html");
   EXPECT_TRUE(contains(page, "Fig. 6 with rigid") && contains(page, "robot base B"));
   for (const char* file : {"teleop.json", "frames.svg", "comparison_0.svg", "rigid.csv"}) {

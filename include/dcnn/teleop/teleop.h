@@ -51,7 +51,7 @@ class Compensator {
 };
 
 /// A trained model behind its causal features. Error(kModel) for one that was not trained with
-/// --online at 500 Hz, or has no force.
+/// --online at 500 Hz or has no force. Windows fill as the motion goes on.
 std::unique_ptr<Compensator> compensate_with(const Identifier& identifier,
                                              const std::string& where);
 /// A simulator, e.g. the corrected one of dcnn-diagnose. Error(kData) where an effect needs the

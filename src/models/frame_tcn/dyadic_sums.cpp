@@ -8,7 +8,8 @@ namespace dcnn::frame_tcn {
 DyadicSums::DyadicSums(Index columns, const std::vector<Index>& lags) {
   for (std::size_t level = 0; level < lags.size(); ++level) {
     // The level above asks for the sum before the newest one.
-    const Index oldest = std::max(lags[level], Index{1} << level);
+    const Index below = level + 1 < lags.size() ? Index{1} << level : 0;
+    const Index oldest = std::max(lags[level], below);
     const auto length = std::bit_ceil(static_cast<std::uint64_t>(oldest + 1));
     rings_.push_back(Eigen::MatrixXd::Zero(columns, static_cast<Index>(length)));
   }

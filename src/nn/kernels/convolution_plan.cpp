@@ -1,12 +1,14 @@
 #include "nn/kernels/convolution_plan.h"
 
 #include "nn/kernels/elementwise.h"
+#include "nn/kernels/fixed_convolution.h"
 #include "nn/kernels/taps.h"
 
 namespace dcnn {
 
 ConvolutionPlan::ConvolutionPlan(const ConvShape& shape, const Tensor& weights, const Tensor& bias)
     : shape_(shape),
+      fixed_(fixed_convolution_kind(shape)),
       weights_(Tensor::from(weights.shape(), weights.values())),
       bias_(Tensor::from(bias.shape(), bias.values())) {
   for (Index row = 0; row < shape.out_h; ++row) {
@@ -21,6 +23,11 @@ ConvolutionPlan::ConvolutionPlan(const ConvShape& shape, const Tensor& weights, 
 }
 
 void ConvolutionPlan::run(const Real* x, bool relu, Real* y) const noexcept {
+  if (fixed_ < 0 || !relu) return run_stretches(x, relu, y);
+  fixed_convolution(fixed_, {x, weights_.data(), bias_.data(), y, shape_.in_h});
+}
+
+void ConvolutionPlan::run_stretches(const Real* x, bool relu, Real* y) const noexcept {
   for (const Stretch& stretch : stretches_) {
     tile_product({.a = x,
                   .a_row = shape_.in_c,

@@ -17,11 +17,16 @@ void Panels::set(Index first, Index count_of_rows, const Real* from, Index row_s
       const Real* row = from + k * row_step + begin * column_step;
       Real* to = panel(p) + (first + k) * kWidth;
       for (Index c = 0; c < width; ++c) to[c] = row[c * column_step];
+      std::fill(to + width, to + kWidth, Real(0));  // multiplied by row_product(), to no effect
     }
   });
 }
 
 void Panels::multiply(const Product& product) const {
+  if (product.rows == 1) {
+    return row_product({product.a, product.depth, values_.data(), rows_ * kWidth, columns_,
+                        product.start, product.out});
+  }
   const Run run{0, 0, product.depth};
   for (Index p = 0; p < count(); ++p) {
     const Index begin = p * kWidth;

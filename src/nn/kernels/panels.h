@@ -1,7 +1,7 @@
 // A matrix cut into panels of columns, for products that meet it many times.
 #pragma once
 
-#include "dcnn/core/tensor.h"
+#include "nn/kernels/row_product.h"
 
 namespace dcnn {
 
@@ -10,7 +10,7 @@ namespace dcnn {
 /// one stretch of memory.
 class Panels {
  public:
-  static constexpr Index kWidth = 32;  // two vectors of the AVX-512 kernel
+  static constexpr Index kWidth = kPanelWidth;
 
   Panels(Index rows, Index columns);
   /// Sets `count` rows from `first` on: b[first + k, c] = from[k·row_step + c·column_step].

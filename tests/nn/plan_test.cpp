@@ -1,0 +1,123 @@
+// A plan computes what its network does, by every instruction set this machine has.
+#include "dcnn/nn/plan.h"
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <cmath>
+
+#include "dcnn/nn/network.h"
+
+namespace dcnn {
+namespace {
+
+Json modules(const std::vector<int>& filters, const std::string& padding) {
+  Json layers = Json::array();
+  for (const int count : filters) {
+    layers.push_back({{"kind", "conv2d"}, {"filters", count}, {"padding", padding}});
+    layers.push_back({{"kind", "batch_norm"}});
+    layers.push_back({{"kind", "relu"}});
+  }
+  layers.push_back({{"kind", "dropout"}, {"rate", 0.5}});
+  layers.push_back({{"kind", "flatten"}});
+  layers.push_back({{"kind", "linear"}, {"outputs", 3}});
+  return layers;
+}
+
+struct Case {
+  std::string name;
+  Json layers;
+  Shape input;
+};
+
+std::vector<Case> cases() {
+  const std::vector<int> paper{8, 16, 32, 32};
+  return {
+      {"same", modules(paper, "same"), {15, 5, 1}},
+      {"valid", modules(paper, "valid"), {15, 5, 1}},
+      {"many rows", modules(paper, "same"), {61, 5, 1}},
+      {"few rows, valid", modules(paper, "valid"), {5, 5, 1}},
+      {"one row", modules(paper, "same"), {1, 5, 1}},
+      {"other filters", modules({3, 20, 32}, "same"), {7, 4, 2}},
+      {"no relu",
+       {{{"kind", "conv2d"}, {"filters", 8}},
+        {{"kind", "flatten"}},
+        {{"kind", "linear"}, {"outputs", 70}}},
+       {15, 5, 1}},
+      {"norm first",
+       {{{"kind", "batch_norm"}}, {{"kind", "tanh"}}, {{"kind", "relu"}}, {{"kind", "flatten"}}},
+       {3, 2, 4}},
+      {"lstm", {{{"kind", "lstm"}, {"units", 37}}, {{"kind", "linear"}, {"outputs", 3}}}, {6, 15}},
+      {"lstm of one row", {{{"kind", "lstm"}, {"units", 150}}}, {1, 15}},
+      {"lstm of all steps",
+       {{{"kind", "lstm"}, {"units", 9}, {"sequence", true}}, {{"kind", "flatten"}}},
+       {5, 3}}};
+}
+
+/// Statistics that batch norm does not have at the start.
+void spread_state(const Network& network, Rng& rng) {
+  for (const auto& named : network.state()) {
+    const bool positive = named.name.ends_with("running_var");
+    for (Real& value : named.tensor.values()) {
+      value += static_cast<Real>((positive ? 0.5 : 0.1) * std::abs(rng.normal()));
+    }
+  }
+}
+
+TEST(Plan, ComputesWhatTheNetworkDoesWhateverTheInstructions) {
+  const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+  for (const Case& c : cases()) {
+    Rng rng(5);
+    const Network network(c.layers, c.input, rng);
+    spread_state(network, rng);
+    Shape shape{1};
+    shape.insert(shape.end(), c.input.begin(), c.input.end());
+    for (const double size : {1.0, 0.0, 1e-30, 1e4}) {
+      Tensor x(shape);
+      for (Real& value : x.values()) value = static_cast<Real>(size * rng.normal());
+      const NoGradient guard;
+      Pass pass;
+      hwy::SetSupportedTargetsForTest(0);
+      const Tensor wanted = network.forward(x, pass);
+      double largest = 1.0;
+      for (const Real value : wanted.values()) {
+        largest = std::max(largest, std::abs(static_cast<double>(value)));
+      }
+      for (const auto target : targets) {
+        hwy::SetSupportedTargetsForTest(target);
+        Plan plan = network.plan();
+        ASSERT_EQ(plan.outputs(), wanted.size());
+        for (int again = 0; again < 2; ++again) {
+          const Real* y = plan.run(x.data());
+          for (Index i = 0; i < wanted.size(); ++i) {
+            ASSERT_NEAR(y[i], wanted.data()[i], 1e-5 * largest)
+                << c.name << ", " << hwy::TargetName(target) << ", size " << size;
+          }
+        }
+      }
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
+TEST(Plan, ForgetsWhatWasNotFinite) {
+  const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+  Rng rng(6);
+  const Network network(modules({8, 16, 32, 32}, "same"), {15, 5, 1}, rng);
+  for (const Real bad : {std::nanf(""), HUGE_VALF}) {
+    Tensor x({1, 15, 5, 1});
+    x.data()[37] = bad;
+    for (const auto target : targets) {
+      hwy::SetSupportedTargetsForTest(target);
+      Plan plan = network.plan();
+      plan.run(x.data());
+      std::vector<Real> zeros(75, Real(0));
+      const Real* clean = plan.run(zeros.data());
+      for (Index i = 0; i < 3; ++i) EXPECT_TRUE(std::isfinite(clean[i])) << hwy::TargetName(target);
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
+}  // namespace
+}  // namespace dcnn
