@@ -18,8 +18,6 @@ namespace dcnn {
 /// constant in training and explodes with noise.
 class SensorColumns : public NetworkInput {
  public:
-  static constexpr Index kColumns = 5;
-
   /// Key `windows_s` of kind lines: four window lengths in s, by default those of 8, 24, 64 and 128
   /// samples at 500 Hz.
   SensorColumns(const std::string& kind, Options& options, const FeatureLayout& layout);
@@ -27,7 +25,7 @@ class SensorColumns : public NetworkInput {
   SensorColumns(const std::string& kind, Options& options, Index features,
                 const std::string& where);
 
-  Shape shape() const override { return {features_, kColumns, 1}; }
+  Shape shape() const override { return {features_, columns(), 1}; }
   void learn(const Samples& training, const InputMap& map) override;
   PreparedStream prepare(const Stream& stream, const InputMap& map) const override;
   void write(const PreparedStream& stream, const InputMap& map, Index row,
@@ -36,6 +34,9 @@ class SensorColumns : public NetworkInput {
 
  private:
   bool is_lines() const { return !lengths_.empty(); }
+  Index columns() const { return is_lines() ? static_cast<Index>(lengths_.size()) + 1 : 5; }
+  /// The column of tanh: the last one of lines, the last but one of body.
+  Index saturated_column() const { return is_lines() ? columns() - 1 : 3; }
   /// Columns before standardisation, (N, 5 F), channel by channel.
   PreparedStream raw(const Stream& stream) const;
 
