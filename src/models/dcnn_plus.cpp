@@ -100,7 +100,7 @@ extern const ModelKind dcnn_plus_model, dcnn_t_model;
 const ModelKind dcnn_plus_model{
     "dcnn-plus", "four 2x2 modules beside a linear part, in the sensor frame (not the paper's)",
     plus_preset, make_plus, load};
-const ModelKind dcnn_t_model{"dcnn-t", "the same on causal line fits over the last 0.26 s", preset,
+const ModelKind dcnn_t_model{"dcnn-t", "the same on causal line fits over the last 0.51 s", preset,
                              make_t, load};
 
 }  // namespace dcnn

@@ -12,8 +12,8 @@ constexpr double kClip = 5.0;
 constexpr double kKnee = 0.08;
 constexpr double kLeastSaturated = 0.3;  // deviation of a tanh entry
 constexpr std::size_t kSaturatedLine = 2, kMostLines = 12;
-constexpr double kConstant = 1e-9;       // a deviation below this share of the mean is rounding
-constexpr Index kLongest = 1 << 16;      // samples in a window
+constexpr double kConstant = 1e-9;   // a deviation below this share of the mean is rounding
+constexpr Index kLongest = 1 << 16;  // samples in a window
 
 using RowMajor = decltype(PreparedStream::values);
 
@@ -52,9 +52,11 @@ Json list_of(const Vector& v) {
 SensorColumns::SensorColumns(const std::string& kind, Options& options, const FeatureLayout& layout)
     : features_(static_cast<Index>(layout.names.size())), frame_(layout) {
   if (kind == "body") return;
-  const auto windows = options.get("windows_s", std::vector<double>{0.016, 0.048, 0.128, 0.256});
+  const auto windows =
+      options.get("windows_s", std::vector<double>{0.016, 0.048, 0.128, 0.256, 0.512});
   if (windows.size() < kSaturatedLine + 1 || windows.size() > kMostLines) {
-    options.reject("windows_s", "must be ", kSaturatedLine + 1, " to ", kMostLines, " lengths in s");
+    options.reject("windows_s", "must be ", kSaturatedLine + 1, " to ", kMostLines,
+                   " lengths in s");
   }
   if (layout.dt <= 0.0) {
     options.reject("kind", "is 'lines', which needs recordings with a clock; use 'body'");
