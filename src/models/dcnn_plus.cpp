@@ -102,7 +102,7 @@ extern const ModelKind dcnn_plus_model, dcnn_t_model;
 const ModelKind dcnn_plus_model{
     "dcnn-plus", "four 2x2 modules beside a linear part, in the sensor frame (not the paper's)",
     plus_preset, make_plus, load_dcnn_plus};
-const ModelKind dcnn_t_model{"dcnn-t", "the same on causal line fits over the last 0.26 s",
+const ModelKind dcnn_t_model{"dcnn-t", "the same on causal line fits over the last 0.51 s",
                              preset_dcnn_plus, make_t, load_dcnn_plus};
 
 }  // namespace dcnn

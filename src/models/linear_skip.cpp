@@ -30,41 +30,79 @@ Eigen::MatrixXd design(const NetworkInput& input, const PreparedStream& stream, 
   return a;
 }
 
+/// The sums that least squares needs of the rows at one level of noise.
+LinearSkip::Gram gram_of(const PreparedStream& stream, const Samples& training, const InputMap& map,
+                         const NetworkInput& input) {
+  const Index columns = 1 + element_count(input.shape()), targets = training.y.cols();
+  LinearSkip::Gram gram{
+      Eigen::MatrixXd::Zero(columns, columns), Eigen::MatrixXd::Zero(columns, targets),
+      training.y.colwise().squaredNorm().transpose(), static_cast<double>(training.rows())};
+  for (Index first = 0; first < training.rows(); first += kSkipRows) {
+    const Index n = std::min(kSkipRows, training.rows() - first);
+    const Eigen::MatrixXd a = design(input, stream, map, first, n);
+    gram.inputs.noalias() += a.transpose() * a;
+    gram.moment.noalias() += a.transpose() * training.y.middleRows(first, n);
+  }
+  return gram;
+}
+
+std::vector<LinearSkip::Gram> grams_of(const Samples& training, const NoiseSpec& noise,
+                                       const InputMap& map, const NetworkInput& input,
+                                       std::uint64_t seed) {
+  std::vector<LinearSkip::Gram> grams;
+  for (std::size_t level = 0; level < noise.levels.size(); ++level) {
+    const auto key = Rng({seed, kSkipNoise, level}).bits();
+    grams.push_back(
+        gram_of(input.prepare(noisy(training, noise, map, noise.levels[level], key), map), training,
+                map, input));
+  }
+  return grams;
+}
+
 }  // namespace
 
 LinearSkip LinearSkip::fit(const Samples& training, const NoiseSpec& noise, const InputMap& map,
                            const NetworkInput& input, std::uint64_t seed) {
-  const Index columns = 1 + element_count(input.shape()), targets = training.y.cols();
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns, columns);
-  Eigen::MatrixXd moment = Eigen::MatrixXd::Zero(columns, targets);
-  double rows = 0.0;
-  for (std::size_t level = 0; level < noise.levels.size(); ++level) {
-    const auto key = Rng({seed, kSkipNoise, level}).bits();
-    const PreparedStream stream =
-        input.prepare(noisy(training, noise, map, noise.levels[level], key), map);
-    for (Index first = 0; first < training.rows(); first += kSkipRows) {
-      const Index n = std::min(kSkipRows, training.rows() - first);
-      const Eigen::MatrixXd a = design(input, stream, map, first, n);
-      normal.noalias() += a.transpose() * a;
-      moment.noalias() += a.transpose() * training.y.middleRows(first, n);
-      rows += static_cast<double>(n);
-    }
-  }
-  Eigen::MatrixXd raised = normal;
-  raised.diagonal().tail(columns - 1).array() += kRidge * rows;
+  const std::vector<Gram> grams = grams_of(training, noise, map, input, seed);
   LinearSkip skip;
-  skip.weights_ = raised.llt().solve(moment);
-  require(skip.weights_.allFinite(), Exit::kFailure,
-          "the linear part could not be fitted: a feature is not finite");
-  // |Y - AW|^2 = |Y|^2 - 2 W^T A^T Y + W^T A^T A W, column by column.
-  const Eigen::VectorXd squares =
-      training.y.colwise().squaredNorm().transpose() * static_cast<double>(noise.levels.size());
-  const Eigen::MatrixXd& w = skip.weights_;
-  const Eigen::VectorXd left = squares - 2.0 * w.cwiseProduct(moment).colwise().sum().transpose() +
-                               w.cwiseProduct(normal * w).colwise().sum().transpose();
-  const Eigen::VectorXd least = 1e-12 * squares;  // rounding
-  skip.residual_ = (left.cwiseMax(least) / rows).cwiseSqrt();
+  skip.level_weights_.assign(grams.size(), 1.0);
+  skip.solve(grams);
+  skip.weigh(grams);
+  skip.solve(grams);
+  skip.weigh(grams);
   return skip;
+}
+
+void LinearSkip::solve(const std::vector<Gram>& grams) {
+  Eigen::MatrixXd normal = 0.0 * grams.front().inputs, moment = 0.0 * grams.front().moment;
+  double rows = 0.0;
+  for (std::size_t k = 0; k < grams.size(); ++k) {
+    normal += level_weights_[k] * grams[k].inputs;
+    moment += level_weights_[k] * grams[k].moment;
+    rows += level_weights_[k] * grams[k].rows;
+  }
+  normal.diagonal().tail(normal.rows() - 1).array() += kRidge * rows;
+  weights_ = normal.llt().solve(moment);
+  require(weights_.allFinite(), Exit::kFailure,
+          "the linear part could not be fitted: a feature is not finite");
+}
+
+void LinearSkip::weigh(const std::vector<Gram>& grams) {
+  // |Y - AW|^2 = |Y|^2 - 2 W^T A^T Y + W^T A^T A W, column by column.
+  Eigen::MatrixXd left(weights_.cols(), static_cast<Index>(grams.size()));
+  for (std::size_t k = 0; k < grams.size(); ++k) {
+    const Gram& g = grams[k];
+    const Eigen::VectorXd squares =
+        g.targets - 2.0 * weights_.cwiseProduct(g.moment).colwise().sum().transpose() +
+        weights_.cwiseProduct(g.inputs * weights_).colwise().sum().transpose();
+    left.col(static_cast<Index>(k)) = squares.cwiseMax(1e-12 * g.targets) / g.rows;  // rounding
+  }
+  const Eigen::VectorXd inverse = left.colwise().mean().cwiseSqrt().cwiseInverse();
+  for (std::size_t k = 0; k < grams.size(); ++k) {
+    level_weights_[k] = inverse[static_cast<Index>(k)] / inverse.mean();
+  }
+  const Eigen::Map<const Eigen::VectorXd> w(level_weights_.data(), left.cols());
+  residual_ = (left * w / w.sum()).cwiseSqrt();
 }
 
 Eigen::MatrixXd LinearSkip::of(const Tensor& inputs) const {

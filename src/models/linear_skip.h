@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <string>
+#include <vector>
 
 #include "dcnn/models/network_input.h"
 
@@ -22,7 +23,19 @@ class LinearSkip {
   Eigen::MatrixXd of(const Tensor& inputs) const;
   /// (targets) for one sample's inputs; allocates nothing.
   void of(const Real* inputs, Eigen::VectorXd& y) const noexcept;
-  /// Root of the mean square that the fit left of each target, noisy rows included.
+
+  /// The sums of A^T A, A^T Y and Y^2 over the rows at one level of noise.
+  struct Gram {
+    Eigen::MatrixXd inputs, moment;
+    Eigen::VectorXd targets;
+    double rows;
+  };
+
+  /// Weight of the training rows at each level of noise: the inverse of the rms that the fit
+  /// leaves of them, 1 on average. Unweighted, the loudest level would own the fit; by the inverse
+  /// mean square, the quiet ones.
+  const std::vector<double>& level_weights() const { return level_weights_; }
+  /// Root of the weighted mean square that the fit left of each target, noisy rows included.
   const Eigen::VectorXd& residual() const { return residual_; }
   Index targets() const { return weights_.cols(); }
   Index parameter_count() const { return weights_.size(); }
@@ -32,6 +45,10 @@ class LinearSkip {
   static LinearSkip load(const Container& file, Index cells, const std::string& where);
 
  private:
+  void solve(const std::vector<Gram>& grams);
+  void weigh(const std::vector<Gram>& grams);
+
+  std::vector<double> level_weights_;
   Eigen::MatrixXd weights_;  // (1 + cells, targets), offset first
   Eigen::VectorXd residual_;
 };

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "dcnn/core/random.h"
-#include "dcnn/models/model.h"
+#include "models/noisy_blocks.h"
 
 namespace dcnn {
 
@@ -31,8 +31,8 @@ Stream noisy(const Samples& samples, const NoiseSpec& spec, const InputMap& map,
   return stream;
 }
 
-Stream noisy_blocks(const Samples& samples, const NoiseSpec& spec, const InputMap& map,
-                    std::uint64_t key) {
+std::vector<std::size_t> block_levels(const Samples& samples, const NoiseSpec& spec,
+                                      std::uint64_t key) {
   std::vector<std::size_t> level_of(static_cast<std::size_t>(samples.rows()));
   const auto begins = samples.segment_begins();
   Rng draw({key, 1});
@@ -41,6 +41,12 @@ Stream noisy_blocks(const Samples& samples, const NoiseSpec& spec, const InputMa
     level_of[row] =
         place % spec.block_rows == 0 ? draw.below(spec.levels.size()) : level_of[row - 1];
   }
+  return level_of;
+}
+
+Stream noisy_blocks(const Samples& samples, const NoiseSpec& spec, const InputMap& map,
+                    std::uint64_t key) {
+  const auto level_of = block_levels(samples, spec, key);
   Stream stream = samples;
   for (std::size_t level = 0; level < spec.levels.size(); ++level) {
     if (!spec.levels[level]) continue;

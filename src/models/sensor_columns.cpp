@@ -9,16 +9,17 @@ namespace dcnn {
 namespace {
 
 constexpr double kLeastSaturated = 0.3;  // deviation of a tanh entry
-constexpr Index kSaturated[] = {3, 4};   // column of tanh: body, lines
-constexpr double kConstant = 1e-9;       // a deviation below this share of the mean is rounding
-constexpr Index kLongest = 1 << 16;      // samples in a window
+constexpr std::size_t kMostLines = 12;
+constexpr double kConstant = 1e-9;   // a deviation below this share of the mean is rounding
+constexpr Index kLongest = 1 << 16;  // samples in a window
 
 using RowMajor = decltype(PreparedStream::values);
 
 /// Column c of every channel.
 void set_column(RowMajor& values, Index c, const Eigen::MatrixXd& column) {
+  const Index columns = values.cols() / column.cols();
   for (Index j = 0; j < column.cols(); ++j) {
-    values.col(j * SensorColumns::kColumns + c) = column.col(j);
+    values.col(j * columns + c) = column.col(j);
   }
 }
 
@@ -49,8 +50,12 @@ Json json_of(const Vector& v) {
 SensorColumns::SensorColumns(const std::string& kind, Options& options, const FeatureLayout& layout)
     : features_(static_cast<Index>(layout.names.size())), frame_(layout) {
   if (kind == "body") return;
-  const auto windows = options.get("windows_s", std::vector<double>{0.016, 0.048, 0.128, 0.256});
-  if (windows.size() != kColumns - 1) options.reject("windows_s", "must be four lengths in s");
+  const auto windows =
+      options.get("windows_s", std::vector<double>{0.016, 0.048, 0.128, 0.256, 0.512});
+  if (windows.size() < kSaturatedLine + 1 || windows.size() > kMostLines) {
+    options.reject("windows_s", "must be ", kSaturatedLine + 1, " to ", kMostLines,
+                   " lengths in s");
+  }
   if (layout.dt <= 0.0) {
     options.reject("kind", "is 'lines', which needs recordings with a clock; use 'body'");
   }
@@ -69,16 +74,16 @@ SensorColumns::SensorColumns(const std::string& kind, Options& options, Index fe
     : features_(features),
       frame_(SensorFrame::parse(options.raw("frame"), features, where, Exit::kModel)) {
   if (kind == "lines") {
-    lengths_ = options.get<std::vector<Index>>("lengths");
+    lengths_ = options.get<std::vector<Index>>("line_lengths");
     const bool valid =
-        lengths_.size() == kColumns - 1 &&
+        lengths_.size() > kSaturatedLine && lengths_.size() <= kMostLines &&
         std::ranges::all_of(lengths_, [](Index n) { return n > 1 && n <= kLongest; });
-    if (!valid) options.reject("lengths", "must be four numbers of samples");
+    if (!valid) options.reject("line_lengths", "must be numbers of samples");
   }
   channel_mean_ = read_vector(options, "channel_mean", features);
   knee_ = read_vector(options, "knee", features);
-  mean_ = read_vector(options, "mean", kColumns * features).transpose();
-  deviation_ = read_vector(options, "deviation", kColumns * features).transpose();
+  mean_ = read_vector(options, "mean", columns() * features).transpose();
+  deviation_ = read_vector(options, "deviation", columns() * features).transpose();
   if ((knee_.array() <= 0.0).any()) options.reject("knee", "must be above 0");
   if ((deviation_.array() <= 0.0).any()) options.reject("deviation", "must be above 0");
 }
@@ -87,36 +92,37 @@ void SensorColumns::learn(const Samples& training, const InputMap& /*map*/) {
   const Eigen::MatrixXd channels = frame_.of(training.x);
   channel_mean_ = channels.colwise().mean().transpose();
   knee_ = kKnee * deviation_of(channels, channel_mean_.transpose()).transpose();
-  const RowMajor columns = raw(training).values;
-  mean_ = columns.colwise().mean();
-  deviation_ = deviation_of(columns, mean_);
-  for (Index j = kSaturated[is_lines() ? 1 : 0]; j < deviation_.size(); j += kColumns) {
+  const RowMajor entries = raw(training).values;
+  mean_ = entries.colwise().mean();
+  deviation_ = deviation_of(entries, mean_);
+  for (Index j = saturated_column(); j < deviation_.size(); j += columns()) {
     deviation_[j] = std::max(deviation_[j], kLeastSaturated);
   }
 }
 
 PreparedStream SensorColumns::raw(const Stream& stream) const {
-  PreparedStream prepared = prepare_rows({frame_.of(stream.x), stream.segments});
-  const Eigen::MatrixXd x = prepared.values;
-  RowMajor& columns = prepared.values;
-  columns.resize(x.rows(), kColumns * features_);
+  PreparedStream prepared = prepare_rows(stream);
+  RowMajor& entries = prepared.values;
+  entries.resize(stream.rows(), columns() * features_);
   const Eigen::RowVectorXd mean = channel_mean_.transpose(), knee = knee_.transpose();
   const auto saturated = [&](const Eigen::MatrixXd& values) {
     return (values.array().rowwise() / knee.array()).tanh().matrix().eval();
   };
   if (!is_lines()) {
-    set_column(columns, 0, x);
-    set_column(columns, 1, x.rowwise() - mean);
-    set_column(columns, 2,
+    const Eigen::MatrixXd x = frame_.of(stream.x);
+    set_column(entries, 0, x);
+    set_column(entries, 1, x.rowwise() - mean);
+    set_column(entries, 2,
                ((x.rowwise() - mean).array().rowwise() / knee.array() * kKnee).matrix());
-    set_column(columns, 3, saturated(x));
-    set_column(columns, 4, x.cwiseAbs2());
+    set_column(entries, 3, saturated(x));
+    set_column(entries, 4, x.cwiseAbs2());
     return prepared;
   }
   for (std::size_t k = 0; k < lengths_.size(); ++k) {
-    const Eigen::MatrixXd line = line_filtered(x, prepared.segment_begin, lengths_[k]);
-    set_column(columns, static_cast<Index>(k), line);
-    if (k == 2) set_column(columns, 4, saturated(line));
+    const Eigen::MatrixXd line =
+        frame_.of(line_filtered(stream.x, prepared.segment_begin, lengths_[k]));
+    set_column(entries, static_cast<Index>(k), line);
+    if (k == kSaturatedLine) set_column(entries, saturated_column(), saturated(line));
   }
   return prepared;
 }
@@ -144,7 +150,7 @@ Json SensorColumns::to_json() const {
                {"knee", json_of(knee_)},
                {"mean", json_of(mean_)},
                {"deviation", json_of(deviation_)}};
-  if (is_lines()) json["lengths"] = lengths_;
+  if (is_lines()) json["line_lengths"] = lengths_;
   return json;
 }
 

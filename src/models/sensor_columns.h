@@ -10,24 +10,23 @@
 
 namespace dcnn {
 
-/// (F, 5, 1), every entry standardised by the clean training rows and clipped at ±5:
+/// (F, columns, 1), every entry standardised by the clean training rows and clipped at ±5:
 ///   body   x, x - mean, (x - mean)/sd, tanh(x/(0.08 sd)), x^2 of the row itself
-///   lines  causal line fits to x over four windows (line_filter.h), and tanh of the third one
-/// with x a channel in the sensor frame. The tanh saturates as dry friction does. Its sd counts as
-/// at least 0.3: a channel that hardly changes sign would otherwise make an entry that is nearly
-/// constant in training and explodes with noise.
+///   lines  causal line fits over several windows (line_filter.h), and tanh of the third one
+/// with x a channel in the sensor frame. Lines are fitted to the features before the turn: products
+/// of noisy angles and rates have a bias that no later filter removes. The tanh saturates as dry
+/// friction does. Its sd counts as at least 0.3: a channel that hardly changes sign would otherwise
+/// make an entry that is nearly constant in training and explodes with noise.
 class SensorColumns : public NetworkInput {
  public:
-  static constexpr Index kColumns = 5;
-
-  /// Key `windows_s` of kind lines: four window lengths in s, by default those of 8, 24, 64 and 128
-  /// samples at 500 Hz.
+  /// Key `windows_s` of kind lines: 3 to 12 window lengths in s, by default those of 8, 24, 64, 128
+  /// and 256 samples at 500 Hz.
   SensorColumns(const std::string& kind, Options& options, const FeatureLayout& layout);
   /// From to_json().
   SensorColumns(const std::string& kind, Options& options, Index features,
                 const std::string& where);
 
-  Shape shape() const override { return {features_, kColumns, 1}; }
+  Shape shape() const override { return {features_, columns(), 1}; }
   void learn(const Samples& training, const InputMap& map) override;
   PreparedStream prepare(const Stream& stream, const InputMap& map) const override;
   void write(const PreparedStream& stream, const InputMap& map, Index row,
@@ -39,16 +38,20 @@ class SensorColumns : public NetworkInput {
   class Streaming;
   static constexpr double kClip = 5.0;
   static constexpr double kKnee = 0.08;
+  static constexpr std::size_t kSaturatedLine = 2;
 
   bool is_lines() const { return !lengths_.empty(); }
-  /// Columns before standardisation, (N, 5 F), channel by channel.
+  Index columns() const { return is_lines() ? static_cast<Index>(lengths_.size()) + 1 : 5; }
+  /// The column of tanh: the last one of lines, the last but one of body.
+  Index saturated_column() const { return is_lines() ? columns() - 1 : 3; }
+  /// Columns before standardisation, (N, columns F), channel by channel.
   PreparedStream raw(const Stream& stream) const;
 
   Index features_;
   SensorFrame frame_;
   std::vector<Index> lengths_;           // of the lines, samples; empty for body
   Eigen::VectorXd channel_mean_, knee_;  // (F); the knee of tanh is 0.08 sd
-  Eigen::RowVectorXd mean_, deviation_;  // (5 F) of the columns
+  Eigen::RowVectorXd mean_, deviation_;  // (columns F)
 };
 
 }  // namespace dcnn

@@ -13,7 +13,7 @@ class SensorColumns::Streaming final : public StreamingInput {
       : c_(columns),
         x_(columns.features_),
         line_(columns.features_),
-        cells_(kColumns * columns.features_) {
+        cells_(columns.columns() * columns.features_) {
     for (const Index length : c_.lengths_) filters_.emplace_back(length, c_.features_);
   }
 
@@ -21,10 +21,10 @@ class SensorColumns::Streaming final : public StreamingInput {
 
   const Real* push(const Eigen::VectorXd& x) noexcept override {
     x_ = x.transpose();
-    c_.frame_.turn(x_);
     if (c_.is_lines()) {
       put_lines();
     } else {
+      c_.frame_.turn(x_);
       put_body();
     }
     return cells_.data();
@@ -46,16 +46,17 @@ class SensorColumns::Streaming final : public StreamingInput {
     for (std::size_t k = 0; k < filters_.size(); ++k) {
       if (fresh_) filters_[k].restart(x_);
       filters_[k].push(x_, line_);
-      for (Index j = 0; j < x_.size(); ++j) {
+      c_.frame_.turn(line_);
+      for (Index j = 0; j < line_.size(); ++j) {
         put(j, static_cast<Index>(k), line_[j]);
-        if (k == 2) put(j, 4, std::tanh(line_[j] / c_.knee_[j]));
+        if (k == kSaturatedLine) put(j, c_.saturated_column(), std::tanh(line_[j] / c_.knee_[j]));
       }
     }
     fresh_ = false;
   }
 
   void put(Index channel, Index column, double value) {
-    const Index i = channel * kColumns + column;
+    const Index i = channel * c_.columns() + column;
     const double standard = (value - c_.mean_[i]) / c_.deviation_[i];
     cells_[i] = static_cast<Real>(std::min(std::max(standard, -kClip), kClip));
   }

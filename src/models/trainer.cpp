@@ -6,6 +6,7 @@
 
 #include "dcnn/nn/loss.h"
 #include "models/linear_skip.h"
+#include "models/noisy_blocks.h"
 #include "models/random_streams.h"
 #include "models/tensor_io.h"
 
@@ -26,6 +27,18 @@ void assign(const std::vector<NamedTensor>& to, const std::vector<NamedTensor>& 
     const auto values = from[i].tensor.values();
     std::copy(values.begin(), values.end(), to[i].tensor.data());
   }
+}
+
+/// x (N, outputs) with each row times its factor.
+Tensor scaled_rows(const Tensor& x, const std::vector<Real>& factors) {
+  const Index outputs = x.dim(1);
+  const auto factor = [=](Index i) { return factors[static_cast<std::size_t>(i / outputs)]; };
+  Tensor scaled(x.shape());
+  for (Index i = 0; i < x.size(); ++i) scaled.data()[i] = factor(i) * x.data()[i];
+  return record(scaled, {x}, [x, factor](const Tensor& out) {
+    Real* gradient = x.gradient_data();
+    for (Index i = 0; i < x.size(); ++i) gradient[i] += factor(i) * out.gradient()[i];
+  });
 }
 
 }  // namespace
@@ -87,7 +100,16 @@ void Trainer::begin_epoch() {
     snr_ = noise.levels[Rng({model_.seed_, kEpochLevel, epoch}).below(noise.levels.size())];
     noisy_ = model_.input_->prepare(noisy(training_, noise, model_.map_, snr_, key), model_.map_);
   } else {
+    if (model_.skip_) weigh_rows(block_levels(training_, noise, key));
     noisy_ = model_.input_->prepare(noisy_blocks(training_, noise, model_.map_, key), model_.map_);
+  }
+}
+
+/// The rows weigh as they did in the fit of the skip, by their level of noise.
+void Trainer::weigh_rows(const std::vector<std::size_t>& level_of) {
+  row_factors_.resize(level_of.size());
+  for (std::size_t row = 0; row < level_of.size(); ++row) {
+    row_factors_[row] = static_cast<Real>(std::sqrt(model_.skip_->level_weights()[level_of[row]]));
   }
 }
 
@@ -109,8 +131,13 @@ void Trainer::step() {
   const Index first = step_ * spec_.batch;
   Pass pass{Pass::Mode::kTrain, Rng({model_.seed_, kDropout, epoch, number})};
   const Tensor inputs = gather(noisy_, order_, first);
-  const Tensor loss = half_mean_squared_error(model_.network_->forward(inputs, pass),
-                                              gather_targets(inputs, first));
+  Tensor predicted = model_.network_->forward(inputs, pass), wanted = gather_targets(inputs, first);
+  if (!row_factors_.empty()) {
+    const std::vector<Real> factors = gather_factors(first);
+    predicted = scaled_rows(predicted, factors);
+    wanted = scaled_rows(wanted, factors);
+  }
+  const Tensor loss = half_mean_squared_error(predicted, wanted);
   const double value = loss.values()[0];
   require(std::isfinite(value), Exit::kFailure, "training diverged in epoch ", epoch_ + 1,
           ": the loss is not finite; lower training.lr");
@@ -152,6 +179,15 @@ Tensor Trainer::gather_targets(const Tensor& inputs, Index first) const {
     }
   }
   return wanted;
+}
+
+std::vector<Real> Trainer::gather_factors(Index first) const {
+  std::vector<Real> factors;
+  for (Index i = first; i < first + spec_.batch; ++i) {
+    const auto row = static_cast<std::size_t>(order_[static_cast<std::size_t>(i)]);
+    factors.push_back(row_factors_[row]);
+  }
+  return factors;
 }
 
 void Trainer::finish_epoch() {

@@ -29,6 +29,8 @@ class Trainer {
   Tensor gather(const PreparedStream& stream, const std::vector<std::int64_t>& order,
                 Index first) const;
   Tensor gather_targets(const Tensor& inputs, Index first) const;
+  void weigh_rows(const std::vector<std::size_t>& level_of);
+  std::vector<Real> gather_factors(Index first) const;
   void finish_epoch();
   void collect_statistics();
   std::vector<double> validation_rmse() const;
@@ -55,6 +57,7 @@ class Trainer {
   Index epoch_ = 0, step_ = 0;  // the next one to do, from 0
   double loss_sum_ = 0.0;
   std::vector<std::int64_t> order_;  // of this epoch
+  std::vector<Real> row_factors_;    // root of each row's weight in the loss; empty: all alike
   SnrLevel snr_;
   PreparedStream noisy_;
 };

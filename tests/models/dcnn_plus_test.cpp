@@ -166,6 +166,42 @@ TEST(DcnnPlus, ExtremeInputsStayBounded) {
   }
 }
 
+/// The features hold still while the angles carry noise: fitted after the turn, the mean of the
+/// turned vertical would be short by half the noise's variance at any window.
+TEST(DcnnPlus, LinesAreFittedBeforeTheTurn) {
+  const Samples training = draw_samples(900, 1);
+  Json patch = kClean;
+  patch["model"] = {{"body", "none"},
+                    {"input", {{"kind", "lines"}, {"windows_s", {0.6, 0.8, 1.0}}}}};
+  const auto model = trained("dcnn-t", training, patch, false);
+  EXPECT_EQ(model->parameter_count(), (1 + 15 * 4) * 3);
+  Stream still{training.x.row(200).replicate(800, 1), {{0, 800}}};
+  const Eigen::RowVectorXd wanted = model->predict(still).row(799);
+  for (Index i = 0; i < 800; ++i) still.x(i, 0) += i % 2 == 0 ? 0.8 : -0.8;
+  still.x(0, 0) -= 0.8;  // its row stands for those before the segment
+  EXPECT_LT((model->predict(still).row(799) - wanted).cwiseAbs().maxCoeff(), 0.02);
+}
+
+TEST(DcnnPlus, WindowsAreThreeToTwelve) {
+  for (const std::size_t count : {2, 13}) {
+    const std::vector<double> windows(count, 0.1);
+    const Json input = {{"kind", "lines"}, {"windows_s", windows}};
+    EXPECT_THROW(make("dcnn-t", {{"model", {{"input", input}}}}), Error) << count;
+  }
+}
+
+/// Of two levels the clean one is to be fitted nearly as well as if it stood alone.
+TEST(DcnnPlus, QuietLevelsWeighMore) {
+  const Samples training = draw_samples(2000, 1);
+  Json patch = {{"noise", {{"levels_db", {nullptr, 0.0}}}}, {"model", {{"body", "none"}}}};
+  const double mixed = rmse(*trained("dcnn-t", training, patch), training);
+  patch["noise"]["levels_db"] = {nullptr};
+  const double clean = rmse(*trained("dcnn-t", training, patch), training);
+  patch["noise"]["levels_db"] = {0.0};
+  const double loud = rmse(*trained("dcnn-t", training, patch), training);
+  EXPECT_LT(mixed, 0.5 * (clean + loud));
+}
+
 TEST(DcnnPlus, LinesNeedAClock) {
   Problem p = problem("dcnn-t", Json::object());
   p.layout.dt = 0.0;
