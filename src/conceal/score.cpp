@@ -62,8 +62,11 @@ Json score_parameters(const Json& hidden, const Json& finding) {
     all[name] = {{"truth", truth},
                  {"said", said},
                  {"error", std::abs(said - shift - truth) / scale_of(name, hidden["parameters"])},
-                 {"covered", interval.is_array() && interval[0].get<double>() - shift <= truth &&
-                                 truth <= interval[1].get<double>() - shift}};
+                 {"covered", nullptr}};
+    if (interval.is_array()) {
+      const double low = interval[0], high = interval[1];
+      all[name]["covered"] = low - shift <= truth && truth <= high - shift;
+    }
   }
   return all;
 }

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <set>
 
 #include "conceal/draws.h"
 #include "conceal/tally.h"
@@ -53,18 +54,13 @@ Json tabulate(const Json& scenarios) {
           {"amplitude", rows(amplitude)}, {"motion", rows(motion)}, {"noise", rows(noise)}};
 }
 
-}  // namespace
-
-Json score_challenge(const fs::path& folder, const fs::path& seal) {
-  const Json answers = open_seal(folder, seal);
-  Json out{{"seed", answers["seed"]},
-           {"sha256", read_file(folder / "seal.sha256", 4096, Exit::kData).substr(0, 64)},
-           {"missing", Json::array()},
-           {"scenarios", Json::array()}};
+/// Every answer against FOLDER/<id>/<below>/report.json; those that are not there yet are missing.
+Json score_reports(const Json& answers, const fs::path& folder, const fs::path& below) {
+  Json out{{"missing", Json::array()}, {"scenarios", Json::array()}};
   for (const Json& answer : answers["scenarios"]) {
-    const fs::path reports = folder / "reports" / answer["id"].get<std::string>();
+    const fs::path reports = folder / answer["id"].get<std::string>();
     const Json run = read_if_there(reports / "run.json");
-    const Json report = read_if_there(reports / "report.json");
+    const Json report = read_if_there(reports / below / "report.json");
     if (run.is_null() && report.is_null()) {
       out["missing"].push_back(answer["id"]);
       continue;
@@ -75,6 +71,33 @@ Json score_challenge(const fs::path& folder, const fs::path& seal) {
     out["scenarios"].push_back(one);
   }
   out["tables"] = tabulate(out["scenarios"]);
+  return out;
+}
+
+/// Names of the folders below those of the scenarios.
+std::set<std::string> methods_in(const fs::path& folder) {
+  std::set<std::string> names;
+  if (!fs::exists(folder)) return names;
+  for (const auto& scenario : fs::directory_iterator(folder)) {
+    if (!scenario.is_directory()) continue;
+    for (const auto& method : fs::directory_iterator(scenario)) {
+      if (method.is_directory()) names.insert(method.path().filename().string());
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+Json score_challenge(const fs::path& folder, const fs::path& seal) {
+  const Json answers = open_seal(folder, seal);
+  const std::string digest = read_file(folder / "seal.sha256", 4096, Exit::kData).substr(0, 64);
+  Json out{{"seed", answers["seed"]}, {"sha256", digest}};
+  out.update(score_reports(answers, folder / "reports", ""));
+  out["rivals"] = Json::object();
+  for (const std::string& method : methods_in(folder / "rivals")) {
+    out["rivals"][method] = score_reports(answers, folder / "rivals", method)["tables"]["all"];
+  }
   return out;
 }
 

@@ -55,7 +55,7 @@ void add_effect(const Json& e, Tally& tally) {
   if (e["axis_right"].is_boolean()) tally.count("axis", e["axis_right"]);
   if (e["interval_overlap"].is_number()) tally.add("interval_overlap", e["interval_overlap"]);
   for (const auto& [name, p] : e["parameters"].items()) {
-    tally.count("coverage", p["covered"]);
+    if (p["covered"].is_boolean()) tally.count("coverage", p["covered"]);
     tally.add("parameter_error", p["error"]);
   }
 }

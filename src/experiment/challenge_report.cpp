@@ -117,6 +117,23 @@ void add_holdout(HtmlReport& page, const Json& table) {
     page.chart(chart, "1 is the error of the true law at the true pose.");
 }
 
+/// The diagnosis and others on the same files.
+void add_rivals(HtmlReport& page, const Json& scores) {
+  if (scores["rivals"].empty()) return;
+  Json table{{"dcnn-diagnose", scores["tables"]["all"]}};
+  table.update(scores["rivals"]);
+  add_table(page, "Beside sparse regression on the same catalogue, files and answers", table,
+            {{"top1", "first name"},
+             {"set", "all named, nothing else"},
+             {"found", "effects named"},
+             {"false_discovery", "false names"},
+             {"null_without_name", "no name where nothing is hidden"},
+             {"abstention", "no name for what has none"},
+             {"axis", "axis"},
+             {"parameter_error", "relative error of a number"},
+             {"after_over_oracle", "hold-out over the true law's"}});
+}
+
 void add_failures(HtmlReport& page, const Json& scenarios) {
   page.heading("Where it fails");
   std::vector<std::vector<std::string>> rows;
@@ -163,6 +180,7 @@ std::string challenge_html(const Json& scores) {
   add_rates(page, tables["effect"], "found_class", "Effects named or among the alternatives");
   add_rates(page, tables["amplitude"], "found_class",
             "Effects named or among the alternatives, by amplitude");
+  add_rivals(page, scores);
   const Columns effects{{"found", "named"},
                         {"found_class", "or an alternative"},
                         {"axis", "axis"},

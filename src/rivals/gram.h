@@ -1,0 +1,22 @@
+// Least squares on a subset of columns, from sums of products.
+#pragma once
+
+#include "dcnn/rivals/selectors.h"
+
+namespace dcnn::rivals {
+
+using Columns = std::vector<Eigen::Index>;
+
+struct Fit {
+  Eigen::VectorXd theta;  ///< (P)
+  double error = 0.0;     ///< sum of squares
+};
+
+Fit least_squares(const Block& all, const Columns& chosen);
+/// n log(error / n) + k log n.
+double bic(const Block& all, const Fit& fit, std::size_t columns);
+double error_of(const Block& block, const Eigen::VectorXd& theta);
+
+Eigen::VectorXd lasso_cv(const std::vector<Block>& blocks, const std::vector<Group>& groups);
+
+}  // namespace dcnn::rivals
