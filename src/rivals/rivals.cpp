@@ -73,7 +73,8 @@ Json findings_of(const std::vector<Law>& laws, const VectorXd& theta, const Vect
     const VectorXd amplitudes =
         part.cwiseProduct(scale.segment(groups[k].begin, n)).head(laws[k].fit->amplitudes);
     Json parameters = Json::object();
-    for (const auto& [name, value] : laws[k].fit->parameters(amplitudes, laws[k].shapes).items()) {
+    const Json values = laws[k].fit->parameters(amplitudes, laws[k].shapes);
+    for (const auto& [name, value] : values.items()) {
       parameters[name] = {{"value", value}, {"ci95", nullptr}};
     }
     const Json axis = laws[k].axis.empty() ? Json() : Json(laws[k].axis);
