@@ -67,6 +67,10 @@ Json score_reports(const Json& answers, const fs::path& folder, const fs::path& 
     }
     Json one = score(answer, report);
     one["seconds"] = run.is_object() ? run.value("seconds", Json()) : Json();
+    if (report.is_object()) {
+      one["seconds"] = report.value("seconds", one["seconds"]);  // several methods in one run
+      one["fit_only"] = report.value("fit_only", false);
+    }
     one["exit"] = run.is_object() ? run.value("exit", Json()) : Json();
     out["scenarios"].push_back(one);
   }
@@ -74,17 +78,26 @@ Json score_reports(const Json& answers, const fs::path& folder, const fs::path& 
   return out;
 }
 
-/// Names of the folders below those of the scenarios.
-std::set<std::string> methods_in(const fs::path& folder) {
+/// Names of the folders below a folder, in order.
+std::set<std::string> folders_in(const fs::path& folder) {
   std::set<std::string> names;
   if (!fs::exists(folder)) return names;
-  for (const auto& scenario : fs::directory_iterator(folder)) {
-    if (!scenario.is_directory()) continue;
-    for (const auto& method : fs::directory_iterator(scenario)) {
-      if (method.is_directory()) names.insert(method.path().filename().string());
-    }
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_directory() && name.front() != '.') names.insert(name);
   }
   return names;
+}
+
+/// Methods with a report in any scenario.
+std::set<std::string> methods_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const std::string& scenario : folders_in(folder)) names.merge(folders_in(folder / scenario));
+  return names;
+}
+
+Json rates_of(const Json& answers, const fs::path& folder, const fs::path& below) {
+  return score_reports(answers, folder, below)["tables"]["all"];
 }
 
 }  // namespace
@@ -94,9 +107,12 @@ Json score_challenge(const fs::path& folder, const fs::path& seal) {
   const std::string digest = read_file(folder / "seal.sha256", 4096, Exit::kData).substr(0, 64);
   Json out{{"seed", answers["seed"]}, {"sha256", digest}};
   out.update(score_reports(answers, folder / "reports", ""));
-  out["rivals"] = Json::object();
+  out["rivals"] = out["ablations"] = Json::object();
   for (const std::string& method : methods_in(folder / "rivals")) {
-    out["rivals"][method] = score_reports(answers, folder / "rivals", method)["tables"]["all"];
+    out["rivals"][method] = rates_of(answers, folder / "rivals", method);
+  }
+  for (const std::string& part : folders_in(folder / "ablations")) {
+    out["ablations"][part] = rates_of(answers, folder / "ablations" / part, "");
   }
   return out;
 }

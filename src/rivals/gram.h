@@ -17,6 +17,8 @@ Fit least_squares(const Block& all, const Columns& chosen);
 double bic(const Block& all, const Fit& fit, std::size_t columns);
 double error_of(const Block& block, const Eigen::VectorXd& theta);
 
-Eigen::VectorXd lasso_cv(const std::vector<Block>& blocks, const std::vector<Group>& groups);
+/// Which penalty of a path cross-validation takes.
+enum class Rule { kMinimum, kOneStandardError };
+Eigen::VectorXd lasso_cv(const std::vector<Block>& blocks, Rule rule);
 
 }  // namespace dcnn::rivals

@@ -40,7 +40,13 @@ std::vector<double> path_of(const Block& all) {
 
 }  // namespace
 
-VectorXd lasso_cv(const std::vector<Block>& blocks, const std::vector<Group>&) {
+VectorXd lasso(const Block& all, double lambda) {
+  VectorXd theta = VectorXd::Zero(all.xy.size());
+  descend(all, lambda, theta);
+  return theta;
+}
+
+VectorXd lasso_cv(const std::vector<Block>& blocks, Rule rule) {
   const Block all = sum(blocks);
   const std::vector<double> lambdas = path_of(all);
   Eigen::MatrixXd error(kFolds, static_cast<Index>(lambdas.size()));
@@ -61,8 +67,9 @@ VectorXd lasso_cv(const std::vector<Block>& blocks, const std::vector<Group>&) {
   Index best = 0;
   mean.minCoeff(&best);
   const double sd = std::sqrt((error.col(best).array() - mean(best)).square().sum() / (kFolds - 1));
+  const double allowed = rule == Rule::kMinimum ? 0.0 : sd / std::sqrt(static_cast<double>(kFolds));
   Index l = 0;
-  while (mean(l) > mean(best) + sd / std::sqrt(static_cast<double>(kFolds))) ++l;
+  while (mean(l) > mean(best) + allowed) ++l;
   VectorXd theta = VectorXd::Zero(all.xy.size());
   for (Index k = 0; k <= l; ++k) descend(all, lambdas[static_cast<std::size_t>(k)], theta);
   Columns chosen;

@@ -1,9 +1,13 @@
 #include "dcnn/rivals/rivals.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
 
+#include "rivals/gram.h"
 #include "rivals/library.h"
 
 namespace dcnn::rivals {
@@ -16,15 +20,25 @@ const std::vector<std::string> kForces{"fx", "fy", "fz"};
 
 struct Log {
   Motion motion;
-  MatrixXd measured, left;  ///< (T, 3): as read, and less the simulator
+  MatrixXd left;  ///< (T, 3): measured less simulated
 };
 
-Log load(const std::filesystem::path& file, const ToolModel& tool) {
-  const Recording recording = read_recording(file, ReadOptions(), System());
+Recording read(const std::filesystem::path& file) {
+  Recording recording = read_recording(file, ReadOptions(), System());
   require(recording.dt > 0.0, Exit::kData, recording.name, ": has no time");
-  Log log{motion_of(recording, tool, DerivativeSpec()), recording.block(kForces), {}};
-  log.left = log.measured - simulate({tool, {}}, log.motion).force;
-  return log;
+  require(recording.has_all(kForces), Exit::kData, recording.name, ": has no fx,fy,fz");
+  return recording;
+}
+
+std::vector<Log> logs_of(const std::vector<Recording>& recordings, const ToolModel& tool,
+                         const DerivativeSpec& derivative) {
+  std::vector<Log> logs;
+  for (const Recording& recording : recordings) {
+    Log log{motion_of(recording, tool, derivative), {}};
+    log.left = recording.block(kForces) - simulate({tool, {}}, log.motion).force;
+    logs.push_back(std::move(log));
+  }
+  return logs;
 }
 
 /// Means over 20 ms in blocks of 5 s.
@@ -131,33 +145,76 @@ std::vector<MatrixXd> left_of(const std::vector<Log>& logs, const std::vector<La
   return left;
 }
 
+/// What the methods choose from.
+struct Problem {
+  std::vector<Law> laws;
+  VectorXd scale;
+  std::vector<Block> blocks;
+};
+
+Problem problem_of(const std::vector<Log>& logs, const ToolModel& tool, std::vector<Law> laws) {
+  Problem problem{std::move(laws), {}, {}};
+  std::vector<MatrixXd> columns;
+  for (const Log& log : logs) columns.push_back(columns_of(problem.laws, tool, log.motion));
+  problem.scale = unit_scale(columns);
+  for (std::size_t k = 0; k < logs.size(); ++k) {
+    add_blocks(logs[k], columns[k], problem.scale, problem.blocks);
+  }
+  require(!problem.blocks.empty(), Exit::kData, "the recordings are shorter than 5 s");
+  return problem;
+}
+
+/// The window with which laws without shapes leave least: a user would try some.
+DerivativeSpec best_derivative(const std::vector<Recording>& recordings, const ToolModel& tool,
+                               const std::vector<Law>& laws) {
+  std::vector<Law> simple = laws;
+  std::erase_if(simple, [](const Law& law) { return law.shapes.size() > 0; });
+  DerivativeSpec best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double window : {0.05, 0.1, 0.2, 0.4}) {
+    const DerivativeSpec trial{.window_s = window};
+    const Problem problem = problem_of(logs_of(recordings, tool, trial), tool, simple);
+    const Block all = sum(problem.blocks);
+    Columns every(static_cast<std::size_t>(all.xy.size()));
+    std::iota(every.begin(), every.end(), 0);
+    const double error = least_squares(all, every).error;
+    if (error < least) least = error, best = trial;
+  }
+  return best;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 }  // namespace
 
 Json run(const Request& request) {
+  const auto start = std::chrono::steady_clock::now();
   const ToolModel tool = read_simulator(request.simulator).model;
-  std::vector<Log> fit, holdout;
-  for (const auto& file : request.fit) fit.push_back(load(file, tool));
-  for (const auto& file : request.holdout) holdout.push_back(load(file, tool));
+  std::vector<Recording> fit, holdout;
+  for (const auto& file : request.fit) fit.push_back(read(file));
+  for (const auto& file : request.holdout) holdout.push_back(read(file));
   require(!fit.empty(), Exit::kUsage, "no recording to fit");
-  const std::vector<Law> laws = library(fit.front().motion.temperature.size() > 0);
-  std::vector<MatrixXd> columns;
-  for (const Log& log : fit) columns.push_back(columns_of(laws, tool, log.motion));
-  const VectorXd scale = unit_scale(columns);
-  std::vector<Block> blocks;
-  for (std::size_t k = 0; k < fit.size(); ++k) add_blocks(fit[k], columns[k], scale, blocks);
-  require(!blocks.empty(), Exit::kData, "the recordings are shorter than 5 s");
-  columns.clear();
-  const Block all = sum(blocks);
-  const Json before = rmse(holdout, left_of(holdout, laws, tool, VectorXd::Zero(scale.size())));
+  const std::vector<Law> laws = library(fit.front().has("temperature"));
+  const DerivativeSpec derivative = best_derivative(fit, tool, laws);
+  const Problem problem = problem_of(logs_of(fit, tool, derivative), tool, laws);
+  const std::vector<Log> unseen = logs_of(holdout, tool, derivative);
+  const Block all = sum(problem.blocks);
+  const VectorXd nothing = VectorXd::Zero(problem.scale.size());
+  const Json before = rmse(unseen, left_of(unseen, laws, tool, nothing));
+  const double preparing = seconds_since(start);
   Json reports = Json::object();
   for (const Method& method : methods()) {
-    const VectorXd theta = method.select(blocks, groups_of(laws));
+    const auto begun = std::chrono::steady_clock::now();
+    const VectorXd theta = method.select(problem.blocks, groups_of(laws));
     Json& report = reports[method.name];
-    report["findings"] = findings_of(laws, theta, scale, all);
+    report["findings"] = findings_of(laws, theta, problem.scale, all);
     report["verdict"] = report["findings"].empty() ? "consistent" : "explained";
     report["fit"]["holdout_rmse_before"] = before;
     report["fit"]["holdout_rmse_after"] =
-        rmse(holdout, left_of(holdout, laws, tool, theta.cwiseProduct(scale)));
+        rmse(unseen, left_of(unseen, laws, tool, theta.cwiseProduct(problem.scale)));
+    report["seconds"] = preparing + seconds_since(begun);
   }
   return reports;
 }

@@ -59,7 +59,7 @@ Fit thresholded(const Block& all, double threshold, Columns& chosen) {
 }
 
 /// The threshold of the lowest BIC, from 1 % of the target's rms to all of it.
-VectorXd stlsq(const Block& all) {
+VectorXd tuned_stlsq(const Block& all) {
   const double rms = std::sqrt(all.yy / all.rows);
   VectorXd best = VectorXd::Zero(all.xy.size());
   double lowest = bic(all, {best, all.yy}, 0);
@@ -82,7 +82,7 @@ VectorXd ensemble(const std::vector<Block>& blocks) {
     for (std::size_t k = 0; k < blocks.size(); ++k) {
       drawn.push_back(blocks[rng.below(blocks.size())]);
     }
-    votes.array() += (stlsq(sum(drawn)).array() != 0.0).cast<double>();
+    votes.array() += (tuned_stlsq(sum(drawn)).array() != 0.0).cast<double>();
   }
   Columns chosen;
   for (Index c = 0; c < votes.size(); ++c) {
@@ -114,6 +114,13 @@ bool among(const Columns& columns, Index c) {
   return std::find(columns.begin(), columns.end(), c) != columns.end();
 }
 
+}  // namespace
+
+VectorXd stlsq(const Block& all, double threshold) {
+  Columns chosen;
+  return thresholded(all, threshold, chosen).theta;
+}
+
 VectorXd matching_pursuit(const Block& all) {
   return forward(all, [&](const Fit& fit, Columns& chosen) {
     const VectorXd left = (all.xy - all.xx * fit.theta).cwiseAbs();
@@ -124,6 +131,8 @@ VectorXd matching_pursuit(const Block& all) {
     if (best >= 0) chosen.push_back(best);
   });
 }
+
+namespace {
 
 VectorXd greedy(const Block& all, const std::vector<Group>& groups) {
   return forward(all, [&](const Fit&, Columns& chosen) {
@@ -146,9 +155,11 @@ const std::vector<Method>& methods() {
   using Blocks = std::vector<Block>;
   using Groups = std::vector<Group>;
   static const std::vector<Method> all{
-      {"stlsq", [](const Blocks& b, const Groups&) { return stlsq(sum(b)); }},
+      {"stlsq", [](const Blocks& b, const Groups&) { return tuned_stlsq(sum(b)); }},
       {"ensemble-stlsq", [](const Blocks& b, const Groups&) { return ensemble(b); }},
-      {"lasso-cv", lasso_cv},
+      {"lasso-1se",
+       [](const Blocks& b, const Groups&) { return lasso_cv(b, Rule::kOneStandardError); }},
+      {"lasso-min", [](const Blocks& b, const Groups&) { return lasso_cv(b, Rule::kMinimum); }},
       {"omp-bic", [](const Blocks& b, const Groups&) { return matching_pursuit(sum(b)); }},
       {"greedy-bic", [](const Blocks& b, const Groups& g) { return greedy(sum(b), g); }}};
   return all;
