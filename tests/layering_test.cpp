@@ -23,12 +23,13 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"teleop", {"core", "data", "physics", "models", "calibration", "runtime"}},
     {"diagnosis", {"core", "data", "physics"}},
     {"conceal", {"core", "data"}},  // shares no physics with what it examines
+    {"rivals", {"core", "data", "physics"}},
     {"runtime", {"core", "nn", "data", "physics", "models", "calibration"}},
     {"experiment",
      {"core", "nn", "data", "physics", "models", "diagnosis", "runtime", "calibration", "teleop"}},
     {"tools",
-     {"core", "nn", "data", "physics", "models", "diagnosis", "conceal", "runtime", "experiment",
-      "calibration", "teleop"}}};
+     {"core", "nn", "data", "physics", "models", "diagnosis", "conceal", "rivals", "runtime",
+      "experiment", "calibration", "teleop"}}};
 
 /// The includes in `text` that a file of `room` may not have.
 std::vector<std::string> wrong_includes(const std::string& room, const std::string& text) {

@@ -66,9 +66,11 @@ int main(int argc, char** argv) {
 
   auto* what = app.add_option("--inject", injection.what,
                               "effect, effect@axis or a JSON file of effects to hide in --motion");
-  what->excludes(many)
-      ->needs(app.add_option("--motion", injection.motion, "recordings of a tool"))
-      ->needs(app.add_option("--sim", injection.simulator, "their simulator (sim.json)"));
+  what->excludes(many)->needs(app.add_option("--motion", injection.motion, "recordings of a tool"));
+  app.add_option("--sim", injection.simulator, "their simulator (sim.json)")->needs(what);
+  app.add_option("--system", injection.system, "of a machine of one axis, instead of --sim")
+      ->needs(what)
+      ->excludes("--sim");
   app.add_option("--amplitude", injection.amplitude, "of --inject, in the log's noise")
       ->capture_default_str()
       ->check(CLI::PositiveNumber)
@@ -79,6 +81,8 @@ int main(int argc, char** argv) {
     if (score) return judge(tool, out, seal);
     const std::uint64_t seed = tool.common().seed.value_or(1);
     if (*what) {
+      require(injection.simulator.empty() != injection.system.empty(), Exit::kUsage,
+              "--inject needs --sim, or --system of another machine");
       injection.read = read.options();
       return print(tool, 1, seed, conceal::inject(injection, seed, out, seal), seal);
     }

@@ -13,7 +13,8 @@ constexpr const char* kExamples =
     "  dcnn-diagnose --sim sim.json --fit a.csv --out report       # holds out blocks of a.csv\n"
     "  dcnn-diagnose --fit log.csv --out report                    # log.csv has "
     "fx_sim,fy_sim,fz_sim\n"
-    "  dcnn-diagnose --system arm.json --fit a.csv --holdout b.csv --out report   # another machine\n"
+    "  dcnn-diagnose --system arm.json --fit a.csv --holdout b.csv --out report   # another "
+    "machine\n"
     "  dcnn-sim --sim report/model.json --motion c.csv --out corrected.csv\n";
 
 }  // namespace
@@ -29,8 +30,9 @@ int main(int argc, char** argv) {
   auto& app = tool.app();
   app.add_option("--sim", request.simulator,
                  "simulator of the tool (JSON); without it the recordings need columns *_sim");
-  app.add_option("--system", request.system,
-                 "system description of another machine (JSON, \"kind\": \"axes\"), instead of --sim")
+  app.add_option(
+         "--system", request.system,
+         "system description of another machine (JSON, \"kind\": \"axes\"), instead of --sim")
       ->excludes("--sim");
   app.add_option("--fit", request.fit, "recordings to learn from")->required();
   app.add_option("--holdout", request.holdout,
@@ -40,10 +42,15 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--out", out, "folder for report.json, report.html, model.json and predictions")
       ->required();
+  std::vector<std::string> without;
+  app.add_option("--without", without, "leave out parts of the method, to see what they are worth")
+      ->check(CLI::IsMember(ablations()))
+      ->group("For research");
   const ReadFlags read(app);
 
   return tool.run(argc, argv, [&] {
     request.read = read.options();
+    request.without = ablation_of(without);
     if (clock != "auto") request.shared_clock = clock == "shared";
     Progress bar(tool.common().quiet);
     const Diagnosis diagnosis = diagnose(request, [&](const std::string& text) { bar.line(text); });

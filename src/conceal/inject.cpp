@@ -77,10 +77,28 @@ Eigen::MatrixXd resampled(const Eigen::VectorXd& t, const Eigen::MatrixXd& colum
   return fine;
 }
 
-/// Orientations through quaternions, so that no Euler singularity matters but to the angles.
-Path path_of(const Recording& recording, const Eigen::Vector3d& mounting) {
+void refuse_gaps(const Recording& recording) {
   require(recording.segments.size() == 1, Exit::kData, recording.name,
           ": has a gap in time; cut it there and give the parts");
+}
+
+/// A machine's only axis: along base_x, its position as the angle alpha too.
+Path path_along(const Recording& recording, const Axis& axis) {
+  refuse_gaps(recording);
+  require(recording.has(axis.position), Exit::kData, recording.name, ": has no position '",
+          axis.position, "'; an effect needs the motion");
+  const Eigen::VectorXd t = recording.column("t");
+  const Eigen::MatrixXd fine = resampled(t, recording.column(axis.position));
+  Eigen::MatrixXd pose = Eigen::MatrixXd::Zero(fine.rows(), 6);
+  pose.col(0) = pose.col(3) = fine.col(0);
+  std::vector<Eigen::Matrix3d> still(static_cast<std::size_t>(fine.rows()),
+                                     Eigen::Matrix3d::Identity());
+  return follow(t(0), pose, std::move(still), Eigen::Vector3d::Zero());
+}
+
+/// Orientations through quaternions, so that no Euler singularity matters but to the angles.
+Path path_of(const Recording& recording, const Eigen::Vector3d& mounting) {
+  refuse_gaps(recording);
   require(recording.has_all(kForces), Exit::kData, recording.name, ": has no fx,fy,fz");
   const Eigen::VectorXd t = recording.column("t");
   Eigen::MatrixXd raw = Eigen::MatrixXd::Zero(t.size(), 10);
@@ -159,21 +177,72 @@ void check(const std::vector<Hidden>& hidden) {
 
 }  // namespace
 
+namespace {
+
+/// What is measured, and of whom.
+struct Subject {
+  System system;
+  Tool tool;
+  std::vector<std::string> measured = kForces;
+  double sign = 1.0;  ///< of what an effect changes in what is measured
+  fs::path description;
+
+  bool is_machine() const { return system.kind == System::Kind::kAxes; }
+  Path path(const Recording& log) const {
+    return is_machine() ? path_along(log, system.axes.front()) : path_of(log, tool.mounting);
+  }
+};
+
+Subject subject_of(const Injection& request) {
+  Subject subject;
+  if (request.system.empty()) {
+    subject.tool = read_tool(request.simulator);
+    subject.description = request.simulator;
+    return subject;
+  }
+  subject.system = read_system(request.system);
+  require(subject.is_machine() && subject.system.axes.size() == 1, Exit::kData,
+          request.system.string(), ": effects are added to machines of one axis");
+  subject.tool = {0.0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                  "none"};
+  subject.measured = {subject.system.axes.front().measured};
+  subject.sign = -1.0;
+  subject.description = request.system;
+  return subject;
+}
+
+/// Adds what the effects change on the path.
+void add_effects(const Subject& subject, const Path& path, const std::vector<Hidden>& hidden,
+                 Recording& log) {
+  const Eigen::MatrixXd change = force(path, subject.tool, hidden) - force(path, subject.tool, {});
+  Eigen::MatrixXd F = subject.sign * at_times(log.column("t"), path.start, kStep, change);
+  for (std::size_t j = 0; j < subject.measured.size(); ++j) {
+    F.col(static_cast<Index>(j)) += log.column(subject.measured[j]);
+  }
+  digitise(hidden, F);
+  for (std::size_t j = 0; j < subject.measured.size(); ++j) {
+    log.set(subject.measured[j], F.col(static_cast<Index>(j)));
+  }
+}
+
+}  // namespace
+
 std::string inject(const Injection& request, std::uint64_t seed, const fs::path& folder,
                    const fs::path& seal) {
+  const Subject subject = subject_of(request);
   Scenario s;
   s.id = request.what;
   s.group = "injected";
   s.motion = "recorded";
-  s.tool = read_tool(request.simulator);
+  s.tool = subject.tool;
   std::vector<Recording> logs;
   std::vector<Path> paths;
   for (const fs::path& file : request.motion) {
-    logs.push_back(read_recording(file, request.read, System()));
-    paths.push_back(path_of(logs.back(), s.tool.mounting));
+    logs.push_back(read_recording(file, request.read, subject.system));
+    paths.push_back(subject.path(logs.back()));
     s.recordings.emplace_back();
   }
-  const double sigma = noise_of(logs.front().block(kForces));
+  const double sigma = noise_of(logs.front().block(subject.measured));
   require(sigma > 0.0, Exit::kData, logs.front().name, ": its forces have no noise");
   s.noise = {"recorded", sigma, 0.0, 0.0};
   Rng rng({seed, 12});
@@ -185,14 +254,11 @@ std::string inject(const Injection& request, std::uint64_t seed, const fs::path&
   answer.update(truth(s));
   answer["oracle_rmse"] = nullptr;
   for (std::size_t k = 0; k < logs.size(); ++k) {
-    const Eigen::MatrixXd change = force(paths[k], s.tool, s.hidden) - force(paths[k], s.tool, {});
-    Eigen::MatrixXd F =
-        logs[k].block(kForces) + at_times(logs[k].column("t"), paths[k].start, kStep, change);
-    digitise(s.hidden, F);
-    for (Index j = 0; j < 3; ++j) logs[k].set(kForces[static_cast<std::size_t>(j)], F.col(j));
+    add_effects(subject, paths[k], s.hidden, logs[k]);
     write_csv(folder / logs[k].name, logs[k].table);
   }
-  write_file(folder / "sim.json", read_file(request.simulator, 1 << 20, Exit::kData));
+  write_file(folder / (subject.is_machine() ? "system.json" : "sim.json"),
+             read_file(subject.description, 1 << 20, Exit::kData));
   return write_seal({{"seed", seed}, {"scenarios", {answer}}}, folder, seal);
 }
 

@@ -47,23 +47,36 @@ double scale_of(const std::string& name, const Json& parameters) {
   return scale;
 }
 
+/// The name of a number in a finding: on an axis of a machine its unit is left out.
+std::string said_name(const std::string& name, const Json& parameters) {
+  if (parameters.contains(name)) return name;
+  for (const auto& [stem, value] : parameters.items()) {
+    if (name.rfind(stem + "_", 0) == 0) return stem;
+  }
+  return "";
+}
+
 Json score_parameters(const Json& hidden, const Json& finding) {
   Json all = Json::object();
   for (const auto& [name, value] : hidden["parameters"].items()) {
     const Json& parameters = finding["parameters"];
-    if (!parameters.contains(name)) continue;
+    const std::string stem = said_name(name, parameters);
+    if (stem.empty()) continue;
     double shift = 0.0;
-    const double truth = value, said = parameters[name]["value"];
+    const double truth = value, said = parameters[stem]["value"];
     if (name == "phase_rad") {
       constexpr double kTurn = 2.0 * std::numbers::pi;
       shift = kTurn * std::round((said - truth) / kTurn);
     }
-    const Json& interval = parameters[name]["ci95"];
+    const Json& interval = parameters[stem]["ci95"];
     all[name] = {{"truth", truth},
                  {"said", said},
                  {"error", std::abs(said - shift - truth) / scale_of(name, hidden["parameters"])},
-                 {"covered", interval.is_array() && interval[0].get<double>() - shift <= truth &&
-                                 truth <= interval[1].get<double>() - shift}};
+                 {"covered", nullptr}};
+    if (interval.is_array()) {
+      const double low = interval[0], high = interval[1];
+      all[name]["covered"] = low - shift <= truth && truth <= high - shift;
+    }
   }
   return all;
 }

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <set>
 
 #include "conceal/draws.h"
 #include "conceal/tally.h"
@@ -53,28 +54,66 @@ Json tabulate(const Json& scenarios) {
           {"amplitude", rows(amplitude)}, {"motion", rows(motion)}, {"noise", rows(noise)}};
 }
 
-}  // namespace
-
-Json score_challenge(const fs::path& folder, const fs::path& seal) {
-  const Json answers = open_seal(folder, seal);
-  Json out{{"seed", answers["seed"]},
-           {"sha256", read_file(folder / "seal.sha256", 4096, Exit::kData).substr(0, 64)},
-           {"missing", Json::array()},
-           {"scenarios", Json::array()}};
+/// Every answer against FOLDER/<id>/<below>/report.json; those that are not there yet are missing.
+Json score_reports(const Json& answers, const fs::path& folder, const fs::path& below) {
+  Json out{{"missing", Json::array()}, {"scenarios", Json::array()}};
   for (const Json& answer : answers["scenarios"]) {
-    const fs::path reports = folder / "reports" / answer["id"].get<std::string>();
+    const fs::path reports = folder / answer["id"].get<std::string>();
     const Json run = read_if_there(reports / "run.json");
-    const Json report = read_if_there(reports / "report.json");
+    const Json report = read_if_there(reports / below / "report.json");
     if (run.is_null() && report.is_null()) {
       out["missing"].push_back(answer["id"]);
       continue;
     }
     Json one = score(answer, report);
     one["seconds"] = run.is_object() ? run.value("seconds", Json()) : Json();
+    if (report.is_object()) {
+      one["seconds"] = report.value("seconds", one["seconds"]);  // several methods in one run
+      one["fit_only"] = report.value("fit_only", false);
+    }
     one["exit"] = run.is_object() ? run.value("exit", Json()) : Json();
     out["scenarios"].push_back(one);
   }
   out["tables"] = tabulate(out["scenarios"]);
+  return out;
+}
+
+/// Names of the folders below a folder, in order.
+std::set<std::string> folders_in(const fs::path& folder) {
+  std::set<std::string> names;
+  if (!fs::exists(folder)) return names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.is_directory() && name.front() != '.') names.insert(name);
+  }
+  return names;
+}
+
+/// Methods with a report in any scenario.
+std::set<std::string> methods_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const std::string& scenario : folders_in(folder)) names.merge(folders_in(folder / scenario));
+  return names;
+}
+
+Json rates_of(const Json& answers, const fs::path& folder, const fs::path& below) {
+  return score_reports(answers, folder, below)["tables"]["all"];
+}
+
+}  // namespace
+
+Json score_challenge(const fs::path& folder, const fs::path& seal) {
+  const Json answers = open_seal(folder, seal);
+  const std::string digest = read_file(folder / "seal.sha256", 4096, Exit::kData).substr(0, 64);
+  Json out{{"seed", answers["seed"]}, {"sha256", digest}};
+  out.update(score_reports(answers, folder / "reports", ""));
+  out["rivals"] = out["ablations"] = Json::object();
+  for (const std::string& method : methods_in(folder / "rivals")) {
+    out["rivals"][method] = rates_of(answers, folder / "rivals", method);
+  }
+  for (const std::string& part : folders_in(folder / "ablations")) {
+    out["ablations"][part] = rates_of(answers, folder / "ablations" / part, "");
+  }
   return out;
 }
 

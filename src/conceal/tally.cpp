@@ -55,7 +55,7 @@ void add_effect(const Json& e, Tally& tally) {
   if (e["axis_right"].is_boolean()) tally.count("axis", e["axis_right"]);
   if (e["interval_overlap"].is_number()) tally.add("interval_overlap", e["interval_overlap"]);
   for (const auto& [name, p] : e["parameters"].items()) {
-    tally.count("coverage", p["covered"]);
+    if (p["covered"].is_boolean()) tally.count("coverage", p["covered"]);
     tally.add("parameter_error", p["error"]);
   }
 }
@@ -70,6 +70,8 @@ void add_holdout(const Json& s, Tally& tally) {
 }
 
 void add_scenario(const Json& s, Tally& tally) {
+  if (s["seconds"].is_number()) tally.add("seconds", s["seconds"]);
+  if (s.value("fit_only", false)) return add_holdout(s, tally);
   const std::string group = s["group"];
   const int named = static_cast<int>(s["named"].size()), wrong = s["false_names"];
   tally.count("verdict", s["verdict_right"]);
@@ -93,7 +95,6 @@ void add_scenario(const Json& s, Tally& tally) {
   if (h.contains("after") && h.contains("floor")) {
     tally.add("after_over_floor", h["after"].get<double>() / h["floor"].get<double>());
   }
-  if (s["seconds"].is_number()) tally.add("seconds", s["seconds"]);
 }
 
 }  // namespace dcnn::conceal

@@ -146,6 +146,7 @@ std::vector<LoadedCase> load_axes(const DiagnosisRequest& request) {
     plan.sense = sense_of(fit, system, system.axes[k], draft.derivative);
     LoadedCase loaded;
     loaded.fit = axis_case(std::make_shared<const AxisPlan>(std::move(plan)));
+    loaded.fit.without = request.without;
     loaded.fit.base_coefficients =
         Eigen::VectorXd::Zero(static_cast<Index>(loaded.fit.axis->columns.size()));
     set_clock(request, all, loaded.fit);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dcnn/data/recording.h"
+#include "dcnn/diagnosis/ablation.h"
 #include "dcnn/physics/simulator.h"
 
 namespace dcnn {
@@ -47,6 +48,7 @@ struct Case {
   double end_of_clock = 0.0;  ///< s, end of the last recording
   /// Values on a coarse lattice: what rounding makes of the mean of a noisy force depends on both.
   double rounding_step = 0.0, rounding_noise = 0.0;
+  Ablation without;
 
   Index channel_count() const { return static_cast<Index>(channels.size()); }
   bool has_torque() const { return !channels.empty() && channels.back() > 2; }

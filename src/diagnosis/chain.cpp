@@ -23,6 +23,35 @@ void round_mean(const Case& study, Eigen::MatrixXd& mean) {
   }
 }
 
+/// -s dF/dt of delays and lags in place of what they do, before the sensor's offsets.
+void linear_lags(const std::vector<EffectSpec>& effects, const Motion& motion,
+                 const ToolModel& model, Wrench& wrench) {
+  std::vector<EffectSpec> early, late;
+  double seconds = 0.0;
+  for (const EffectSpec& effect : effects) {
+    const Stage stage = find_effect(effect.effect)->stage;
+    if (stage == Stage::kDynamics) {
+      const char* name = effect.effect == "lowpass" ? "tau_s" : "delay_s";
+      seconds += effect.parameters.value(name, 0.0);
+    } else {
+      (stage < Stage::kDynamics ? early : late).push_back(effect);
+    }
+  }
+  ToolModel no_bias = model;
+  no_bias.bias.setZero();
+  no_bias.bias_torque.setZero();
+  pass_on(early, Stage::kResonance, motion, no_bias, wrench);
+  for (Eigen::MatrixXd* part : {&wrench.force, &wrench.torque}) {
+    const Eigen::MatrixXd f = *part;
+    for (const Segment& s : motion.segments) {
+      for (Index i = s.begin + 1; i + 1 < s.end && f.rows() > 0; ++i) {
+        part->row(i) -= seconds / (2.0 * motion.dt) * (f.row(i + 1) - f.row(i - 1));
+      }
+    }
+  }
+  pass_on(late, Stage::kOffset, motion, model, wrench);
+}
+
 }  // namespace
 
 Chain::Chain(const Case& study, std::vector<Member> members)
@@ -52,7 +81,11 @@ Chain::Stages Chain::prepare(const Log& log, const std::vector<EffectSpec>& effe
 
 Eigen::MatrixXd Chain::finish(const Log& log, const Stages& stages, Wrench wrench,
                               const std::vector<EffectSpec>& effects) const {
-  pass_on(effects, Stage::kResonance, log.motion, stages.model, wrench);
+  if (study_.without.exact_operators) {
+    linear_lags(effects, log.motion, stages.model, wrench);
+  } else {
+    pass_on(effects, Stage::kResonance, log.motion, stages.model, wrench);
+  }
   Eigen::MatrixXd mean = measured_part(study_, wrench);
   if (study_.lowpass_hz > 0.0) {
     mean = low_pass(mean, log.motion.segments, log.motion.dt, study_.lowpass_hz);

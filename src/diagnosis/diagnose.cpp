@@ -246,6 +246,8 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
             {"units", study.units},
             {"fit_recordings", names_of(study)},
             {"holdout_recordings", names_of(loaded.holdout)}};
+  const std::vector<std::string> without = study.without.names();
+  if (!without.empty()) report["without"] = without;
   report["findings"] = writer.findings(search.alternatives());
   report["verdict"] = verdict_of(!report["findings"].empty(), search.remains());
   Case as_given = study;

@@ -71,9 +71,16 @@ Eigen::MatrixXd derivatives(const Setting& setting, const std::vector<Member>& m
 /// may not be go to zero, and the others are solved for beside that.
 Eigen::VectorXd best_change(const std::vector<Member>& members,
                             const std::vector<Coordinate>& coordinates,
-                            const Eigen::MatrixXd& tangent, const Eigen::VectorXd& left) {
+                            const Eigen::MatrixXd& tangent, const Eigen::VectorXd& left,
+                            bool shapes_stay) {
   std::vector<Index> open(static_cast<std::size_t>(tangent.cols()));
   std::iota(open.begin(), open.end(), 0);
+  if (shapes_stay) {
+    std::erase_if(open, [&](Index k) {
+      const auto at = static_cast<std::size_t>(k);
+      return at < coordinates.size() && coordinates[at].is_shape;
+    });
+  }
   Eigen::VectorXd change = Eigen::VectorXd::Zero(tangent.cols());
   for (bool settled = false; !settled;) {
     Eigen::VectorXd rest = left;
@@ -149,7 +156,8 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   for (int step = 0; step < kMostSteps; ++step) {
     fit.tangent.leftCols(free) = derivatives(setting, members, coordinates, here);
     if (free == 0) break;
-    const Eigen::VectorXd change = best_change(members, coordinates, fit.tangent, wanted - here);
+    const Eigen::VectorXd change = best_change(members, coordinates, fit.tangent, wanted - here,
+                                               setting.study.without.refinement);
     const double before = fit.chi2;
     bool better = false;
     for (double length = 1.0; length > 0.02 && !better; length *= 0.4) {

@@ -85,6 +85,7 @@ void set_clock(const DiagnosisRequest& request, const std::vector<Recording>& re
 LoadedCase load_wrist(const DiagnosisRequest& request) {
   LoadedCase loaded;
   Case& study = loaded.fit;
+  study.without = request.without;
   if (request.simulator) {
     study.simulator = read_simulator(*request.simulator);
   } else {

@@ -108,10 +108,11 @@ Whittle fit_level(const Eigen::VectorXd& density, const Eigen::VectorXd& shape, 
 }
 
 Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, double dt,
-                double windows) {
+                double windows, bool flat) {
   Floor best;
   const Whittle white = fit_level(density, Eigen::VectorXd::Ones(density.size()), windows);
   best.white = white.level;
+  if (flat) return best;
   double most = white.likelihood + kColourGain;
   // Colour must show in the upper part of the band too: motion may leak into its lowest bins.
   Index upper = 0;
@@ -234,7 +235,7 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual,
     Floor floor;
     if (static_cast<Index>(quiet.size()) >= kFewestBins && p.power.cols() > 0) {
       floor = fit_floor(without_lines(density(quiet)), p.hz(quiet), dt,
-                        static_cast<double>(p.power.cols()));
+                        static_cast<double>(p.power.cols()), study.without.coloured_floor);
     }
     floor.lowpass_hz = study.lowpass_hz;
     floor.dt = dt;

@@ -28,7 +28,7 @@ Scan::Scan(const Setting& setting, const JointFit& fit)
       coarse_chain_(setting.coarse, fit.members),
       here_(setting.whitened(chain_.prediction())),
       coarse_here_(setting.coarse_whitener(coarse_chain_.prediction()).cwiseProduct(setting.mask)),
-      basis_(orthonormal(fit.tangent)) {
+      basis_(orthonormal(setting.study.without.projection ? setting.nuisance : fit.tangent)) {
   residual_ = off_model(fit.residual);
 }
 
@@ -131,11 +131,11 @@ Trial Scan::tuned(const Trial& start, Detail detail) const {
 }
 
 Trial Scan::refine(const Trial& seed, Detail detail, int evaluations) const {
-  const bool is_line = seed.member.name() == "hum";
+  const bool is_line = seed.member.name() == "hum" && !setting_.study.without.refinement;
   const Trial start = is_line && detail == Detail::kCoarse ? tuned(seed, detail) : seed;
   const auto& shapes = start.member.form->shapes;
   const Index n = start.member.shapes.size();
-  if (n == 0) return start;
+  if (n == 0 || setting_.study.without.refinement) return start;
   Eigen::VectorXd x(n), size(n);
   for (Index i = 0; i < n; ++i) {
     const ShapeParameter& shape = shapes[static_cast<std::size_t>(i)];

@@ -57,7 +57,7 @@ void Search::make_setting(const std::vector<Member>& members) {
     }
     setting_->nuisance = appended(setting_->nuisance, setting_->whitened(column));
   }
-  if (study_.is_static()) return;
+  if (study_.is_static() || study_.without.smoothing) return;
   // What a little more or less smoothing changes, per channel.
   for (const Case* other : {&softer_, &harder_}) {
     const Signals there = predict(*other, members);

@@ -60,7 +60,7 @@ void Search::detect() {
 /// often: a coincidence of a few moments, not a law. (An event has too few seconds for this test.)
 void Search::drop_coincidences() {
   constexpr double kMostLikely = 0.05;
-  if (study_.is_static()) return;
+  if (study_.is_static() || study_.without.flips) return;
   while (true) {
     double most = kMostLikely;
     std::optional<std::size_t> worst;
@@ -81,7 +81,7 @@ void Search::judge() {
   if (study_.axis) keep_what_carries_over();
   bands_ = band_tests(*setting_, fit_.residual);
   const double explained = std::max(0.0, chi2_before_ - fit_.chi2);
-  remains_ = is_alarming(bands_, explained);
+  remains_ = !study_.without.omnibus && is_alarming(bands_, explained);
   if (!remains_) return;
   say("something is left that no effect explains: names are tested again");
   if (events_allowed_) {

@@ -117,6 +117,72 @@ void add_holdout(HtmlReport& page, const Json& table) {
     page.chart(chart, "1 is the error of the true law at the true pose.");
 }
 
+const Columns kComparison{{"top1", "first name"},
+                          {"set", "all named, nothing else"},
+                          {"false_discovery", "false names"},
+                          {"null_without_name", "no name where nothing is hidden"},
+                          {"abstention", "no name for what has none"},
+                          {"verdict", "verdict"},
+                          {"after_over_oracle", "hold-out over the true law's"},
+                          {"seconds", "seconds"}};
+
+/// The diagnosis, what is measured by it, and the true law. (Nobody but the diagnosis speaks the
+/// verdicts that are scored.)
+Json beside_rivals(const Json& scores) {
+  Json table{{"dcnn-diagnose", scores["tables"]["all"]}};
+  table.update(scores["rivals"]);
+  for (const auto& [method, rates] : scores["rivals"].items()) table[method].erase("verdict");
+  table["the true law"] = {{"after_over_oracle", {{"median", 1.0}, {"p90", 1.0}}}};
+  return table;
+}
+
+Json beside_ablations(const Json& scores) {
+  Json table{{"complete", scores["tables"]["all"]}};
+  for (const auto& [part, rates] : scores["ablations"].items()) table["without " + part] = rates;
+  return table;
+}
+
+void add_comparisons(HtmlReport& page, const Json& scores) {
+  if (!scores["rivals"].empty()) {
+    add_table(page, "Beside other methods on the same files and answers", beside_rivals(scores),
+              kComparison);
+  }
+  if (!scores["ablations"].empty()) {
+    add_table(page, "What each part of the diagnosis is worth", beside_ablations(scores),
+              kComparison);
+  }
+}
+
+/// The same as lines: one method a row, rates in per cent, medians.
+std::string comparison_text(const Json& table) {
+  const Columns columns{{"top1", "first"},
+                        {"set", "set"},
+                        {"false_discovery", "false"},
+                        {"null_without_name", "nulls"},
+                        {"verdict", "verdict"},
+                        {"after_over_oracle", "hold-out"},
+                        {"seconds", "seconds"}};
+  std::string text(28, ' ');
+  for (const auto& [key, heading] : columns)
+    text += std::string(10 - heading.size(), ' ') + heading;
+  for (const auto& [label, rates] : table.items()) {
+    std::string line = label;
+    line.resize(28, ' ');
+    for (const auto& [key, heading] : columns) {
+      const Json value = rates.value(key, Json());
+      std::string said;
+      if (value.contains("rate") && !value["rate"].is_null()) {
+        said = text_of("%.0f %%", 100.0 * value["rate"].get<double>());
+      } else if (value.contains("median")) {
+        said = text_of("%.4g", value["median"]);
+      }
+      line += std::string(10 - std::min<std::size_t>(10, said.size()), ' ') + said;
+    }
+    text += "\n" + line;
+  }
+  return text + "\n";
+}
+
 void add_failures(HtmlReport& page, const Json& scenarios) {
   page.heading("Where it fails");
   std::vector<std::vector<std::string>> rows;
@@ -147,6 +213,8 @@ std::string challenge_text(const Json& scores) {
   if (!scores["missing"].empty()) {
     text += std::to_string(scores["missing"].size()) + " scenarios are not yet run\n";
   }
+  if (!scores["rivals"].empty()) text += "\n" + comparison_text(beside_rivals(scores));
+  if (!scores["ablations"].empty()) text += "\n" + comparison_text(beside_ablations(scores));
   return text;
 }
 
@@ -163,6 +231,7 @@ std::string challenge_html(const Json& scores) {
   add_rates(page, tables["effect"], "found_class", "Effects named or among the alternatives");
   add_rates(page, tables["amplitude"], "found_class",
             "Effects named or among the alternatives, by amplitude");
+  add_comparisons(page, scores);
   const Columns effects{{"found", "named"},
                         {"found_class", "or an alternative"},
                         {"axis", "axis"},

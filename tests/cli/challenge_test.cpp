@@ -15,15 +15,24 @@ int challenge(const std::string& arguments) {
   return WEXITSTATUS(std::system(command.c_str()));
 }
 
+/// Six scenarios of seed 1: one with nothing hidden, two singles, a double, a triple, neighbours.
+const std::string kSix = "--scenarios 6 --seed 1 --out ";
+
 TEST(ChallengeScript, RunsFromASeedToAReport) {
   const test::TemporaryFolder folder;
   const auto set = folder / "set";
-  ASSERT_EQ(challenge("--scenarios 2 --seed 4 --out " + set.string()), 0);
+  ASSERT_EQ(challenge(kSix + set.string()), 0);
   const Json scores = read_json(set / "scores.json", Exit::kData);
-  EXPECT_EQ(scores["scenarios"].size(), 2U);
+  EXPECT_EQ(scores["scenarios"].size(), 6U);
   EXPECT_TRUE(scores["missing"].empty());
   EXPECT_EQ(scores["sha256"].get<std::string>(), test::slurp(set / "seal.sha256").substr(0, 64));
-  EXPECT_EQ(scores["tables"]["all"]["ran"]["k"], 2);
+  const Json& all = scores["tables"]["all"];
+  EXPECT_EQ(all["ran"]["k"], 6);
+  EXPECT_EQ(all["top1"]["n"], 5);
+  EXPECT_GE(all["top1"]["k"], 4);
+  EXPECT_EQ(all["null_specificity"]["n"], 1);
+  EXPECT_EQ(all["null_specificity"]["k"], 1);
+  EXPECT_LE(all["false_discovery"]["k"], 1);
   for (const Json& s : scores["scenarios"]) EXPECT_GT(s["seconds"].get<double>(), 0.0);
   const std::string page = test::slurp(set / "report.html");
   EXPECT_NE(page.find("<svg"), std::string::npos);
@@ -38,12 +47,64 @@ TEST(ChallengeScript, RunsFromASeedToAReport) {
               static_cast<std::ptrdiff_t>(s["sha256"].size()));
   }
 
-  // The same command goes on where it was stopped: what is finished stays as it is.
+  // The same command goes on where it was stopped: what is finished stays as it is, what was under
+  // way begins anew.
   const auto kept = set / "reports" / "s0001" / "run.json";
   const auto before = std::filesystem::last_write_time(kept);
-  ASSERT_EQ(challenge("--scenarios 2 --seed 4 --out " + set.string()), 0);
+  std::filesystem::rename(set / "reports" / "s0002", set / "reports" / ".s0002");
+  std::filesystem::remove(set / "reports" / ".s0002" / "report.json");
+  ASSERT_EQ(challenge(kSix + set.string()), 0);
   EXPECT_EQ(std::filesystem::last_write_time(kept), before);
-  EXPECT_EQ(challenge("--scenarios 3 --seed 4 --out " + set.string()), 2);
+  EXPECT_TRUE(std::filesystem::exists(set / "reports" / "s0002" / "report.json"));
+  EXPECT_FALSE(std::filesystem::exists(set / "reports" / ".s0002"));
+  EXPECT_EQ(challenge("--scenarios 3 --seed 1 --out " + set.string()), 2);
+}
+
+TEST(ChallengeScript, RivalsAndAblationsAreScoredOnTheSameFiles) {
+  const test::TemporaryFolder folder;
+  const auto set = folder / "set", log = set / "s0001";
+  ASSERT_EQ(challenge("--scenarios 1 --seed 1 --out " + set.string()), 0);
+  const std::vector<std::string> files{"--sim",     (log / "sim.json").string(),
+                                       "--fit",     (log / "fit_0.csv").string(),
+                                       "--holdout", (log / "holdout_0.csv").string()};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), files.begin(), files.end());
+    return more;
+  };
+  const auto rivals =
+      test::Process("rivals",
+                    with({"-q", "--networks", "mlp", "--out", (set / "rivals" / "s0001").string()}))
+          .wait();
+  ASSERT_EQ(rivals.exit_code, 0) << rivals.err;
+  const auto ablation =
+      test::Process("diagnose", with({"-q", "--without", "refinement", "omnibus", "--out",
+                                      (set / "ablations" / "refinement" / "s0001").string()}))
+          .wait();
+  ASSERT_EQ(ablation.exit_code, 0) << ablation.err;
+  EXPECT_EQ(
+      read_json(set / "ablations" / "refinement" / "s0001" / "report.json", Exit::kData)["without"],
+      Json({"refinement", "omnibus"}));
+  ASSERT_EQ(challenge("--scenarios 1 --seed 1 --out " + set.string()), 0);
+  const Json scores = read_json(set / "scores.json", Exit::kData);
+  for (const char* method :
+       {"stlsq", "ensemble-stlsq", "lasso-1se", "lasso-min", "omp-bic", "greedy-bic", "mlp"}) {
+    ASSERT_TRUE(scores["rivals"].contains(method)) << method;
+    const Json& rates = scores["rivals"][method];
+    EXPECT_GT(rates["seconds"]["median"].get<double>(), 0.0) << method;
+    EXPECT_GT(rates["after_over_oracle"]["median"].get<double>(), 0.9) << method;
+    EXPECT_EQ(rates.contains("ran"), std::string(method) != "mlp") << method;
+  }
+  EXPECT_EQ(scores["ablations"]["refinement"]["ran"]["n"], 1);
+  const std::string page = test::slurp(set / "report.html");
+  EXPECT_NE(page.find("the true law"), std::string::npos);
+  EXPECT_NE(page.find("without refinement"), std::string::npos);
+}
+
+TEST(ChallengeScript, SkipsRealRecordingsThatAreNotThere) {
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(
+      challenge("--out " + (folder / "real").string() + " --real " + (folder / "nowhere").string()),
+      0);
 }
 
 TEST(ChallengeScript, TellsHowItIsUsed) {

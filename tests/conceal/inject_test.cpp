@@ -64,6 +64,28 @@ TEST(Inject, ADrawnEffectHasTheAmplitudeAskedFor) {
   EXPECT_NEAR(added(folder)(2000, 0), -fc, 1e-6);
 }
 
+/// What is measured drives the axis: friction asks for more along the motion.
+TEST(Inject, OnAMachineTheDriveCarriesTheEffect) {
+  const test::TemporaryFolder folder;
+  Injection request = steady(folder, folder / "hidden.json");
+  write_file(folder / "hidden.json",
+             R"([{"effect":"viscous_friction","axis":"base_x","interval_s":null,
+                  "parameters":{"c_nspm":2.0}},
+                 {"effect":"cable_spring","axis":"alpha:base_x","interval_s":null,
+                  "parameters":{"k_nprad":3.0,"rest_rad":0.1}}])");
+  write_file(folder / "system.json",
+             R"({"kind":"axes","axes":[{"name":"slide","measured":"fx","unit":"N","position":"x",
+                                        "base":["acceleration"]}]})");
+  request.simulator.clear();
+  request.system = folder / "system.json";
+  inject(request, 1, folder / "out", folder / "seal.json");
+  const Table before = read_csv(folder / "log.csv"), after = read_csv(folder / "out" / "log.csv");
+  EXPECT_EQ(before.values.leftCols(7), after.values.leftCols(7));
+  const double x = kSpeed * 0.002 * 2000.0;
+  EXPECT_NEAR(after.values(2000, 7) - before.values(2000, 7), 2.0 * kSpeed + 3.0 * (x - 0.1), 1e-5);
+  EXPECT_EQ(before.values.rightCols(2), after.values.rightCols(2));
+}
+
 TEST(Inject, WhatCannotBeAddedIsRefused) {
   const test::TemporaryFolder folder;
   for (const char* what : {"inertial_terms", "no_such_effect", "viscous_friction@base_y"}) {

@@ -36,7 +36,10 @@ Json score(const Json& answer, const Json& report);
 
 /// Scores FOLDER/reports/<scenario>/report.json of every scenario of the seal. `scenarios` has one
 /// entry each, `tables` the rates with 95 % intervals by group, effect, amplitude, motion and
-/// noise.
+/// noise. Where FOLDER/rivals/<scenario>/<method>/report.json are there, `rivals` has the rates of
+/// each method over all scenarios (of one that is `fit_only` its errors and its time);
+/// where FOLDER/ablations/<part>/<scenario>/report.json are, `ablations` has those without the
+/// part.
 Json score_challenge(const std::filesystem::path& folder, const std::filesystem::path& seal);
 
 }  // namespace dcnn::conceal

@@ -9,6 +9,7 @@
 
 #include "dcnn/core/json.h"
 #include "dcnn/data/recording.h"
+#include "dcnn/diagnosis/ablation.h"
 #include "dcnn/physics/simulator.h"
 
 namespace dcnn {
@@ -19,6 +20,7 @@ struct DiagnosisRequest {
   std::vector<std::filesystem::path> fit, holdout;
   ReadOptions read;
   std::optional<bool> shared_clock;  ///< none: shared where the times do not overlap
+  Ablation without;                  ///< for research
 };
 
 /// A recording on which nothing was decided, or with blocks on which nothing was.

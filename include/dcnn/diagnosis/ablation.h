@@ -1,0 +1,30 @@
+// Parts of the diagnosis that can be left out, to measure what each is worth. For research: a
+// report made without one says so.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace dcnn {
+
+/// true: left out.
+struct Ablation {
+  bool refinement = false;       ///< shapes stay at their seeds
+  bool exact_operators = false;  ///< delay and lag are -s dF/dt
+  bool projection = false;       ///< candidates as if nothing were fitted beside them
+  bool smoothing = false;        ///< no columns for a little more or less smoothing of the pose
+  bool coloured_floor = false;   ///< the floor's spectrum is flat
+  bool omnibus = false;          ///< nobody asks what no name explains
+  bool exchange = false;         ///< what was added first stays: no swaps, no pairs
+  bool flips = false;            ///< nothing is taken back as a coincidence
+
+  /// Names of the parts that are left out, as ablation_of() takes them.
+  std::vector<std::string> names() const;
+};
+
+/// refinement, exact-operators, projection, smoothing, coloured-floor, omnibus, exchange, flips.
+const std::vector<std::string>& ablations();
+/// Error(kUsage) for another name.
+Ablation ablation_of(const std::vector<std::string>& parts);
+
+}  // namespace dcnn

@@ -1,0 +1,62 @@
+#include "dcnn/rivals/rivals.h"
+
+#include <iostream>
+
+#include "dcnn/core/file.h"
+#include "dcnn/experiment/remainder.h"
+#include "support/tool.h"
+
+namespace {
+
+using namespace dcnn;
+
+constexpr const char* kExamples =
+    "  dcnn-rivals --sim sim.json --fit a.csv b.csv --holdout c.csv --out rivals\n"
+    "  dcnn-rivals --sim sim.json --fit a.csv --holdout c.csv --networks mlp dcnn --out rivals\n"
+    "  tools/challenge --scenarios 30 --seed 1 --rivals --out out/challenge\n";
+
+void show(const std::string& method, const Json& report) {
+  std::cout << method << ":";
+  for (const Json& f : report["findings"]) {
+    std::cout << " " << f["effect"].get<std::string>();
+    if (f["axis"].is_string()) std::cout << " " << f["axis"].get<std::string>();
+    std::cout << ",";
+  }
+  std::cout << " " << report["verdict"].get<std::string>() << "\n";
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("dcnn-rivals",
+            "Other methods on the files of a diagnosis, as a measure for dcnn-diagnose: sparse "
+            "regressions on the laws of the catalogue (STLSQ and its ensemble form, LASSO with "
+            "cross-validation, orthogonal matching pursuit and greedy selection with BIC), and "
+            "networks that fit what the simulator leaves.",
+            kExamples);
+  rivals::Request request;
+  std::filesystem::path out;
+  std::vector<std::string> networks;
+  std::string preset = "quick";
+  auto& app = tool.app();
+  app.add_option("--sim", request.simulator, "simulator of the tool (JSON)")->required();
+  app.add_option("--fit", request.fit, "recordings to learn from")->required();
+  app.add_option("--holdout", request.holdout, "recordings to judge by");
+  app.add_option("--networks", networks, "models of dcnn-train that learn the remainder too");
+  app.add_option("--preset", preset, "of the networks")->capture_default_str();
+  app.add_option("--out", out, "folder for <method>/report.json")->required();
+
+  return tool.run(argc, argv, [&] {
+    Json reports = rivals::run(request);
+    for (const std::string& network : networks) {
+      reports[network] = learn_remainder(
+          {network, preset, request.simulator, request.fit, request.holdout, out / network});
+    }
+    for (const auto& [method, report] : reports.items()) {
+      write_file(out / method / "report.json", report.dump(1) + "\n");
+      if (!tool.common().json) show(method, report);
+    }
+    if (tool.common().json) Tool::print(reports);
+    return Exit::kDone;
+  });
+}
