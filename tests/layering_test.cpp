@@ -20,10 +20,10 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"physics", {"core", "data"}},
     {"models", {"core", "nn", "data", "physics"}},
     {"calibration", {"core", "data"}},
-    {"teleop", {"core", "data", "physics", "models", "calibration"}},
+    {"teleop", {"core", "data", "physics", "models", "calibration", "runtime"}},
     {"diagnosis", {"core", "data", "physics"}},
     {"conceal", {"core", "data"}},  // shares no physics with what it examines
-    {"runtime", {"core", "nn", "data", "models"}},
+    {"runtime", {"core", "nn", "data", "physics", "models", "calibration"}},
     {"experiment",
      {"core", "nn", "data", "physics", "models", "diagnosis", "runtime", "calibration", "teleop"}},
     {"tools",

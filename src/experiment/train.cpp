@@ -198,6 +198,13 @@ TrainingOutcome train(const TrainingRequest& request, const TrainingObserver& ob
                      {"notes", notes},
                      {"run_directory", folder.string()}};
   if (outcome.finished) {
+    const auto& layout = identifier.layout;
+    if (layout.spec.derivative.kind == DerivativeSpec::Kind::kCausalSavitzkyGolay &&
+        layout.spec.set != FeatureSpec::Set::kAxes) {
+      identifier.online =
+          learn_limits(*identifier.model, identifier.targets, training, validation, layout.dt);
+      outcome.summary["contact_n"] = identifier.online->contact_n;
+    }
     outcome.summary["validation_rmse"] = rmse_of(*identifier.model, validation);
     write_container(request.out, pack(identifier));
     outcome.summary["file"] = request.out.string();

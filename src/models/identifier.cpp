@@ -74,6 +74,7 @@ Container pack(const Identifier& identifier) {
   file.metadata["configuration"] = identifier.configuration.dump();
   file.metadata["seed"] = std::to_string(identifier.seed);
   if (identifier.base) file.metadata["base"] = to_json(*identifier.base).dump();
+  if (identifier.online) file.metadata["online"] = to_json(*identifier.online).dump();
   identifier.model->save(file);
   return file;
 }
@@ -96,6 +97,11 @@ Identifier unpack(const Container& file, const std::string& where) {
   identifier.model = model_kind(identifier.name, Exit::kModel).load(file, where);
   require(identifier.model->map().features() == static_cast<Index>(identifier.layout.names.size()),
           Exit::kModel, where, ": its model has another number of rows than its features");
+  if (file.metadata.count("online")) {
+    identifier.online = parse_limits(parse_text(file, "online", where), where);
+    require(identifier.online->envelope.features() == identifier.model->map().features(),
+            Exit::kModel, where, ": its envelope has another number of rows than its features");
+  }
   const Eigen::MatrixXd probe =
       identifier.model->predict({identifier.model->map().mean().transpose(), {}});
   require(probe.cols() == static_cast<Index>(identifier.targets.names.size()), Exit::kModel, where,

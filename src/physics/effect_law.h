@@ -58,6 +58,54 @@ Index axis_index(const std::string& axis);
 /// Time from sample k - 1 to k, s.
 inline double step(const Motion& motion, Index k) { return motion.t(k) - motion.t(k - 1); }
 
+/// A unit axis of B, S or the tool, and what moves along or about it, at one sample.
+class LineNow {
+ public:
+  explicit LineNow(const std::string& axis)
+      : index_(axis_index(axis)), base_(axis.starts_with("base_")), turns_(axis.starts_with("w_")) {}
+  Eigen::Vector3d n_S(const Instant& now) const {
+    if (base_) return now.R_BS.row(index_).transpose();
+    return Eigen::Vector3d::Unit(index_);
+  }
+  double velocity(const Instant& now) const {
+    return turns_ ? now.w_S[index_] : (now.R_BS * n_S(now)).dot(now.v_B);
+  }
+  double acceleration(const Instant& now) const {
+    return turns_ ? now.dw_S[index_] : (now.R_BS * n_S(now)).dot(now.a_B);
+  }
+
+ private:
+  Index index_;
+  bool base_, turns_;
+};
+
+/// <angle>:<axis> at one sample.
+struct AngleNow {
+  explicit AngleNow(const std::string& axis)
+      : angle(axis.starts_with("alpha") ? 0 : axis.starts_with("beta") ? 1 : 2),
+        line(axis.substr(axis.find(':') + 1)) {}
+  Index angle;
+  LineNow line;
+};
+
+/// EffectKind::apply and ::stream of a force law(angle)·n.
+template <auto law>
+void pushed(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
+            Options& parameters) {
+  const auto law_of_q = law(parameters);
+  const AngleLine line = angle_line_of(spec.axis, motion);
+  for (Index k = 0; k < line.angle.size(); ++k) {
+    wrench.force.row(k) += law_of_q(line.angle(k)) * line.n_S.row(k);
+  }
+}
+template <auto law>
+EffectStream pushing(const EffectSpec& spec, Options& parameters) {
+  return [at = AngleNow(spec.axis), law_of_q = law(parameters)](InstantWrench& wrench,
+                                                                const Instant& now) {
+    wrench.force += law_of_q(now.euler[at.angle]) * at.line.n_S(now);
+  };
+}
+
 /// R^T (g - a_o), (T,3): the acceleration field that the tool feels, in S.
 Eigen::MatrixXd felt_acceleration(const ToolModel& model, const Motion& motion);
 

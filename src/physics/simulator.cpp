@@ -4,13 +4,13 @@
 
 #include "dcnn/core/options.h"
 #include "physics/effect_law.h"
+#include "physics/rigid.h"
 #include "physics/simulator_json.h"
 
 namespace dcnn {
 namespace {
 
 using Eigen::RowVector3d;
-using Eigen::Vector3d;
 
 /// AR(1) of stationary standard deviation `deviation`, starting anew in each segment.
 void add_noise(Eigen::MatrixXd& signals, const Motion& motion, double deviation, double ar,
@@ -54,20 +54,14 @@ Json to_json(const Simulator& simulator) {
 }
 
 Wrench rigid_wrench(const ToolModel& model, const Motion& motion) {
-  const bool full = model.inertial == ToolModel::Inertial::kFull;
   const Eigen::MatrixXd felt = felt_acceleration(model, motion);
   Wrench wrench{Eigen::MatrixXd(motion.samples(), 3), Eigen::MatrixXd(0, 3)};
   if (model.inertia) wrench.torque.resize(motion.samples(), 3);
   for (Index k = 0; k < motion.samples(); ++k) {
-    const Vector3d w = motion.w_S.row(k), dw = motion.dw_S.row(k), c = model.com;
-    const Vector3d field = felt.row(k);
-    Vector3d at_com = field;
-    if (full) at_com -= dw.cross(c) + w.cross(w.cross(c));
-    wrench.force.row(k) = (model.mass * at_com + model.bias).transpose();
-    if (!model.inertia) continue;
-    Vector3d torque = c.cross(model.mass * field) + model.bias_torque;
-    if (full) torque -= *model.inertia * dw + w.cross(*model.inertia * w);
-    wrench.torque.row(k) = torque.transpose();
+    const InstantWrench rigid =
+        rigid_at(model, felt.row(k), motion.w_S.row(k), motion.dw_S.row(k));
+    wrench.force.row(k) = (rigid.force + model.bias).transpose();
+    if (model.inertia) wrench.torque.row(k) = (rigid.torque + model.bias_torque).transpose();
   }
   return wrench;
 }

@@ -35,6 +35,30 @@ TEST_P(EveryEffect, ItsExampleChangesTheForceAndStaysFinite) {
   EXPECT_GT((wrench.force - without.force).cwiseAbs().maxCoeff(), 1e-4);
 }
 
+TEST_P(EveryEffect, RunsSampleBySampleAsOverTheWholeRecording) {
+  if (!kind().stream) GTEST_SKIP() << "is not known online";
+  const Motion motion = example_motion(900);
+  const ToolModel model = example_tool();
+  const EffectSpec effect = example_effect(kind());
+  Wrench wanted = rigid_wrench(model, motion);
+  Wrench given = wanted;
+  apply_effect(effect, motion, model, wanted);
+  Options parameters(effect.parameters, "test", Exit::kUsage);
+  const EffectStream act = kind().stream(effect, parameters);
+  for (Index start : {Index{0}, Index{0}}) {  // twice: a new stretch forgets the old one
+    for (Index k = start; k < motion.samples(); ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const Instant now{k == start,          motion.dt,          motion.R_BS[i],
+                        motion.euler.row(k), motion.v_B.row(k),  motion.a_B.row(k),
+                        motion.w_S.row(k),   motion.dw_S.row(k)};
+      InstantWrench wrench{given.force.row(k), given.torque.row(k)};
+      act(wrench, now);
+      ASSERT_LT((wrench.force - wanted.force.row(k).transpose()).norm(), 1e-9) << k;
+      ASSERT_LT((wrench.torque - wanted.torque.row(k).transpose()).norm(), 1e-9) << k;
+    }
+  }
+}
+
 TEST_P(EveryEffect, IsWholeInItsDescription) {
   EXPECT_NE(kind().change == nullptr, kind().apply == nullptr);
   EXPECT_EQ(kind().change != nullptr, kind().stage == Stage::kTool);

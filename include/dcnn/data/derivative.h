@@ -22,6 +22,14 @@ struct DerivativeSpec {
   int window(double dt) const;
 };
 
+/// The estimator of everything that runs online: a causal parabola over 0.1 s.
+inline DerivativeSpec causal_derivative() {
+  DerivativeSpec spec;
+  spec.kind = DerivativeSpec::Kind::kCausalSavitzkyGolay;
+  spec.order = 2;
+  return spec;
+}
+
 /// Keys: kind (sg|sg_causal|central|spline|spectral), window_s, order, cutoff_hz.
 DerivativeSpec parse_derivative(Options options);
 Json to_json(const DerivativeSpec& spec);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "dcnn/models/model.h"
+#include "dcnn/models/online_limits.h"
 #include "dcnn/physics/simulator.h"
 
 namespace dcnn {
@@ -17,6 +18,7 @@ struct Identifier {
   Targets targets;
   std::unique_ptr<Model> model;
   std::optional<Simulator> base;  ///< the model learned what this simulator leaves (wrist only)
+  std::optional<OnlineLimits> online;  ///< of models trained with --online
   Json configuration;             ///< resolved, for reports
   std::uint64_t seed = 0;
 

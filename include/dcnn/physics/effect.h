@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,6 +20,24 @@ struct Wrench {
   Eigen::MatrixXd force;   ///< (T,3) N
   Eigen::MatrixXd torque;  ///< (T,3) N·m, or (0,3)
 };
+
+/// What effects see of the motion at one sample, frames as in Motion.
+struct Instant {
+  bool first = true;  ///< a stretch of time begins: internal states start in equilibrium
+  double dt = 0.0;    ///< s, since the sample before
+  Eigen::Matrix3d R_BS = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d euler = Eigen::Vector3d::Zero();  ///< alpha, beta, gamma of E, continuous
+  Eigen::Vector3d v_B = Eigen::Vector3d::Zero(), a_B = Eigen::Vector3d::Zero();
+  Eigen::Vector3d w_S = Eigen::Vector3d::Zero(), dw_S = Eigen::Vector3d::Zero();
+};
+
+/// One row of a Wrench.
+struct InstantWrench {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
+};
+
+/// An effect that runs sample by sample; it owns its state, and calling it allocates nothing.
+using EffectStream = std::function<void(InstantWrench&, const Instant&)>;
 
 /// Where in the chain an effect acts (vocabulary.md): stages run in this order.
 enum class Stage {
@@ -96,6 +115,9 @@ struct EffectKind {
   /// first sample of the recording.
   void (*apply)(Wrench&, const Motion&, const EffectSpec&, const ToolModel&,
                 Options& parameters) = nullptr;
+  /// The same sample by sample; null where the future, the recording's clock or a foreign force is
+  /// needed.
+  EffectStream (*stream)(const EffectSpec&, Options& parameters) = nullptr;
   /// The ways in which its parameters are fitted (thermal_drift has two); empty for what the
   /// diagnosis does not look for.
   std::vector<EffectFit> fits = {};

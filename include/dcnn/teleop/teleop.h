@@ -54,8 +54,8 @@ class Compensator {
 /// --online at 500 Hz or has no force. Windows fill as the motion goes on.
 std::unique_ptr<Compensator> compensate_with(const Identifier& identifier,
                                              const std::string& where);
-/// A simulator, e.g. the corrected one of dcnn-diagnose. Error(kData) where an effect has a memory
-/// or a time of its own, which a single sample does not show.
+/// A simulator, e.g. the corrected one of dcnn-diagnose. Error(kData) where an effect needs the
+/// future or a clock of its own (StreamingSimulator).
 std::unique_ptr<Compensator> compensate_with(const Simulator& simulator, const std::string& where);
 
 /// Which force the master is given.

@@ -5,10 +5,9 @@
 namespace dcnn {
 namespace {
 
-void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
-           Options& parameters) {
+auto law(Options& parameters) {
   const double c = parameter(parameters, "delta_c_nspm");
-  resist(wrench, line_of(spec.axis, motion), [=](double v, Index) { return c * std::abs(v); });
+  return [=](double v) { return c * std::abs(v); };
 }
 
 }  // namespace
@@ -23,7 +22,8 @@ const EffectKind asymmetric_friction_effect{
     .example = R"({"delta_c_nspm": 0.5})",
     .axis = AxisRule::kLine,
     .machines_only = true,
-    .apply = apply,
+    .apply = resisted<law>,
+    .stream = resisting<law>,
     .fits = {{.amplitudes = 1,
               .parameters = [](const Eigen::VectorXd& a,
                                const Eigen::VectorXd&) { return Json{{"delta_c_nspm", a(0)}}; }}},

@@ -8,6 +8,14 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolMo
   add(wrench, read_offset(parameters, "delta_bias"), Eigen::VectorXd::Ones(motion.samples()));
 }
 
+EffectStream stream(const EffectSpec&, Options& parameters) {
+  const Offset offset = read_offset(parameters, "delta_bias");
+  return [offset](InstantWrench& wrench, const Instant&) {
+    wrench.force += offset.force;
+    wrench.torque += offset.torque;
+  };
+}
+
 }  // namespace
 
 const EffectKind bias_effect{
@@ -18,6 +26,7 @@ const EffectKind bias_effect{
     .equation = "+ b",
     .example = R"({"delta_bias_x_n": 0.3, "delta_bias_y_n": -0.2, "delta_bias_z_n": 0.1})",
     .apply = apply,
+    .stream = stream,
     .fits = {{.amplitudes = 3,
               .with_torque = 6,
               .parameters =

@@ -16,6 +16,15 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolMo
   }
 }
 
+EffectStream stream(const EffectSpec&, Options& parameters) {
+  const double amp = parameter(parameters, "amp_n");
+  return [amp](InstantWrench& wrench, const Instant& now) {
+    const Eigen::Vector3d& q = now.euler;
+    wrench.force += amp * Eigen::Vector3d(std::sin(q(0) + 0.4), std::cos(2.0 * q(1)),
+                                          std::sin(q(2)) * std::cos(q(0)));
+  };
+}
+
 }  // namespace
 
 const EffectKind cable_field_effect{
@@ -26,6 +35,7 @@ const EffectKind cable_field_effect{
     .equation = "+ amp (sin(alpha+0.4), cos(2 beta), sin(gamma) cos(alpha))",
     .example = R"({"amp_n": 0.2})",
     .apply = apply,
+    .stream = stream,
 };
 
 }  // namespace dcnn

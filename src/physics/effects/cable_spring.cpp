@@ -3,11 +3,9 @@
 namespace dcnn {
 namespace {
 
-void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
-           Options& parameters) {
+auto law(Options& parameters) {
   const double k = parameter(parameters, "k_nprad"), rest = parameter(parameters, "rest_rad");
-  const AngleLine line = angle_line_of(spec.axis, motion);
-  wrench.force -= (k * (line.angle.array() - rest)).matrix().asDiagonal() * line.n_S;
+  return [=](double q) { return -k * (q - rest); };
 }
 
 }  // namespace
@@ -20,7 +18,8 @@ const EffectKind cable_spring_effect{
     .equation = "-k (q - rest) n",
     .example = R"({"k_nprad": 0.5, "rest_rad": 0.1})",
     .axis = AxisRule::kAngle,
-    .apply = apply,
+    .apply = pushed<law>,
+    .stream = pushing<law>,
     .fits = {{.amplitudes = 2,
               // k and k·rest: the force is linear in both.
               .parameters =

@@ -5,13 +5,10 @@
 namespace dcnn {
 namespace {
 
-void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
-           Options& parameters) {
+auto law(Options& parameters) {
   const double amp = parameter(parameters, "amp_n"), order = parameter(parameters, "order");
   const double phase = parameter(parameters, "phase_rad");
-  const AngleLine line = angle_line_of(spec.axis, motion);
-  wrench.force +=
-      (amp * (order * line.angle.array() + phase).sin()).matrix().asDiagonal() * line.n_S;
+  return [=](double q) { return amp * std::sin(order * q + phase); };
 }
 
 }  // namespace
@@ -24,7 +21,8 @@ const EffectKind cogging_effect{
     .equation = "amp sin(order q + phase) n",
     .example = R"({"amp_n": 0.1, "order": 12.0, "phase_rad": 0.5})",
     .axis = AxisRule::kAngle,
-    .apply = apply,
+    .apply = pushed<law>,
+    .stream = pushing<law>,
     .fits = {{.amplitudes = 2,
               .shapes = {{"order", 0.5, 200.0, {}}},
               .parameters =

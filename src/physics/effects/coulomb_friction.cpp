@@ -5,12 +5,10 @@
 namespace dcnn {
 namespace {
 
-void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
-           Options& parameters) {
+auto law(Options& parameters) {
   const double fc = parameter(parameters, "fc_n", 0.0);
   const double v0 = parameter(parameters, "v0_mps", kTiny);
-  resist(wrench, line_of(spec.axis, motion),
-         [=](double v, Index) { return fc * std::tanh(v / v0); });
+  return [=](double v) { return fc * std::tanh(v / v0); };
 }
 
 }  // namespace
@@ -23,7 +21,8 @@ const EffectKind coulomb_friction_effect{
     .equation = "-fc tanh(v/v0) n",
     .example = R"({"fc_n": 0.4, "v0_mps": 0.01})",
     .axis = AxisRule::kLine,
-    .apply = apply,
+    .apply = resisted<law>,
+    .stream = resisting<law>,
     .fits = {{.amplitudes = 1,
               .non_negative = true,
               .shapes = {{"v0", 3e-4, 0.3, {0.003, 0.012, 0.05}}},

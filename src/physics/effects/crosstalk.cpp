@@ -3,15 +3,25 @@
 namespace dcnn {
 namespace {
 
-void apply(Wrench& wrench, const Motion&, const EffectSpec&, const ToolModel&,
-           Options& parameters) {
+Eigen::Matrix3d leak(Options& parameters) {
   Eigen::Matrix3d C = Eigen::Matrix3d::Identity();
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       if (i != j) C(i, j) = parameter(parameters, std::string("c_") + "xyz"[i] + "xyz"[j]);
     }
   }
-  wrench.force *= C.transpose();
+  return C;
+}
+
+void apply(Wrench& wrench, const Motion&, const EffectSpec&, const ToolModel&,
+           Options& parameters) {
+  wrench.force *= leak(parameters).transpose();
+}
+
+EffectStream stream(const EffectSpec&, Options& parameters) {
+  return [C = leak(parameters)](InstantWrench& wrench, const Instant&) {
+    wrench.force = (C * wrench.force).eval();
+  };
 }
 
 }  // namespace
@@ -25,6 +35,7 @@ const EffectKind crosstalk_effect{
     .example =
         R"({"c_xy": 0.01, "c_xz": -0.005, "c_yx": -0.012, "c_yz": 0.007, "c_zx": 0.014, "c_zy": -0.009})",
     .apply = apply,
+    .stream = stream,
     .fits = {{.amplitudes = 6,
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {

@@ -3,11 +3,9 @@
 namespace dcnn {
 namespace {
 
-void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
-           Options& parameters) {
+auto law(Options& parameters) {
   const double k3 = parameter(parameters, "k3_nprad3");
-  const AngleLine line = angle_line_of(spec.axis, motion);
-  wrench.force -= (k3 * line.angle.array().cube()).matrix().asDiagonal() * line.n_S;
+  return [=](double q) { return -k3 * q * q * q; };
 }
 
 }  // namespace
@@ -21,7 +19,8 @@ const EffectKind cubic_spring_effect{
     .example = R"({"k3_nprad3": 0.4})",
     .axis = AxisRule::kAngle,
     .machines_only = true,
-    .apply = apply,
+    .apply = pushed<law>,
+    .stream = pushing<law>,
     .fits = {{.amplitudes = 1,
               .parameters = [](const Eigen::VectorXd& a,
                                const Eigen::VectorXd&) { return Json{{"k3_nprad3", a(0)}}; }}},

@@ -25,6 +25,20 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const T
   }
 }
 
+EffectStream stream(const EffectSpec& spec, Options& parameters) {
+  const double w0 = 2.0 * std::numbers::pi * parameter(parameters, "freq_hz", kTiny);
+  const double zeta = parameter(parameters, "zeta", 0.0, 0.999);
+  const double fraction = parameter(parameters, "fraction");
+  const std::complex<double> p(-zeta * w0, w0 * std::sqrt(1.0 - zeta * zeta));
+  return [=, i = axis_index(spec.axis), mode = FirstOrder<std::complex<double>>(p), before = 0.0,
+          x = std::complex<double>()](InstantWrench& wrench, const Instant& now) mutable {
+    const double rigid = wrench.force(i);
+    x = now.first ? -rigid / p : mode.advance(x, before, rigid, now.dt);
+    before = rigid;
+    if (!now.first) wrench.force(i) += fraction * (w0 * w0 * x.imag() / p.imag() - rigid);
+  };
+}
+
 }  // namespace
 
 const EffectKind flexible_resonance_effect{
@@ -37,6 +51,7 @@ const EffectKind flexible_resonance_effect{
     .axis = AxisRule::kSensor,
     .needs_time = true,
     .apply = apply,
+    .stream = stream,
     .fits = {{.amplitudes = 1,
               .shapes = {{"freq", 1.0, 200.0, {}}, {"zeta", 2e-3, 0.9, {0.01, 0.03, 0.1}}},
               .parameters =

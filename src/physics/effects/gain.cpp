@@ -9,6 +9,11 @@ void apply(Wrench& wrench, const Motion&, const EffectSpec&, const ToolModel&,
   wrench.force *= (1.0 + k.array()).matrix().asDiagonal();
 }
 
+EffectStream stream(const EffectSpec&, Options& parameters) {
+  const Eigen::Vector3d scale = parameters3(parameters, "gain", "").array() + 1.0;
+  return [scale](InstantWrench& wrench, const Instant&) { wrench.force.array() *= scale.array(); };
+}
+
 }  // namespace
 
 const EffectKind gain_effect{
@@ -19,6 +24,7 @@ const EffectKind gain_effect{
     .equation = "F_i -> (1+k_i) F_i",
     .example = R"({"gain_x": 0.02, "gain_y": -0.03, "gain_z": 0.01})",
     .apply = apply,
+    .stream = stream,
     .fits = {{.amplitudes = 3,
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {

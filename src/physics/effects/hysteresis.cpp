@@ -42,6 +42,19 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const T
   }
 }
 
+EffectStream stream(const EffectSpec& spec, Options& parameters) {
+  const double force = parameter(parameters, "force_n");
+  const double width = parameter(parameters, "width_rad", kTiny);
+  const double asym = parameter(parameters, "asym", 0.0, 1.0);
+  return [=, at = AngleNow(spec.axis), z = 0.0, before = 0.0](InstantWrench& wrench,
+                                                              const Instant& now) mutable {
+    const double angle = now.euler[at.angle];
+    z = now.first ? 0.0 : turn(z, angle - before, width, asym);
+    before = angle;
+    wrench.force -= force * z * at.line.n_S(now);
+  };
+}
+
 }  // namespace
 
 const EffectKind hysteresis_effect{
@@ -54,6 +67,7 @@ const EffectKind hysteresis_effect{
     .axis = AxisRule::kAngle,
     .needs_time = true,
     .apply = apply,
+    .stream = stream,
     .fits = {{.amplitudes = 1,
               .shapes = {{"width", 5e-3, 3.0, {0.05, 0.15, 0.4}}, {"asym", 0.0, 1.0, {0.5}}},
               .parameters =

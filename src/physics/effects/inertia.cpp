@@ -19,6 +19,13 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const T
   }
 }
 
+EffectStream stream(const EffectSpec& spec, Options& parameters) {
+  const double inertia = parameter(parameters, "delta_inertia_kg");
+  return [inertia, line = LineNow(spec.axis)](InstantWrench& wrench, const Instant& now) {
+    wrench.force -= inertia * line.acceleration(now) * line.n_S(now);
+  };
+}
+
 }  // namespace
 
 const EffectKind inertia_effect{
@@ -31,6 +38,7 @@ const EffectKind inertia_effect{
     .axis = AxisRule::kLine,
     .machines_only = true,
     .apply = apply,
+    .stream = stream,
     .fits = {{.amplitudes = 1,
               .parameters = [](const Eigen::VectorXd& a,
                                const Eigen::VectorXd&) { return Json{{"delta_inertia_kg", a(0)}}; }}},

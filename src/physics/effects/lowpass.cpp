@@ -24,6 +24,23 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolMo
   filter(wrench.torque, motion, tau);
 }
 
+EffectStream stream(const EffectSpec&, Options& parameters) {
+  const double tau = parameter(parameters, "tau_s", 0.0);
+  if (tau == 0.0) return [](InstantWrench&, const Instant&) {};
+  using Six = Eigen::Matrix<double, 6, 1>;
+  return [tau, lag = FirstOrder<double>(-1.0 / tau), x = Six(Six::Zero()),
+          before = Six(Six::Zero())](InstantWrench& wrench, const Instant& now) mutable {
+    Six u;
+    u << wrench.force, wrench.torque;
+    for (Index i = 0; i < 6; ++i) {
+      x(i) = now.first ? u(i) : lag.advance(x(i), before(i) / tau, u(i) / tau, now.dt);
+    }
+    before = u;
+    wrench.force = x.head<3>();
+    wrench.torque = x.tail<3>();
+  };
+}
+
 }  // namespace
 
 const EffectKind lowpass_effect{
@@ -35,6 +52,7 @@ const EffectKind lowpass_effect{
     .example = R"({"tau_s": 0.01})",
     .needs_time = true,
     .apply = apply,
+    .stream = stream,
     .fits = {{.shapes = {{"tau", 2e-5, 1.0, {0.003, 0.02}}},
               .parameters =
                   [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {

@@ -40,6 +40,20 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const T
   });
 }
 
+EffectStream stream(const EffectSpec& spec, Options& parameters) {
+  const double fc = parameter(parameters, "fc_n", 0.0);
+  const double sigma0 = parameter(parameters, "sigma0_npm", kTiny);
+  const double sigma1 = parameter(parameters, "sigma1_nspm", 0.0);
+  if (fc == 0.0) return [](InstantWrench&, const Instant&) {};
+  return [=, reach = fc / sigma0, line = LineNow(spec.axis), z = 0.0, before = 0.0](
+             InstantWrench& wrench, const Instant& now) mutable {
+    const double v = line.velocity(now);
+    z = now.first ? 0.0 : advance(z, before, v, now.dt, reach);
+    before = v;
+    wrench.force -= (sigma0 * z + sigma1 * (v - std::abs(v) * z / reach)) * line.n_S(now);
+  };
+}
+
 }  // namespace
 
 const EffectKind lugre_friction_effect{
@@ -52,6 +66,7 @@ const EffectKind lugre_friction_effect{
     .axis = AxisRule::kLine,
     .needs_time = true,
     .apply = apply,
+    .stream = stream,
     .fits = {{.amplitudes = 1,
               .non_negative = true,
               // fc/sigma0, the reach of the bristles, and sigma1/sigma0: the force is linear in fc.

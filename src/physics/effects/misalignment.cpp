@@ -11,6 +11,15 @@ void apply(Wrench& wrench, const Motion&, const EffectSpec&, const ToolModel&,
   wrench.torque *= Rm;
 }
 
+EffectStream stream(const EffectSpec&, Options& parameters) {
+  const Eigen::Matrix3d turned =
+      rotation_from_euler(parameters3(parameters, "rot", "_rad").reverse()).transpose();
+  return [turned](InstantWrench& wrench, const Instant&) {
+    wrench.force = (turned * wrench.force).eval();
+    wrench.torque = (turned * wrench.torque).eval();
+  };
+}
+
 }  // namespace
 
 const EffectKind misalignment_effect{
@@ -21,6 +30,7 @@ const EffectKind misalignment_effect{
     .equation = "F -> Rm^T F, Rm = Rz(rz) Ry(ry) Rx(rx)",
     .example = R"({"rot_x_rad": 0.02, "rot_y_rad": -0.01, "rot_z_rad": 0.03})",
     .apply = apply,
+    .stream = stream,
     .fits = {{.amplitudes = 3,
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {

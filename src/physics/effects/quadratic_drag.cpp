@@ -5,10 +5,9 @@
 namespace dcnn {
 namespace {
 
-void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
-           Options& parameters) {
+auto law(Options& parameters) {
   const double c2 = parameter(parameters, "c2_ns2pm2", 0.0);
-  resist(wrench, line_of(spec.axis, motion), [=](double v, Index) { return c2 * v * std::abs(v); });
+  return [=](double v) { return c2 * v * std::abs(v); };
 }
 
 }  // namespace
@@ -21,7 +20,8 @@ const EffectKind quadratic_drag_effect{
     .equation = "-c2 v abs(v) n",
     .example = R"({"c2_ns2pm2": 5.0})",
     .axis = AxisRule::kLine,
-    .apply = apply,
+    .apply = resisted<law>,
+    .stream = resisting<law>,
     .fits = {{.amplitudes = 1,
               .non_negative = true,
               .parameters =

@@ -9,6 +9,13 @@ void apply(Wrench& wrench, const Motion&, const EffectSpec&, const ToolModel&,
   if (q > 0.0) wrench.force = q * (wrench.force / q).array().round();
 }
 
+EffectStream stream(const EffectSpec&, Options& parameters) {
+  const double q = parameter(parameters, "step_n", 0.0);
+  return [q](InstantWrench& wrench, const Instant&) {
+    if (q > 0.0) wrench.force = q * (wrench.force / q).array().round();
+  };
+}
+
 }  // namespace
 
 const EffectKind quantisation_effect{
@@ -19,6 +26,7 @@ const EffectKind quantisation_effect{
     .equation = "q round(F/q)",
     .example = R"({"step_n": 0.05})",
     .apply = apply,
+    .stream = stream,
     .fits = {{.shapes = {{"step", 1e-6, 1e3, {}}},
               .parameters =
                   [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {

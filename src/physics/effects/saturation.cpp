@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "physics/effect_law.h"
 
 namespace dcnn {
@@ -8,6 +10,13 @@ void apply(Wrench& wrench, const Motion&, const EffectSpec& spec, const ToolMode
   const double limit = parameter(parameters, "limit_n", 0.0);
   const Index i = axis_index(spec.axis);
   wrench.force.col(i) = wrench.force.col(i).cwiseMax(-limit).cwiseMin(limit);
+}
+
+EffectStream stream(const EffectSpec& spec, Options& parameters) {
+  const double limit = parameter(parameters, "limit_n", 0.0);
+  return [limit, i = axis_index(spec.axis)](InstantWrench& wrench, const Instant&) {
+    wrench.force(i) = std::min(std::max(wrench.force(i), -limit), limit);
+  };
 }
 
 }  // namespace
@@ -21,6 +30,7 @@ const EffectKind saturation_effect{
     .example = R"({"limit_n": 5.0})",
     .axis = AxisRule::kSensor,
     .apply = apply,
+    .stream = stream,
     .fits = {{.shapes = {{"limit", 1e-3, 1e4, {}}},
               .parameters =
                   [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {

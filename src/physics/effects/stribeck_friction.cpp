@@ -5,14 +5,13 @@
 namespace dcnn {
 namespace {
 
-void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
-           Options& parameters) {
+auto law(Options& parameters) {
   const double fc = parameter(parameters, "fc_n", 0.0), fs = parameter(parameters, "fs_n", 0.0);
   const double vs = parameter(parameters, "vs_mps", kTiny);
   const double v0 = parameter(parameters, "v0_mps", kTiny);
-  resist(wrench, line_of(spec.axis, motion), [=](double v, Index) {
+  return [=](double v) {
     return (fc + (fs - fc) * std::exp(-(v / vs) * (v / vs))) * std::tanh(v / v0);
-  });
+  };
 }
 
 }  // namespace
@@ -25,7 +24,8 @@ const EffectKind stribeck_friction_effect{
     .equation = "-(fc + (fs-fc) exp(-(v/vs)^2)) tanh(v/v0) n",
     .example = R"({"fc_n": 0.3, "fs_n": 0.6, "vs_mps": 0.03, "v0_mps": 0.005})",
     .axis = AxisRule::kLine,
-    .apply = apply,
+    .apply = resisted<law>,
+    .stream = resisting<law>,
     .fits = {{.amplitudes = 2,
               .non_negative = true,
               .shapes = {{"vs", 1e-3, 1.0, {0.01, 0.03, 0.1}}, {"v0", 3e-4, 0.3, {0.003, 0.012}}},

@@ -8,14 +8,14 @@ namespace {
 
 /// The cubic through the four samples about `place` (in samples from `begin`), Lagrange's form;
 /// near an end the outermost four. Before the first sample the signal rests at its first value.
-double interpolate(const Eigen::VectorXd& x, const Segment& segment, double place) {
-  if (place <= 0.0) return x(segment.begin);
-  if (segment.size() < 4) {
-    return x(segment.begin + std::min<Index>(std::llround(place), segment.size() - 1));
-  }
-  const Index first = std::clamp<Index>(static_cast<Index>(place) - 1, 0, segment.size() - 4);
+/// `x(i)` is sample i of `size`.
+template <class Signal>
+double interpolate(const Signal& x, Index size, double place) {
+  if (place <= 0.0) return x(0);
+  if (size < 4) return x(std::min<Index>(std::llround(place), size - 1));
+  const Index first = std::clamp<Index>(static_cast<Index>(place) - 1, 0, size - 4);
   const double s = place - static_cast<double>(first);
-  const auto at = [&](Index i) { return x(segment.begin + first + i); };
+  const auto at = [&](Index i) { return x(first + i); };
   return -(s - 1) * (s - 2) * (s - 3) / 6.0 * at(0) + s * (s - 2) * (s - 3) / 2.0 * at(1) -
          s * (s - 1) * (s - 3) / 2.0 * at(2) + s * (s - 1) * (s - 2) / 6.0 * at(3);
 }
@@ -26,7 +26,8 @@ void delay(Eigen::MatrixXd& signals, const Motion& motion, double seconds) {
     for (const Segment& segment : motion.segments) {
       for (Index k = segment.begin; k < segment.end; ++k) {
         const double place = static_cast<double>(k - segment.begin) - seconds / motion.dt;
-        signals(k, i) = interpolate(x, segment, place);
+        signals(k, i) =
+            interpolate([&](Index n) { return x(segment.begin + n); }, segment.size(), place);
       }
     }
   }
@@ -37,6 +38,35 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolMo
   const double seconds = parameter(parameters, "delay_s", 0.0);
   delay(wrench.force, motion, seconds);
   delay(wrench.torque, motion, seconds);
+}
+
+/// The newest samples of six signals; older than any that is asked for are written over.
+struct Past {
+  Eigen::Matrix<double, 6, Eigen::Dynamic> ring;
+  Index count = 0;
+  double at(Index signal, Index sample) const { return ring(signal, sample % ring.cols()); }
+};
+
+EffectStream stream(const EffectSpec&, Options& parameters) {
+  constexpr double kFastest = 1e-4, kLongest = 2.0;  // s: sample time, delay
+  const double seconds = parameter(parameters, "delay_s", 0.0);
+  Past past;
+  past.ring.setZero(6, 8 + static_cast<Index>(std::min(seconds, kLongest) / kFastest));
+  return [seconds, past](InstantWrench& wrench, const Instant& now) mutable {
+    if (now.first) past.count = 0;
+    past.ring.col(past.count % past.ring.cols()) << wrench.force, wrench.torque;
+    ++past.count;
+    const Index newest = past.count - 1;
+    const double behind = now.first ? 0.0 : std::min(seconds / now.dt, double(past.ring.cols() - 4));
+    const double place = std::max(0.0, static_cast<double>(newest) - behind);
+    // Old samples are gone: count from the oldest that the cubic may need.
+    const Index begin = std::max<Index>(0, past.count - past.ring.cols());
+    for (Index i = 0; i < 6; ++i) {
+      const auto x = [&](Index n) { return past.at(i, begin + n); };
+      const double value = interpolate(x, past.count - begin, place - static_cast<double>(begin));
+      (i < 3 ? wrench.force[i] : wrench.torque[i - 3]) = value;
+    }
+  };
 }
 
 }  // namespace
@@ -50,6 +80,7 @@ const EffectKind time_delay_effect{
     .example = R"({"delay_s": 0.013})",
     .needs_time = true,
     .apply = apply,
+    .stream = stream,
     .fits = {{.shapes = {{"delay", 2e-5, 1.0, {0.003, 0.02}}},
               .parameters =
                   [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {

@@ -3,10 +3,9 @@
 namespace dcnn {
 namespace {
 
-void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
-           Options& parameters) {
+auto law(Options& parameters) {
   const double c = parameter(parameters, "c_nspm", 0.0);
-  resist(wrench, line_of(spec.axis, motion), [=](double v, Index) { return c * v; });
+  return [=](double v) { return c * v; };
 }
 
 }  // namespace
@@ -19,7 +18,8 @@ const EffectKind viscous_friction_effect{
     .equation = "-c v n",
     .example = R"({"c_nspm": 2.0})",
     .axis = AxisRule::kLine,
-    .apply = apply,
+    .apply = resisted<law>,
+    .stream = resisting<law>,
     .fits = {{.amplitudes = 1,
               .non_negative = true,
               .parameters =

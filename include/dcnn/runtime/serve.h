@@ -1,0 +1,50 @@
+// The loops around an OnlineCompensator: packets, lines, and a rehearsal from a recording.
+#pragma once
+
+#include <functional>
+
+#include "dcnn/core/json.h"
+#include "dcnn/data/recording.h"
+#include "dcnn/runtime/udp.h"
+
+namespace dcnn {
+
+/// Times of many cycles in fixed memory: bins of 2 % from 10 ns to 10 s.
+class CycleTimes {
+ public:
+  void add(double seconds) noexcept;
+  std::uint64_t count() const { return count_; }
+  /// The time that a share q of the cycles does not exceed, s; 0 without cycles.
+  double quantile(double q) const noexcept;
+  double most() const { return most_; }
+  Json to_json() const;
+
+ private:
+  static constexpr int kBins = 1050;
+  std::array<std::uint64_t, kBins> bins_{};
+  std::uint64_t count_ = 0;
+  double most_ = 0.0;
+};
+
+struct ServeOptions {
+  std::string listen, peer;
+  PacketKey key{};
+  double seconds = 0.0;  ///< 0: until stop() says so
+  std::function<bool()> stop;
+};
+
+/// Answers every sample in its cycle; where none comes in time, tells the peer what the guard does
+/// meanwhile. After start-up it makes no system call but to wait, receive, send and read the clock,
+/// and allocates nothing. Cycles, states, verdicts on packets and thread CPU times as JSON.
+Json serve_udp(OnlineCompensator& compensator, const ServeOptions& options);
+
+/// Reads a header and rows as in a recording from one file descriptor, answers each row on the other
+/// one: t, targets with _ext, state, reason, contact. A row that is no sample is a bad cycle, not an
+/// end. Error(kData) for a header without a pose or force.
+Json serve_lines(OnlineCompensator& compensator, int in, int out);
+
+/// Plays a recording forwards and backwards through packets on a loopback pair of sockets, as fast
+/// as it goes, for so many cycles: what serve_udp() costs and whether memory grows.
+Json rehearse(OnlineCompensator& compensator, const Recording& recording, std::uint64_t cycles);
+
+}  // namespace dcnn

@@ -1,0 +1,168 @@
+#include "dcnn/runtime/udp.h"
+
+#include <arpa/inet.h>
+#include <netdb.h>
+#include <poll.h>
+#include <sodium.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <memory>
+
+namespace dcnn {
+namespace {
+
+using Address = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
+
+Address resolve(const std::string& text) {
+  const auto colon = text.rfind(':');
+  std::string host = colon == std::string::npos ? "" : text.substr(0, colon);
+  const std::string port = colon == std::string::npos ? text : text.substr(colon + 1);
+  if (host.size() > 1 && host.front() == '[' && host.back() == ']') {
+    host = host.substr(1, host.size() - 2);
+  }
+  if (host.empty()) host = "127.0.0.1";
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_DGRAM;
+  hints.ai_flags = AI_NUMERICSERV;
+  addrinfo* found = nullptr;
+  const int error = ::getaddrinfo(host.c_str(), port.c_str(), &hints, &found);
+  require(error == 0 && !port.empty(), Exit::kUsage, "'", text,
+          "' is no address HOST:PORT", error ? std::string(": ") + ::gai_strerror(error) : "");
+  return {found, &::freeaddrinfo};
+}
+
+}  // namespace
+
+double monotonic_seconds() noexcept {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+UdpSocket::UdpSocket(const std::string& listen, const std::string& peer) {
+  const Address here = resolve(listen), there = resolve(peer);
+  require(here->ai_family == there->ai_family, Exit::kUsage, "'", listen, "' and '", peer,
+          "' are addresses of different kinds; give two of IPv4 or two of IPv6");
+  socket_ = ::socket(here->ai_family, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  require(socket_ >= 0, Exit::kFailure, "cannot open a socket: ", std::strerror(errno));
+  const char* step = "listen at ";
+  bool done = ::bind(socket_, here->ai_addr, here->ai_addrlen) == 0;
+  if (done) {
+    step = "reach ";
+    done = ::connect(socket_, there->ai_addr, there->ai_addrlen) == 0;
+  }
+  const int error = errno;
+  if (!done) ::close(socket_);
+  require(done, Exit::kFailure, "cannot ", step, *step == 'l' ? listen : peer, ": ",
+          std::strerror(error));
+}
+
+UdpSocket::~UdpSocket() {
+  if (socket_ >= 0) ::close(socket_);
+}
+
+std::pair<UdpSocket, UdpSocket> UdpSocket::pair() {
+  UdpSocket ends[] = {UdpSocket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)),
+                      UdpSocket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0))};
+  sockaddr_in names[2] = {};
+  bool done = true;
+  for (int i = 0; i < 2; ++i) {
+    names[i].sin_family = AF_INET;
+    names[i].sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    auto* name = reinterpret_cast<sockaddr*>(&names[i]);
+    socklen_t size = sizeof names[i];
+    done = done && ::bind(ends[i].socket_, name, size) == 0 &&
+           ::getsockname(ends[i].socket_, name, &size) == 0;
+  }
+  for (int i = 0; i < 2; ++i) {
+    done = done && ::connect(ends[i].socket_, reinterpret_cast<sockaddr*>(&names[1 - i]),
+                             sizeof names[1 - i]) == 0;
+  }
+  require(done, Exit::kFailure, "cannot open sockets on the loopback: ", std::strerror(errno));
+  return {std::move(ends[0]), std::move(ends[1])};
+}
+
+std::optional<std::size_t> UdpSocket::receive(std::span<std::uint8_t> buffer,
+                                              double deadline) noexcept {
+  while (true) {
+    const ssize_t size = ::recv(socket_, buffer.data(), buffer.size(), MSG_DONTWAIT);
+    if (size >= 0) return static_cast<std::size_t>(size);
+    if (errno == ECONNREFUSED) continue;  // nobody was there for an earlier packet
+    if (errno != EAGAIN && errno != EINTR) return std::nullopt;
+    const double left = deadline - monotonic_seconds();
+    if (!(left > 0.0)) return std::nullopt;
+    const double whole = std::floor(std::min(left, 1e6));
+    const timespec wait{static_cast<time_t>(whole), static_cast<long>(1e9 * (left - whole))};
+    pollfd ready{socket_, POLLIN, 0};
+    if (::ppoll(&ready, 1, &wait, nullptr) <= 0) return std::nullopt;
+  }
+}
+
+bool UdpSocket::send(std::span<const std::uint8_t> bytes) noexcept {
+  return ::send(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL) ==
+         static_cast<ssize_t>(bytes.size());
+}
+
+RobotLink::RobotLink(const std::string& listen, const std::string& peer, const PacketKey& key)
+    : socket_(listen, peer), key_(key) {
+  require(sodium_init() >= 0, Exit::kFailure, "no source of randomness");
+}
+
+bool RobotLink::take_welcome(std::span<const std::uint8_t> bytes, std::uint64_t nonce) noexcept {
+  const auto header = header_of(bytes);
+  if (bytes.size() != kHelloBytes || !header || header->kind != PacketKind::kWelcome ||
+      !is_authentic(bytes, key_) || PacketReader(bytes.subspan(kHeaderBytes)).take(8) != nonce) {
+    return false;
+  }
+  if (header->session != session_) newest_ = 0;
+  session_ = header->session;
+  sequence_ = header->sequence;
+  return true;
+}
+
+bool RobotLink::connect(double seconds) {
+  constexpr double kRetry = 0.1;  // s
+  std::uint64_t nonce = 0;
+  randombytes_buf(&nonce, sizeof nonce);
+  const double end = monotonic_seconds() + seconds;
+  for (double now = monotonic_seconds(); now < end; now = monotonic_seconds()) {
+    PacketWriter hello({PacketKind::kHello, 0, 0, now});
+    hello.put(nonce, 8);
+    socket_.send(hello.seal(key_));
+    std::array<std::uint8_t, kMostBytes> buffer;
+    while (const auto size = socket_.receive(buffer, std::min(now + kRetry, end))) {
+      if (take_welcome({buffer.data(), *size}, nonce)) return true;
+    }
+  }
+  return false;
+}
+
+std::uint64_t RobotLink::send(const OnlineSample& sample) noexcept {
+  if (session_ == 0) return 0;
+  PacketWriter packet({PacketKind::kSample, session_, ++sequence_, sample.t});
+  write_sample(sample, packet);
+  socket_.send(packet.seal(key_));
+  return sequence_;
+}
+
+std::optional<WireResult> RobotLink::receive(double deadline) noexcept {
+  std::array<std::uint8_t, kMostBytes> buffer;
+  while (const auto size = socket_.receive(buffer, deadline)) {
+    const std::span<const std::uint8_t> bytes(buffer.data(), *size);
+    const auto header = header_of(bytes);
+    if (*size != kResultBytes || !header || header->kind != PacketKind::kResult ||
+        header->session != session_ || header->sequence <= newest_ || !is_authentic(bytes, key_)) {
+      continue;
+    }
+    newest_ = header->sequence;
+    return read_result(bytes);
+  }
+  return std::nullopt;
+}
+
+}  // namespace dcnn
