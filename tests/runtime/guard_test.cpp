@@ -11,10 +11,12 @@
 namespace dcnn {
 namespace {
 
-using Eigen::Vector3d;
-
 Cycle good(double force) {
-  return {Vector3d::Constant(force), Vector3d::Zero(), Vector3d::Zero(), true};
+  Cycle cycle;
+  cycle.measured = Vector6d::Zero();
+  cycle.measured.head<3>().setConstant(force);
+  cycle.network = cycle.physics = Vector6d::Zero();
+  return cycle;
 }
 
 Guard warm() {
@@ -26,55 +28,93 @@ Guard warm() {
 double hostile(Rng& rng) {
   constexpr double kInf = std::numeric_limits<double>::infinity();
   constexpr std::array<double, 9> kBad{NAN, kInf, -kInf, 1e308, -1e308, 1e-310, 0.0, 1e38, -1e38};
-  return rng.below(3) == 0 ? kBad[rng.below(kBad.size())] : rng.uniform(-100.0, 100.0);
+  const std::uint64_t bits = rng.bits();
+  return bits % 3 == 0 ? kBad[(bits >> 8) % kBad.size()] : double(bits >> 32) * 5e-8 - 100.0;
 }
 
-TEST(Guard, AMillionHostileCyclesNeverLeaveItsBounds) {
+Cycle hostile_cycle(Rng& rng, int k) {
+  const std::uint64_t bits = rng.bits();
+  Cycle cycle;
+  if (bits % 2 == 0) {
+    cycle = good(hostile(rng));
+  } else {
+    const auto wrench = [&] {
+      Vector6d w;
+      for (double& value : w) value = hostile(rng);
+      return w;
+    };
+    cycle.measured = wrench();
+    if ((bits >> 4) % 8 != 0) cycle.network = wrench();
+    if ((bits >> 8) % 8 != 0) cycle.physics = cycle.network.value_or(wrench());
+    if ((bits >> 12) % 4 == 0) cycle.distrust = static_cast<Reason>((bits >> 16) % 14);
+  }
+  if ((k / 2000) % 3 == 1) cycle.measured[0] = NAN;  // long outages, too
+  return cycle;
+}
+
+TEST(Guard, TenMillionHostileCyclesNeverLeaveItsBounds) {
   Rng rng(1);
   const GuardLimits limits;
   Guard guard;
-  Vector3d before = Vector3d::Zero();
+  Vector6d before = Vector6d::Zero();
   std::array<int, 6> seen{};
-  for (int k = 0; k < 1000000; ++k) {
-    const auto force = [&] { return Vector3d(hostile(rng), hostile(rng), hostile(rng)); };
-    Cycle cycle{force(), {}, {}, rng.below(4) != 0};
-    if (rng.below(8) != 0) cycle.network = force();
-    if (rng.below(8) != 0) cycle.physics = Vector3d(cycle.network.value_or(force()));
-    if (rng.below(2) != 0) cycle = good(rng.uniform(-100.0, 100.0));
-    if ((k / 2000) % 3 == 1) cycle.measured[0] = NAN;  // long outages, too
-    const Vector3d output = guard.step(cycle);
-    ASSERT_TRUE(output.allFinite()) << k;
-    ASSERT_LE(output.cwiseAbs().maxCoeff(), limits.force_n) << k;
-    ASSERT_LE((output - before).cwiseAbs().maxCoeff(), limits.slew_n * (1.0 + 1e-12)) << k;
+  std::int64_t broken = 0;
+  for (int k = 0; k < 10000000; ++k) {
+    const Vector6d& output = guard.step(hostile_cycle(rng, k));
+    const Vector6d size = output.cwiseAbs(), change = (output - before).cwiseAbs();
+    broken += !output.allFinite() || size.head<3>().maxCoeff() > limits.force_n ||
+              size.tail<3>().maxCoeff() > limits.torque_nm ||
+              change.head<3>().maxCoeff() > limits.slew_n * (1.0 + 1e-12) ||
+              change.tail<3>().maxCoeff() > limits.slew_nm * (1.0 + 1e-12);
     before = output;
     ++seen[static_cast<std::size_t>(guard.state())];
-    if (guard.state() == RunState::kFault && rng.below(50) == 0) guard.rearm();
+    if (guard.state() == RunState::kFault && k % 50 == 0) guard.rearm();
   }
+  EXPECT_EQ(broken, 0);
   for (const int count : seen) EXPECT_GT(count, 0);
 }
 
-TEST(Guard, AnInputOutsideTheEnvelopeIsPhysicsInTheSameCycle) {
-  Guard guard = warm();
-  guard.step(good(0.5));
-  EXPECT_EQ(guard.state(), RunState::kNetwork);
-  Cycle outside = good(0.5);
-  outside.in_envelope = false;
-  guard.step(outside);
-  EXPECT_EQ(guard.state(), RunState::kPhysics);
-  for (int k = 1; k < GuardLimits{}.return_cycles; ++k) {
+TEST(Guard, DistrustIsPhysicsInTheSameCycle) {
+  for (const Reason reason : {Reason::kEnvelope, Reason::kOverrun, Reason::kGap}) {
+    Guard guard = warm();
     guard.step(good(0.5));
-    EXPECT_EQ(guard.state(), RunState::kPhysics) << k;
+    EXPECT_EQ(guard.state(), RunState::kNetwork);
+    EXPECT_EQ(guard.reason(), Reason::kNone);
+    Cycle outside = good(0.5);
+    outside.distrust = reason;
+    guard.step(outside);
+    EXPECT_EQ(guard.state(), RunState::kPhysics);
+    EXPECT_EQ(guard.reason(), reason);
+    for (int k = 1; k < GuardLimits{}.return_cycles; ++k) {
+      guard.step(good(0.5));
+      EXPECT_EQ(guard.state(), RunState::kPhysics) << k;
+      EXPECT_EQ(guard.reason(), Reason::kReturning) << k;
+    }
+    guard.step(good(0.5));
+    EXPECT_EQ(guard.state(), RunState::kNetwork);
   }
-  guard.step(good(0.5));
-  EXPECT_EQ(guard.state(), RunState::kNetwork);
 }
 
 TEST(Guard, AModelThatContradictsThePhysicsIsNotFollowed) {
   Guard guard = warm();
   Cycle cycle = good(0.0);
-  cycle.network = Vector3d(0, 0, 11);
+  (*cycle.network)[2] = 11.0;
   guard.step(cycle);
   EXPECT_EQ(guard.state(), RunState::kPhysics);
+  EXPECT_EQ(guard.reason(), Reason::kDisagreement);
+  cycle = good(0.0);
+  (*cycle.network)[4] = 1.5;  // torque
+  guard.step(cycle);
+  EXPECT_EQ(guard.reason(), Reason::kDisagreement);
+}
+
+TEST(Guard, AModelThatWouldPushTheOutputBeyondItsLimitIsNotFollowed) {
+  Guard guard = warm();
+  Cycle cycle = good(48.0);
+  (*cycle.network)[0] = -4.0;
+  guard.step(cycle);
+  EXPECT_EQ(guard.state(), RunState::kPhysics);
+  EXPECT_EQ(guard.reason(), Reason::kLimit);
 }
 
 TEST(Guard, AnOutageIsHeldFadedAndLatched) {
@@ -84,8 +124,9 @@ TEST(Guard, AnOutageIsHeldFadedAndLatched) {
   Cycle lost = good(3.0);
   lost.measured[1] = NAN;
   for (int k = 0; k < limits.hold_cycles; ++k) {
-    EXPECT_EQ(guard.step(lost), Vector3d::Constant(3.0));
+    EXPECT_EQ(guard.step(lost)[0], 3.0);
     EXPECT_EQ(guard.state(), RunState::kHold);
+    EXPECT_EQ(guard.reason(), Reason::kNotFinite);
   }
   for (int k = 0; k < limits.fade_cycles; ++k) {
     guard.step(lost);
@@ -93,11 +134,24 @@ TEST(Guard, AnOutageIsHeldFadedAndLatched) {
   }
   guard.step(lost);
   EXPECT_EQ(guard.state(), RunState::kFault);
-  EXPECT_EQ(guard.step(good(3.0)), Vector3d::Zero());
+  EXPECT_EQ(guard.step(good(3.0)).norm(), 0.0);
   EXPECT_EQ(guard.state(), RunState::kFault);
+  EXPECT_EQ(guard.reason(), Reason::kLatched);
   guard.rearm();
   guard.step(good(3.0));
   EXPECT_EQ(guard.state(), RunState::kWarmup);
+}
+
+TEST(Guard, WarmupCountsOnlyCyclesThatCouldBeServed) {
+  Guard guard;
+  for (int k = 0; k < 1000; ++k) guard.step(Cycle{});
+  EXPECT_EQ(guard.state(), RunState::kWarmup);
+  for (int k = 0; k < GuardLimits{}.warmup_cycles; ++k) {
+    guard.step(good(1.0));
+    EXPECT_EQ(guard.state(), RunState::kWarmup);
+  }
+  guard.step(good(1.0));
+  EXPECT_EQ(guard.state(), RunState::kNetwork);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -49,11 +50,20 @@ struct Result {
   std::string out, err;
 };
 
+/// What a program is given beside its arguments.
+struct Surroundings {
+  std::string input;                     ///< file for standard input; empty: as the test has it
+  std::vector<std::string> environment;  ///< NAME=value, added
+  std::vector<std::string> wrapper;      ///< program and arguments that run it, e.g. strace
+};
+
 /// A program of this build under way: dcnn-<verb> with arguments.
 class Process {
  public:
-  Process(const std::string& verb, std::vector<std::string> arguments) {
+  Process(const std::string& verb, std::vector<std::string> arguments,
+          const Surroundings& around = {}) {
     arguments.insert(arguments.begin(), std::string(DCNN_BIN_DIR) + "/dcnn-" + verb);
+    arguments.insert(arguments.begin(), around.wrapper.begin(), around.wrapper.end());
     std::vector<char*> argv;
     for (auto& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
@@ -61,7 +71,9 @@ class Process {
     if (pid_ == 0) {
       redirect(STDOUT_FILENO, folder_ / "out");
       redirect(STDERR_FILENO, folder_ / "err");
-      ::execv(argv[0], argv.data());
+      if (!around.input.empty()) ::dup2(::open(around.input.c_str(), O_RDONLY), STDIN_FILENO);
+      for (const auto& variable : around.environment) ::putenv(::strdup(variable.c_str()));
+      ::execvp(argv[0], argv.data());
       ::_exit(127);
     }
   }
@@ -86,8 +98,9 @@ class Process {
   pid_t pid_ = -1;
 };
 
-inline Result run(const std::string& verb, std::vector<std::string> arguments) {
-  return Process(verb, std::move(arguments)).wait();
+inline Result run(const std::string& verb, std::vector<std::string> arguments,
+                  const Surroundings& around = {}) {
+  return Process(verb, std::move(arguments), around).wait();
 }
 
 }  // namespace dcnn::test

@@ -1,0 +1,227 @@
+// dcnn-run as a user and as an attacker run it.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "data/testing.h"
+#include "dcnn/core/json.h"
+#include "dcnn/core/random.h"
+#include "dcnn/data/csv.h"
+#include "dcnn/runtime/udp.h"
+#include "runtime/support.h"
+#include "support/process.h"
+
+namespace dcnn {
+namespace {
+
+using test::run;
+using testing::contains;
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+/// A recording, the simulator that made it, and a model trained on it.
+struct Bench {
+  test::TemporaryFolder folder;
+  std::string log = (folder / "free.csv").string(), simulator = (folder / "sim.json").string(),
+              model = (folder / "rigid.dcnn").string();
+  Bench() {
+    write_csv(log, test::free_motion(6000).table);
+    std::ofstream(simulator) << to_json(test::small_tool()).dump();
+    const auto trained = run("train", {"--model", "rigid", "--online", "--train", log, "--quiet",
+                                       "--out", model});
+    EXPECT_EQ(trained.exit_code, 0) << trained.err;
+  }
+};
+
+const Bench& bench() {
+  static const Bench shared;
+  return shared;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(RunTool, LinesInLinesOut) {
+  const auto result =
+      run("run", {"--model", bench().model, "--fallback", bench().simulator, "--stdin"},
+          {.input = bench().log});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto lines = lines_of(result.out);
+  ASSERT_EQ(lines.size(), 6001U);
+  EXPECT_EQ(lines[0], "t,fx_ext,fy_ext,fz_ext,state,reason,contact");
+  EXPECT_TRUE(contains(lines[1], ",WARMUP,")) << lines[1];
+  std::istringstream row(lines[3000]);
+  double t, f[3];
+  char comma;
+  row >> t >> comma >> f[0] >> comma >> f[1] >> comma >> f[2];
+  EXPECT_NEAR(t, 2999 * 0.002, 1e-9);
+  for (const double force : f) EXPECT_LT(std::abs(force), 0.3) << lines[3000];
+  EXPECT_TRUE(lines[3000].ends_with(",NETWORK,none,0")) << lines[3000];
+}
+
+TEST(RunTool, ALineThatIsNoSampleIsABadCycleAndNotTheEnd) {
+  std::string text = test::slurp(bench().log);
+  auto lines = lines_of(text);
+  lines.resize(300);
+  lines[200] = "hello";
+  lines[201] = std::string(40000, '7');
+  lines[202] = std::string(40, ',');
+  std::string changed;
+  for (const auto& line : lines) changed += line + "\n";
+  const auto input = testing::temporary_file("bad.csv", changed);
+  const auto result =
+      run("run", {"--model", bench().model, "--fallback", bench().simulator, "--stdin"},
+          {.input = input.string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto out = lines_of(result.out);
+  ASSERT_EQ(out.size(), 300U);
+  for (std::size_t k = 200; k < 203; ++k) {
+    EXPECT_TRUE(contains(out[k], ",HOLD,not_finite,")) << out[k];
+  }
+  EXPECT_TRUE(contains(out[250], ",NETWORK,")) << out[250];
+}
+
+TEST(RunTool, WrongUseIsOneLine) {
+  const auto code = [](std::vector<std::string> arguments, const test::Surroundings& around = {}) {
+    const auto result = run("run", std::move(arguments), around);
+    EXPECT_EQ(lines_of(result.err).size(), 1U) << result.err;
+    return result.exit_code;
+  };
+  const auto empty = testing::temporary_file("empty.csv", "");
+  const auto foreign = testing::temporary_file("foreign.csv", "a,b\n1,2\n");
+  EXPECT_EQ(code({}), 2);
+  EXPECT_EQ(code({"--model", bench().model}), 2);
+  EXPECT_EQ(code({"--model", "absent.dcnn", "--stdin"}), 4);
+  EXPECT_EQ(code({"--model", "absent.json", "--stdin"}), 3);
+  EXPECT_EQ(code({"--model", bench().model, "-q", "--stdin"}, {.input = empty.string()}), 3);
+  EXPECT_EQ(code({"--model", bench().model, "-q", "--stdin"}, {.input = foreign.string()}), 3);
+  EXPECT_EQ(code({"--model", bench().model, "--listen", "5000"}), 2);
+  const auto key = bench().folder / "code.key";
+  EXPECT_EQ(run("run", {"--make-key", key.string()}).exit_code, 0);
+  EXPECT_EQ(code({"--make-key", key.string()}), 2);  // never replaced
+  const std::vector<std::string> serve{"--model", bench().model, "-q", "--listen", "127.0.0.1:nine",
+                                       "--peer", "127.0.0.1:9", "--key-file", key.string()};
+  EXPECT_EQ(code(serve), 2);
+  ::chmod(key.c_str(), 0644);
+  EXPECT_EQ(code(serve), 2);
+  ::chmod(key.c_str(), 0600);
+  std::filesystem::resize_file(key, 31);
+  EXPECT_EQ(code(serve), 2);
+}
+
+/// Two ports that were free a moment ago.
+std::pair<std::string, std::string> free_ports() {
+  const int first = 20000 + static_cast<int>(::getpid()) % 20000;
+  return {"127.0.0.1:" + std::to_string(first), "127.0.0.1:" + std::to_string(first + 20000)};
+}
+
+TEST(RunTool, AnswersItsPeerAndNobodyElse) {
+  const auto key_file = (bench().folder / "udp.key").string();
+  ASSERT_EQ(run("run", {"--make-key", key_file}).exit_code, 0);
+  const auto [server, robot] = free_ports();
+  test::Process process("run", {"--model", bench().model, "--fallback", bench().simulator,
+                                "--listen", server, "--peer", robot, "--key-file", key_file,
+                                "--seconds", "4", "--json"});
+  RobotLink link(robot, server, read_packet_key(key_file));
+  ASSERT_TRUE(link.connect(3.0));
+  UdpSocket stranger("127.0.0.1:" + std::to_string(19000 + ::getpid() % 1000), server);
+  Rng rng(1);
+  const Recording recording = test::free_motion(300);
+  std::uint64_t served = 0;
+  WireResult last;
+  for (Index k = 0; k < 300; ++k) {
+    for (int flood = 0; flood < 20; ++flood) {
+      std::array<std::uint8_t, kSampleBytes> bytes;
+      for (auto& byte : bytes) byte = static_cast<std::uint8_t>(rng.bits());
+      stranger.send(bytes);
+    }
+    const auto sequence = link.send(test::sample_of(recording, k));
+    const double patience = monotonic_seconds() + 1.0;
+    while (const auto result = link.receive(patience)) {
+      if (result->answers != sequence || result->result.t != 0.002 * static_cast<double>(k)) continue;
+      last = *result;
+      ++served;
+      break;
+    }
+  }
+  EXPECT_EQ(served, 300U);
+  EXPECT_EQ(last.result.state, RunState::kNetwork) << name_of(last.result.reason);
+  // Silence: the robot is told of every cycle, until the fault.
+  RunState state = last.result.state;
+  const double end = monotonic_seconds() + 1.5;
+  while (state != RunState::kFault) {
+    const auto result = link.receive(end);
+    if (!result) break;
+    state = result->result.state;
+  }
+  EXPECT_EQ(state, RunState::kFault);
+  const auto done = process.wait();
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const Json report = parse_json(done.out, "report", Exit::kFailure);
+  EXPECT_EQ(report["packets"]["accepted"], 300);
+  EXPECT_EQ(report["packets"]["tag"], 0);  // the kernel dropped them
+}
+
+TEST(RunTool, ServingAllocatesNothingAndTakesNoLock) {
+  if (kSanitized) GTEST_SKIP() << "the sanitizer has an allocator of its own";
+  const auto counts = bench().folder / "counts";
+  const auto result =
+      run("run", {"--model", bench().model, "--fallback", bench().simulator, "--average", "4",
+                  "--track-bias", "10", "--stdin"},
+          {.input = bench().log,
+           .environment = {"LD_PRELOAD=" DCNN_COUNT_CALLS, "COUNT_FILE=" + counts.string(),
+                           "COUNT_FROM=3", "COUNT_TO=1000000"}});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::ifstream file(counts);
+  long reads = 0, allocations = -1, locks = -1;
+  file >> reads >> allocations >> locks;
+  EXPECT_GT(reads, 20);
+  EXPECT_EQ(allocations, 0);
+  EXPECT_EQ(locks, 0);
+}
+
+TEST(RunTool, ServingMakesNoSystemCallButReadAndWrite) {
+  if (kSanitized) GTEST_SKIP() << "the sanitizer makes calls of its own";
+  const auto trace = bench().folder / "trace";
+  const auto result =
+      run("run", {"--model", bench().model, "--fallback", bench().simulator, "--stdin"},
+          {.input = bench().log, .wrapper = {"strace", "-f", "-o", trace.string()}});
+  if (result.exit_code != 0) GTEST_SKIP() << "strace does not run here";
+  std::set<std::string> calls;
+  int reads = 0;
+  for (const auto& line : lines_of(test::slurp(trace))) {
+    const bool input = contains(line, " read(0, ");
+    if (input && contains(line, " = 0")) break;
+    reads += input;
+    const auto begin = line.find_first_not_of("0123456789 ");
+    if (reads > 3) calls.insert(line.substr(begin, line.find('(') - begin));
+  }
+  EXPECT_GT(reads, 20);
+  const std::set<std::string> allowed{"read", "write", "clock_gettime"};
+  for (const auto& call : calls) EXPECT_TRUE(allowed.contains(call)) << call;
+}
+
+TEST(RunTool, ARehearsalTellsTimesStatesAndMemory) {
+  const auto result = run("run", {"--model", bench().model, "--fallback", bench().simulator,
+                                  "--rehearse", bench().log, "--hours", "0.02"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json report = parse_json(result.out, "report", Exit::kFailure);
+  EXPECT_EQ(report["cpu"]["cycles"], 36000);
+  EXPECT_GT(report["states"]["NETWORK"].get<int>(), 30000) << report;
+  EXPECT_LE(report["memory_growth_bytes"].get<double>(), 65536.0);
+}
+
+}  // namespace
+}  // namespace dcnn
