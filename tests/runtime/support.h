@@ -10,6 +10,12 @@
 namespace dcnn::test {
 
 inline Json small_world(Index samples, double seconds_before = 0.0, double speed = 1.0) {
+  const Json motion = {{"kind", "multisine"},
+                       {"tones", 6},
+                       {"hz", {0.15 * speed, 1.0 * speed}},
+                       {"position_m", {0.1, 0.1, 0.1}},
+                       {"angle_rad", {0.6, 0.5, 0.6}},
+                       {"angle_center_rad", {0, 0, 3.14159}}};
   return {{"seed", 5},
           {"sample_rate_hz", 500},
           {"force_noise", {{"n", 0.04}}},
@@ -17,17 +23,10 @@ inline Json small_world(Index samples, double seconds_before = 0.0, double speed
           {"simulator",
            {{"tool", {{"mass_kg", 0.75}, {"com_m", {0.004, -0.006, 0.16}}}},
             {"sensor", {{"bias_n", {0.6, -0.4, 1.1}}, {"rotation_rpy", {-0.03, 0.03, -0.5}}}}}},
-          {"recordings",
-           {{{"name", "free"},
-             {"samples", samples},
-             {"t0_s", seconds_before},
-             {"trajectory",
-              {{"kind", "multisine"},
-               {"tones", 6},
-               {"hz", {0.15 * speed, 1.0 * speed}},
-               {"position_m", {0.1, 0.1, 0.1}},
-               {"angle_rad", {0.6, 0.5, 0.6}},
-               {"angle_center_rad", {0, 0, 3.14159}}}}}}}};
+          {"recordings", Json::array({{{"name", "free"},
+                                       {"samples", samples},
+                                       {"t0_s", seconds_before},
+                                       {"trajectory", motion}}})}};
 }
 
 /// Free motion of the tool: a pose and what the sensor reads.
