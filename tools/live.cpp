@@ -1,7 +1,8 @@
+#include "dcnn/teleop/live.h"
+
 #include <iostream>
 
 #include "dcnn/experiment/teleop_report.h"
-#include "dcnn/teleop/live.h"
 #include "support/tool.h"
 
 namespace {
@@ -14,7 +15,8 @@ constexpr const char* kExamples =
     "  dcnn-live --role controller --key-file k --out live &\n"
     "  dcnn-live --role sensor --key-file k\n"
     "\n"
-    "The demonstration of dcnn-teleop in real time as three processes over UDP: sensor (slave, wall,\n"
+    "The demonstration of dcnn-teleop in real time as three processes over UDP: sensor (slave, "
+    "wall,\n"
     "force sensor), identifier (dcnn-run), controller (hand and master).";
 
 /// The variant that ran live beside the ideal one, which runs here.
@@ -40,7 +42,8 @@ int main(int argc, char** argv) {
   Ends identifier{"5302", "5301"}, sensor{"5303", "5304"};
   auto& app = tool.app();
   app.add_option("--role", role, "sensor or controller")
-      ->required()->check(CLI::IsMember({"sensor", "controller"}));
+      ->required()
+      ->check(CLI::IsMember({"sensor", "controller"}));
   app.add_option("--config", config_path, "configuration as for dcnn-teleop");
   app.add_option("--seconds", seconds, "shorter than the configuration's duration")
       ->check(CLI::PositiveNumber);
@@ -67,8 +70,10 @@ int main(int argc, char** argv) {
     require(!out.empty(), Exit::kUsage, "--out is required for the controller");
     TeleopTrace trace = run_live_controller(config, {sensor.peer, sensor.listen}, key, seed);
     const Json rows = report(config, std::move(trace), out, seed);
-    if (tool.common().json) Tool::print(rows);
-    else std::cout << (out / "report.html").string() << "\n";
+    if (tool.common().json)
+      Tool::print(rows);
+    else
+      std::cout << (out / "report.html").string() << "\n";
     return Exit::kDone;
   });
 }

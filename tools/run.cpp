@@ -48,8 +48,10 @@ Simulator read_fallback(const std::filesystem::path& path, bool drifts, const To
 }  // namespace
 
 int main(int argc, char** argv) {
-  Tool tool("dcnn-run", "Online compensation of the tool's force: pose and force in, external "
-            "force out.", kExamples);
+  Tool tool("dcnn-run",
+            "Online compensation of the tool's force: pose and force in, external "
+            "force out.",
+            kExamples);
   std::filesystem::path model, fallback, calibration, key_file, make_key, rehearsal;
   CompensatorOptions options;
   ServeOptions serve;
@@ -61,7 +63,8 @@ int main(int argc, char** argv) {
   app.add_option("--fallback", fallback, "simulator that steps in for the model (model.json)");
   app.add_option("--calibration", calibration, "sensor frame to robot frame (dcnn-calibrate)");
   auto* in = app.add_flag("--stdin", lines, "rows on standard input, answers on standard output");
-  auto* listen = app.add_option("--listen", serve.listen, "own address, HOST:PORT or PORT (loopback)");
+  auto* listen =
+      app.add_option("--listen", serve.listen, "own address, HOST:PORT or PORT (loopback)");
   auto* peer = app.add_option("--peer", serve.peer, "the robot's address; nobody else is heard");
   auto* key = app.add_option("--key-file", key_file, "32 secret bytes that both ends hold");
   app.add_option("--make-key", make_key, "write a new key (mode 0600) and end");
@@ -70,24 +73,31 @@ int main(int argc, char** argv) {
   app.add_option("--track-bias", options.bias_seconds,
                  "track the sensor's offset with this time constant [s], frozen in contact")
       ->check(CLI::PositiveNumber);
-  auto* contact_option = app.add_option("--contact", contact, "contact threshold [N] (default: the "
+  auto* contact_option = app.add_option("--contact", contact,
+                                        "contact threshold [N] (default: the "
                                         "model's, 1 false alarm an hour)")
-      ->check(CLI::PositiveNumber);
+                             ->check(CLI::PositiveNumber);
   app.add_option("--limit", options.guard.force_n, "most force put out, per axis [N]")
-      ->check(CLI::PositiveNumber)->capture_default_str();
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--slew", options.guard.slew_n, "most change of it, per axis and sample [N]")
-      ->check(CLI::PositiveNumber)->capture_default_str();
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--disagreement", options.guard.disagreement_n,
                  "most difference between model and fallback, per axis [N]")
-      ->check(CLI::PositiveNumber)->capture_default_str();
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--seconds", serve.seconds, "end after so long (default: run until killed)")
       ->check(CLI::PositiveNumber);
   app.add_option("--realtime", priority, "lock memory and run at this SCHED_FIFO priority")
       ->check(CLI::Range(1, 99));
-  auto* rehearse_option = app.add_option("--rehearse", rehearsal, "play a recording to itself as "
+  auto* rehearse_option = app.add_option("--rehearse", rehearsal,
+                                         "play a recording to itself as "
                                          "fast as it goes; times, states, memory");
   app.add_option("--hours", hours, "simulated hours of the rehearsal")
-      ->check(CLI::PositiveNumber)->needs(rehearse_option)->capture_default_str();
+      ->check(CLI::PositiveNumber)
+      ->needs(rehearse_option)
+      ->capture_default_str();
   listen->needs(peer)->needs(key);
   peer->needs(listen);
   key->needs(listen);
@@ -114,19 +124,22 @@ int main(int argc, char** argv) {
       physics = read_fallback(model, drifts, tool);
     } else {
       identifier = read_identifier(model);
-      if (!fallback.empty()) physics = read_fallback(fallback, drifts, tool);
-      else if (identifier->base) physics = identifier->base;
+      if (!fallback.empty())
+        physics = read_fallback(fallback, drifts, tool);
+      else if (identifier->base)
+        physics = identifier->base;
     }
     if (calibration.empty()) {
       options.R_ES = physics ? physics->model.R_ES() : mounting_of(identifier->layout);
     }
-    OnlineCompensator compensator(identifier ? &*identifier : nullptr, physics ? &*physics : nullptr,
-                                  options, model.string());
+    OnlineCompensator compensator(identifier ? &*identifier : nullptr,
+                                  physics ? &*physics : nullptr, options, model.string());
     if (!compensator.has_fallback()) {
       tool.note("no --fallback: where the model cannot be trusted the output is held, then faded");
     }
     if (identifier && !compensator.has_envelope()) {
-      tool.note(model.string() + ": has no envelope of training, unusual motion is not noticed; "
+      tool.note(model.string() +
+                ": has no envelope of training, unusual motion is not noticed; "
                 "train it again with --online");
     }
     if (priority > 0) become_realtime(priority);

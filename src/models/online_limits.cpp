@@ -52,7 +52,8 @@ void Envelope::learn(const MatrixXd& x) {
   scale_ = (z.colwise().squaredNorm() / n).cwiseSqrt().transpose().cwiseMax(1e-9);
   z = z * scale_.cwiseInverse().asDiagonal();
   MatrixXd correlation = z.transpose() * z / n;
-  correlation.diagonal().array() += 1e-4;  // two features that always move together may part a little
+  correlation.diagonal().array() +=
+      1e-4;  // two features that always move together may part a little
   whitener_ = MatrixXd::Identity(x.cols(), x.cols());
   correlation.llt().matrixL().solveInPlace(whitener_);
 }

@@ -62,7 +62,9 @@ inline double step(const Motion& motion, Index k) { return motion.t(k) - motion.
 class LineNow {
  public:
   explicit LineNow(const std::string& axis)
-      : index_(axis_index(axis)), base_(axis.starts_with("base_")), turns_(axis.starts_with("w_")) {}
+      : index_(axis_index(axis)),
+        base_(axis.starts_with("base_")),
+        turns_(axis.starts_with("w_")) {}
   Eigen::Vector3d n_S(const Instant& now) const {
     if (base_) return now.R_BS.row(index_).transpose();
     return Eigen::Vector3d::Unit(index_);
@@ -82,7 +84,9 @@ class LineNow {
 /// <angle>:<axis> at one sample.
 struct AngleNow {
   explicit AngleNow(const std::string& axis)
-      : angle(axis.starts_with("alpha") ? 0 : axis.starts_with("beta") ? 1 : 2),
+      : angle(axis.starts_with("alpha")  ? 0
+              : axis.starts_with("beta") ? 1
+                                         : 2),
         line(axis.substr(axis.find(':') + 1)) {}
   Index angle;
   LineNow line;

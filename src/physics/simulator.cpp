@@ -58,8 +58,7 @@ Wrench rigid_wrench(const ToolModel& model, const Motion& motion) {
   Wrench wrench{Eigen::MatrixXd(motion.samples(), 3), Eigen::MatrixXd(0, 3)};
   if (model.inertia) wrench.torque.resize(motion.samples(), 3);
   for (Index k = 0; k < motion.samples(); ++k) {
-    const InstantWrench rigid =
-        rigid_at(model, felt.row(k), motion.w_S.row(k), motion.dw_S.row(k));
+    const InstantWrench rigid = rigid_at(model, felt.row(k), motion.w_S.row(k), motion.dw_S.row(k));
     wrench.force.row(k) = (rigid.force + model.bias).transpose();
     if (model.inertia) wrench.torque.row(k) = (rigid.torque + model.bias_torque).transpose();
   }

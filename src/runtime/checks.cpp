@@ -9,9 +9,9 @@
 namespace dcnn {
 namespace {
 
-constexpr double kFarthest = 1e3;   // m, of a position
-constexpr double kLargest = 1e5;    // N, N·m and rad
-constexpr double kLatest = 1e12;    // s
+constexpr double kFarthest = 1e3;    // m, of a position
+constexpr double kLargest = 1e5;     // N, N·m and rad
+constexpr double kLatest = 1e12;     // s
 constexpr double kNormError = 1e-3;  // of a quaternion (contract.md section 2)
 
 class BatchPredictor : public Predictor {
@@ -55,8 +55,8 @@ std::vector<Index> wrench_places(const Targets& targets, const std::string& wher
   }
   std::vector<Index> sorted = places;
   std::sort(sorted.begin(), sorted.end());
-  const bool whole = sorted == std::vector<Index>{0, 1, 2} ||
-                     sorted == std::vector<Index>{0, 1, 2, 3, 4, 5};
+  const bool whole =
+      sorted == std::vector<Index>{0, 1, 2} || sorted == std::vector<Index>{0, 1, 2, 3, 4, 5};
   require(whole, Exit::kModel, where,
           ": must predict fx,fy,fz, with tx,ty,tz or without; train on recordings that have them");
   return places;
@@ -92,10 +92,9 @@ bool is_possible(const OnlineSample& sample) noexcept {
   const auto small = [](const auto& v, double limit) {
     return v.allFinite() && v.cwiseAbs().maxCoeff() <= limit;
   };
-  const bool turn =
-      sample.euler ? small(*sample.euler, kLargest)
-                   : small(sample.quaternion, 2.0) &&
-                         std::abs(sample.quaternion.norm() - 1.0) <= kNormError;
+  const bool turn = sample.euler ? small(*sample.euler, kLargest)
+                                 : small(sample.quaternion, 2.0) &&
+                                       std::abs(sample.quaternion.norm() - 1.0) <= kNormError;
   return turn && std::abs(sample.t) <= kLatest && small(sample.position, kFarthest) &&
          small(sample.wrench, kLargest);
 }

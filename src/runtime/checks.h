@@ -15,9 +15,10 @@ void require_online(const Identifier& identifier, const std::string& where);
 /// Where in a wrench each target stands: 3 of a force or 6 of force and torque; else Error(kModel).
 std::vector<Index> wrench_places(const Targets& targets, const std::string& where);
 
-/// The model sample by sample, after it has answered like the whole-recording one on rows drawn from
-/// its own statistics; else Error(kModel).
-std::unique_ptr<Predictor> checked_predictor(const Identifier& identifier, const std::string& where);
+/// The model sample by sample, after it has answered like the whole-recording one on rows drawn
+/// from its own statistics; else Error(kModel).
+std::unique_ptr<Predictor> checked_predictor(const Identifier& identifier,
+                                             const std::string& where);
 
 inline bool is_causal(const DerivativeSpec& derivative) {
   return derivative.kind == DerivativeSpec::Kind::kCausalSavitzkyGolay;

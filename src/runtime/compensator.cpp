@@ -74,8 +74,9 @@ void OnlineCompensator::load(const Identifier& identifier, const std::string& wh
   features_ = std::make_unique<StreamingFeatures>(identifier.layout);
   predictor_ = checked_predictor(identifier, where);
   if (identifier.base) {
-    base_ = std::make_unique<StreamingSimulator>(*identifier.base, identifier.layout.spec.derivative,
-                                                 identifier.layout.dt, where, Exit::kModel);
+    base_ =
+        std::make_unique<StreamingSimulator>(*identifier.base, identifier.layout.spec.derivative,
+                                             identifier.layout.dt, where, Exit::kModel);
   }
   if (identifier.online) {
     envelope_ = identifier.online->envelope;

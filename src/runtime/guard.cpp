@@ -21,10 +21,9 @@ const char* name_of(RunState state) {
 }
 
 const char* name_of(Reason reason) {
-  constexpr const char* kNames[] = {"none",     "warmup",   "missing",      "not_finite",
-                                    "clock",    "gap",      "envelope",     "singular",
-                                    "model",    "disagree", "limit",        "overrun",
-                                    "returning", "latched"};
+  constexpr const char* kNames[] = {"none",  "warmup",   "missing",   "not_finite", "clock",
+                                    "gap",   "envelope", "singular",  "model",      "disagree",
+                                    "limit", "overrun",  "returning", "latched"};
   return kNames[static_cast<int>(reason)];
 }
 

@@ -35,8 +35,8 @@ void make_packet_key(const std::filesystem::path& path) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   require(file >= 0, errno == EEXIST ? Exit::kUsage : Exit::kFailure, path.string(),
           ": cannot make the key: ", std::strerror(errno));
-  const bool whole = ::write(file, key.data(), key.size()) == ssize_t(key.size()) &&
-                     ::fsync(file) == 0;
+  const bool whole =
+      ::write(file, key.data(), key.size()) == ssize_t(key.size()) && ::fsync(file) == 0;
   ::close(file);
   if (!whole) ::unlink(path.c_str());
   require(whole, Exit::kFailure, path.string(), ": cannot write the key");

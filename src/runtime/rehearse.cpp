@@ -14,8 +14,8 @@ std::vector<OnlineSample> samples_of(const Recording& recording) {
   const Eigen::MatrixXd position = recording.block({"x", "y", "z"}), q = quaternions(recording);
   const Eigen::MatrixXd force = recording.block({"fx", "fy", "fz"});
   const bool torques = recording.has_all({"tx", "ty", "tz"});
-  const Eigen::MatrixXd torque = torques ? recording.block({"tx", "ty", "tz"})
-                                         : Eigen::MatrixXd::Zero(recording.samples(), 3);
+  const Eigen::MatrixXd torque =
+      torques ? recording.block({"tx", "ty", "tz"}) : Eigen::MatrixXd::Zero(recording.samples(), 3);
   std::vector<OnlineSample> samples(static_cast<std::size_t>(recording.samples()));
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto k = static_cast<Index>(i);
@@ -61,8 +61,8 @@ Json rehearse(OnlineCompensator& compensator, const Recording& recording, std::u
     OnlineSample taken;
     const auto size = here.receive(buffer, monotonic_seconds() + kPatience);
     const Verdict verdict = gate.judge({buffer.data(), size.value_or(0)}, sample.t, taken);
-    require(verdict == Verdict::kAccepted, Exit::kFailure, "a rehearsed packet was refused: ",
-            name_of(verdict));
+    require(verdict == Verdict::kAccepted, Exit::kFailure,
+            "a rehearsed packet was refused: ", name_of(verdict));
     const OnlineResult& result = compensator.step(taken);
     here.send(gate.answer(result, 0.0));
     tally.times.add(thread_seconds() - begin);

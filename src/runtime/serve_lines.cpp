@@ -18,9 +18,9 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Where a column's number goes.
 enum Slot { kTime, kPosition = 1, kQuaternion = 4, kEuler = 8, kWrench = 11, kRearm = 17, kSlots };
-constexpr std::array<const char*, kSlots> kNames{
-    "t",  "x",  "y",  "z",  "qw", "qx", "qy", "qz",   "alpha",
-    "beta", "gamma", "fx", "fy", "fz", "tx", "ty", "tz", "rearm"};
+constexpr std::array<const char*, kSlots> kNames{"t",  "x",  "y",     "z",    "qw",    "qx",
+                                                 "qy", "qz", "alpha", "beta", "gamma", "fx",
+                                                 "fy", "fz", "tx",    "ty",   "tz",    "rearm"};
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && (text.back() == ' ' || text.back() == '\r')) text.remove_suffix(1);
@@ -37,8 +37,8 @@ class LineReader {
   /// as an empty one.
   std::optional<std::string_view> next() noexcept {
     while (true) {
-      const auto* end = static_cast<const char*>(
-          std::memchr(buffer_.data() + begin_, '\n', end_ - begin_));
+      const auto* end =
+          static_cast<const char*>(std::memchr(buffer_.data() + begin_, '\n', end_ - begin_));
       if (end) {
         const std::string_view line(buffer_.data() + begin_,
                                     static_cast<std::size_t>(end - buffer_.data()) - begin_);
@@ -142,7 +142,8 @@ class Columns {
     const bool complete = all(kTime, 4) && (quaternion_ || all(kEuler, 3)) && all(kWrench, 3) &&
                           (!torque || all(kWrench + 3, 3));
     require(complete, Exit::kData, "standard input:1: needs the columns t,x,y,z, alpha,beta,gamma ",
-            "or qw,qx,qy,qz, fx,fy,fz", torque ? ",tx,ty,tz" : "", "; write them as its first line");
+            "or qw,qx,qy,qz, fx,fy,fz", torque ? ",tx,ty,tz" : "",
+            "; write them as its first line");
   }
 
   /// NaN for what is no number; all NaN for a row of another length.

@@ -31,8 +31,8 @@ Address resolve(const std::string& text) {
   hints.ai_flags = AI_NUMERICSERV;
   addrinfo* found = nullptr;
   const int error = ::getaddrinfo(host.c_str(), port.c_str(), &hints, &found);
-  require(error == 0 && !port.empty(), Exit::kUsage, "'", text,
-          "' is no address HOST:PORT", error ? std::string(": ") + ::gai_strerror(error) : "");
+  require(error == 0 && !port.empty(), Exit::kUsage, "'", text, "' is no address HOST:PORT",
+          error ? std::string(": ") + ::gai_strerror(error) : "");
   return {found, &::freeaddrinfo};
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPatience = 10.0;     // s, for the others to start
-constexpr double kShare = 0.45;        // of a tick, that each of the two answers may take
+constexpr double kPatience = 10.0;  // s, for the others to start
+constexpr double kShare = 0.45;     // of a tick, that each of the two answers may take
 
 void sleep_until(double moment) {
   const auto whole = static_cast<time_t>(moment);
@@ -103,8 +103,8 @@ struct LiveTimes {
 Json run_live_sensor(const TeleopConfig& config, const Ends& identifier, const Ends& controller,
                      const PacketKey& key, std::uint64_t seed) {
   RobotLink link(identifier.listen, identifier.peer, key);
-  require(link.connect(kPatience), Exit::kFailure, "dcnn-run does not answer at ",
-          identifier.peer, "; start it with the same key");
+  require(link.connect(kPatience), Exit::kFailure, "dcnn-run does not answer at ", identifier.peer,
+          "; start it with the same key");
   Exchange other(controller, key);
   SlaveSide slave(config, seed);
   LiveTimes times;

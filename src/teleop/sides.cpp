@@ -65,8 +65,7 @@ MasterSide::MasterSide(const TeleopConfig& config, std::uint64_t seed)
       backward_(config.delay_ticks, config.delay_jitter_ticks, config.packet_loss, seed, 19),
       guard_(config.passivity),
       // First order, exact for a force held over a tick.
-      smoothing_(1.0 -
-                 std::exp(-2.0 * std::numbers::pi * config.force_lowpass_hz * kTeleopTick)) {
+      smoothing_(1.0 - std::exp(-2.0 * std::numbers::pi * config.force_lowpass_hz * kTeleopTick)) {
   hand_.v = intended_rate(config, 0.0);
   master_.v = hand_.v;
 }

@@ -35,8 +35,8 @@ struct Bench {
   Bench() {
     write_csv(log, test::free_motion(6000).table);
     std::ofstream(simulator) << to_json(test::small_tool()).dump();
-    const auto trained = run("train", {"--model", "rigid", "--online", "--train", log, "--quiet",
-                                       "--out", model});
+    const auto trained =
+        run("train", {"--model", "rigid", "--online", "--train", log, "--quiet", "--out", model});
     EXPECT_EQ(trained.exit_code, 0) << trained.err;
   }
 };
@@ -111,8 +111,9 @@ TEST(RunTool, WrongUseIsOneLine) {
   const auto key = bench().folder / "code.key";
   EXPECT_EQ(run("run", {"--make-key", key.string()}).exit_code, 0);
   EXPECT_EQ(code({"--make-key", key.string()}), 2);  // never replaced
-  const std::vector<std::string> serve{"--model", bench().model, "-q", "--listen", "127.0.0.1:nine",
-                                       "--peer", "127.0.0.1:9", "--key-file", key.string()};
+  const std::vector<std::string> serve{"--model",     bench().model,    "-q",
+                                       "--listen",    "127.0.0.1:nine", "--peer",
+                                       "127.0.0.1:9", "--key-file",     key.string()};
   EXPECT_EQ(code(serve), 2);
   ::chmod(key.c_str(), 0644);
   EXPECT_EQ(code(serve), 2);
@@ -131,9 +132,9 @@ TEST(RunTool, AnswersItsPeerAndNobodyElse) {
   const auto key_file = (bench().folder / "udp.key").string();
   ASSERT_EQ(run("run", {"--make-key", key_file}).exit_code, 0);
   const auto [server, robot] = free_ports();
-  test::Process process("run", {"--model", bench().model, "--fallback", bench().simulator,
-                                "--listen", server, "--peer", robot, "--key-file", key_file,
-                                "--seconds", "4", "--json"});
+  test::Process process(
+      "run", {"--model", bench().model, "--fallback", bench().simulator, "--listen", server,
+              "--peer", robot, "--key-file", key_file, "--seconds", "4", "--json"});
   RobotLink link(robot, server, read_packet_key(key_file));
   ASSERT_TRUE(link.connect(3.0));
   UdpSocket stranger("127.0.0.1:" + std::to_string(19000 + ::getpid() % 1000), server);
@@ -150,7 +151,8 @@ TEST(RunTool, AnswersItsPeerAndNobodyElse) {
     const auto sequence = link.send(test::sample_of(recording, k));
     const double patience = monotonic_seconds() + 1.0;
     while (const auto result = link.receive(patience)) {
-      if (result->answers != sequence || result->result.t != 0.002 * static_cast<double>(k)) continue;
+      if (result->answers != sequence || result->result.t != 0.002 * static_cast<double>(k))
+        continue;
       last = *result;
       ++served;
       break;
@@ -178,8 +180,9 @@ TEST(RunTool, ServingAllocatesNothingAndTakesNoLock) {
   if (kSanitized) GTEST_SKIP() << "the sanitizer has an allocator of its own";
   const auto counts = bench().folder / "counts";
   const auto result =
-      run("run", {"--model", bench().model, "--fallback", bench().simulator, "--average", "4",
-                  "--track-bias", "10", "--stdin"},
+      run("run",
+          {"--model", bench().model, "--fallback", bench().simulator, "--average", "4",
+           "--track-bias", "10", "--stdin"},
           {.input = bench().log,
            .environment = {"LD_PRELOAD=" DCNN_COUNT_CALLS, "COUNT_FILE=" + counts.string(),
                            "COUNT_FROM=3", "COUNT_TO=1000000"}});

@@ -48,8 +48,8 @@ TEST_P(EveryEffect, RunsSampleBySampleAsOverTheWholeRecording) {
   for (Index start : {Index{0}, Index{0}}) {  // twice: a new stretch forgets the old one
     for (Index k = start; k < motion.samples(); ++k) {
       const auto i = static_cast<std::size_t>(k);
-      const Instant now{k == start,          motion.dt,          motion.R_BS[i],
-                        motion.euler.row(k), motion.v_B.row(k),  motion.a_B.row(k),
+      const Instant now{k == start,          motion.dt,         motion.R_BS[i],
+                        motion.euler.row(k), motion.v_B.row(k), motion.a_B.row(k),
                         motion.w_S.row(k),   motion.dw_S.row(k)};
       InstantWrench wrench{given.force.row(k), given.torque.row(k)};
       act(wrench, now);

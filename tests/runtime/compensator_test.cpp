@@ -283,7 +283,7 @@ TEST(Envelope, TheAlarmLevelOfAKnownTailIsNearItsQuantile) {
     mean += alarm_level(scores, 10.0, 1.0) / kDraws;
   }
   const double wanted = std::log(10.0 * 3600.0);
-  EXPECT_GT(mean, wanted);        // errs towards silence
+  EXPECT_GT(mean, wanted);  // errs towards silence
   EXPECT_LT(mean, 1.6 * wanted);
   // An hour and more of data: the order statistic itself.
   Eigen::VectorXd many(7200);

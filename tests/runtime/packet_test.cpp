@@ -151,7 +151,7 @@ Bytes hostile(Rng& rng, std::uint64_t last, double t, const Bytes& recorded) {
       return sealed(last + 1, t, kSession, 1, bad);
     case 6:
       return sealed(last + 1, t, rng.bits() | 1);  // another session
-    case 7: {  // cut or drawn out
+    case 7: {                                      // cut or drawn out
       Bytes bytes = sealed(last + 1, t);
       bytes.resize(rng.below(300) == kSampleBytes ? 0 : rng.below(kSampleBytes));
       return bytes;

@@ -60,8 +60,8 @@ inline Identifier trained(const std::string& kind = "rigid") {
   samples.segments = recording.segments;
   FitSession session;
   identifier.model->fit(samples, {}, session);
-  identifier.online = learn_limits(*identifier.model, identifier.targets, samples, {},
-                                   identifier.layout.dt);
+  identifier.online =
+      learn_limits(*identifier.model, identifier.targets, samples, {}, identifier.layout.dt);
   return identifier;
 }
 

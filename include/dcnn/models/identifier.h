@@ -19,7 +19,7 @@ struct Identifier {
   std::unique_ptr<Model> model;
   std::optional<Simulator> base;  ///< the model learned what this simulator leaves (wrist only)
   std::optional<OnlineLimits> online;  ///< of models trained with --online
-  Json configuration;             ///< resolved, for reports
+  Json configuration;                  ///< resolved, for reports
   std::uint64_t seed = 0;
 
   /// (T, targets) from features of the recording, plus the base simulator's part.

@@ -21,8 +21,8 @@ double alarm_level(const Eigen::VectorXd& scores, double per_second, double per_
 class Envelope {
  public:
   Envelope() = default;
-  /// From training features (N, F). Thresholds come from blocks of time that the statistics they are
-  /// scored with have not seen; each of the two monitors takes half of the false alarms.
+  /// From training features (N, F). Thresholds come from blocks of time that the statistics they
+  /// are scored with have not seen; each of the two monitors takes half of the false alarms.
   Envelope(const Eigen::MatrixXd& x, double dt);
 
   Index features() const { return mean_.size(); }

@@ -107,7 +107,7 @@ struct EffectKind {
   const char* example = "{}";
   AxisRule axis = AxisRule::kNone;
   IntervalRule interval = IntervalRule::kOptional;
-  bool needs_time = false;  ///< leaves a static list as it is
+  bool needs_time = false;     ///< leaves a static list as it is
   bool machines_only = false;  ///< the diagnosis looks for it on axes of other machines alone
   /// Changes the model before anything is computed (Stage::kTool), else null.
   void (*change)(ToolModel&, Options& parameters) = nullptr;

@@ -14,8 +14,9 @@ namespace dcnn {
 class StreamingSimulator {
  public:
   /// Error(exit) naming `where` for an effect that cannot be known online: one that looks ahead
-  /// (loose_load), is on the clock of a recording (drifts, step_bias, hum, intervals), belongs to one
-  /// recording, or is a foreign force. `derivative` must be causal, `dt` is the sample time [s].
+  /// (loose_load), is on the clock of a recording (drifts, step_bias, hum, intervals), belongs to
+  /// one recording, or is a foreign force. `derivative` must be causal, `dt` is the sample time
+  /// [s].
   StreamingSimulator(const Simulator& simulator, const DerivativeSpec& derivative, double dt,
                      const std::string& where, Exit exit);
   StreamingSimulator(StreamingSimulator&&) noexcept;

@@ -17,7 +17,7 @@ namespace dcnn {
 
 /// What robot and sensor say at one instant. Numbers may be anything.
 struct OnlineSample {
-  double t = 0.0;  ///< s, on the robot's clock
+  double t = 0.0;                                      ///< s, on the robot's clock
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< origin of E in B, m
   Eigen::Vector4d quaternion{1, 0, 0, 0};              ///< (w, x, y, z) of E in B
   std::optional<Eigen::Vector3d> euler;  ///< (alpha, beta, gamma) instead of the quaternion, rad
@@ -26,23 +26,23 @@ struct OnlineSample {
 };
 
 struct OnlineResult {
-  double t = 0.0;                         ///< of the sample that it answers
-  Vector6d external = Vector6d::Zero();   ///< on the tool, in B; finite, bounded, slew-limited
+  double t = 0.0;                        ///< of the sample that it answers
+  Vector6d external = Vector6d::Zero();  ///< on the tool, in B; finite, bounded, slew-limited
   RunState state = RunState::kWarmup;
   Reason reason = Reason::kWarmup;
-  bool contact = false;    ///< the external force is above what the model's error explains
-  bool limited = false;    ///< held back by a limit
-  double novelty = 0.0;    ///< above 1: motion unlike training; 0 without an envelope
+  bool contact = false;  ///< the external force is above what the model's error explains
+  bool limited = false;  ///< held back by a limit
+  double novelty = 0.0;  ///< above 1: motion unlike training; 0 without an envelope
   Eigen::Vector3d bias = Eigen::Vector3d::Zero();  ///< tracked, in S, taken off the measured force
 };
 
 struct CompensatorOptions {
   GuardLimits guard;  ///< warmup_cycles is set to the windows' length where it is shorter
   Eigen::Matrix3d R_ES = Eigen::Matrix3d::Identity();  ///< of the calibration
-  int average = 1;             ///< linearly weighted mean of so many readings (1 to 16; D30)
-  double bias_seconds = 0.0;   ///< time constant of the bias tracker; 0: none
-  double bias_limit_n = 2.0;   ///< most that it may take off, per axis
-  std::optional<double> contact_n;  ///< instead of the model file's threshold
+  int average = 1;                   ///< linearly weighted mean of so many readings (1 to 16; D30)
+  double bias_seconds = 0.0;         ///< time constant of the bias tracker; 0: none
+  double bias_limit_n = 2.0;         ///< most that it may take off, per axis
+  std::optional<double> contact_n;   ///< instead of the model file's threshold
   std::optional<Envelope> envelope;  ///< instead of the model file's
   int longest_bridge = 4;  ///< missing samples in a row that are bridged by straight lines
 };

@@ -100,7 +100,7 @@ class PacketGate {
  public:
   static constexpr std::uint64_t kWindow = 1000;  ///< most that a sequence may lead
   static constexpr double kOldest = 0.02;         ///< s, most that a packet may be late
-  static constexpr double kForgotten = 0.5;       ///< s of silence after which clocks are compared anew
+  static constexpr double kForgotten = 0.5;  ///< s of silence after which clocks are compared anew
 
   /// A session is named by a random number: packets of earlier ones are worth nothing.
   PacketGate(const PacketKey& key, std::uint64_t session) : key_(key), session_(session) {}

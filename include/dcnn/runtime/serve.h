@@ -38,9 +38,9 @@ struct ServeOptions {
 /// and allocates nothing. Cycles, states, verdicts on packets and thread CPU times as JSON.
 Json serve_udp(OnlineCompensator& compensator, const ServeOptions& options);
 
-/// Reads a header and rows as in a recording from one file descriptor, answers each row on the other
-/// one: t, targets with _ext, state, reason, contact. A row that is no sample is a bad cycle, not an
-/// end. Error(kData) for a header without a pose or force.
+/// Reads a header and rows as in a recording from one file descriptor, answers each row on the
+/// other one: t, targets with _ext, state, reason, contact. A row that is no sample is a bad cycle,
+/// not an end. Error(kData) for a header without a pose or force.
 Json serve_lines(OnlineCompensator& compensator, int in, int out);
 
 /// Plays a recording forwards and backwards through packets on a loopback pair of sockets, as fast

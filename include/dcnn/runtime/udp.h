@@ -17,8 +17,8 @@ double monotonic_seconds() noexcept;
 /// Bound to one address and connected to another: the kernel drops what comes from elsewhere.
 class UdpSocket {
  public:
-  /// HOST:PORT, [HOST]:PORT or PORT, which is on the loopback. Error(kUsage) for what is no address,
-  /// Error(kFailure) for one that cannot be had.
+  /// HOST:PORT, [HOST]:PORT or PORT, which is on the loopback. Error(kUsage) for what is no
+  /// address, Error(kFailure) for one that cannot be had.
   UdpSocket(const std::string& listen, const std::string& peer);
   ~UdpSocket();
   UdpSocket(UdpSocket&& other) noexcept : socket_(std::exchange(other.socket_, -1)) {}

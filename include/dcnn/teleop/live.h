@@ -1,5 +1,5 @@
-// The demonstration as separate processes over UDP, in real time (paper, IV-A): the slave's side with
-// its sensor, the identifier (dcnn-run), and the controller on the master's side.
+// The demonstration as separate processes over UDP, in real time (paper, IV-A): the slave's side
+// with its sensor, the identifier (dcnn-run), and the controller on the master's side.
 #pragma once
 
 #include "dcnn/runtime/udp.h"

@@ -25,8 +25,10 @@ const EffectKind asymmetric_friction_effect{
     .apply = resisted<law>,
     .stream = resisting<law>,
     .fits = {{.amplitudes = 1,
-              .parameters = [](const Eigen::VectorXd& a,
-                               const Eigen::VectorXd&) { return Json{{"delta_c_nspm", a(0)}}; }}},
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return Json{{"delta_c_nspm", a(0)}};
+                  }}},
 };
 
 }  // namespace dcnn

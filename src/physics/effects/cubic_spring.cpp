@@ -22,8 +22,10 @@ const EffectKind cubic_spring_effect{
     .apply = pushed<law>,
     .stream = pushing<law>,
     .fits = {{.amplitudes = 1,
-              .parameters = [](const Eigen::VectorXd& a,
-                               const Eigen::VectorXd&) { return Json{{"k3_nprad3", a(0)}}; }}},
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return Json{{"k3_nprad3", a(0)}};
+                  }}},
 };
 
 }  // namespace dcnn

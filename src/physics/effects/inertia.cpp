@@ -40,8 +40,10 @@ const EffectKind inertia_effect{
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 1,
-              .parameters = [](const Eigen::VectorXd& a,
-                               const Eigen::VectorXd&) { return Json{{"delta_inertia_kg", a(0)}}; }}},
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return Json{{"delta_inertia_kg", a(0)}};
+                  }}},
 };
 
 }  // namespace dcnn

@@ -57,7 +57,8 @@ EffectStream stream(const EffectSpec&, Options& parameters) {
     past.ring.col(past.count % past.ring.cols()) << wrench.force, wrench.torque;
     ++past.count;
     const Index newest = past.count - 1;
-    const double behind = now.first ? 0.0 : std::min(seconds / now.dt, double(past.ring.cols() - 4));
+    const double behind =
+        now.first ? 0.0 : std::min(seconds / now.dt, double(past.ring.cols() - 4));
     const double place = std::max(0.0, static_cast<double>(newest) - behind);
     // Old samples are gone: count from the oldest that the cubic may need.
     const Index begin = std::max<Index>(0, past.count - past.ring.cols());
