@@ -14,26 +14,6 @@ constexpr double kLargest = 1e5;     // N, N·m and rad
 constexpr double kLatest = 1e12;     // s
 constexpr double kNormError = 1e-3;  // of a quaternion (contract.md section 2)
 
-class BatchPredictor : public Predictor {
- public:
-  explicit BatchPredictor(const Model& model) : model_(model) {}
-  void reset() noexcept override { seen_.resize(0, 0); }
-  const Eigen::VectorXd& push(const Eigen::VectorXd& x) noexcept override {
-    const Index n = std::min<Index>(seen_.rows() + 1, 600);
-    Eigen::MatrixXd next(n, x.size());
-    if (n > 1) next.topRows(n - 1) = seen_.bottomRows(n - 1);
-    next.row(n - 1) = x.transpose();
-    seen_ = next;
-    y_ = model_.predict({seen_, {{0, n}}}).bottomRows(1).transpose();
-    return y_;
-  }
-
- private:
-  const Model& model_;
-  Eigen::MatrixXd seen_;
-  Eigen::VectorXd y_;
-};
-
 }  // namespace
 
 void require_online(const Identifier& identifier, const std::string& where) {
@@ -65,7 +45,7 @@ std::vector<Index> wrench_places(const Targets& targets, const std::string& wher
 std::unique_ptr<Predictor> checked_predictor(const Identifier& identifier,
                                              const std::string& where) {
   constexpr Index kRows = 100;
-  std::unique_ptr<Predictor> predictor = std::make_unique<BatchPredictor>(*identifier.model);
+  std::unique_ptr<Predictor> predictor = identifier.model->predictor();
   const InputMap& map = identifier.model->map();
   Rng rng({1, 20});
   Stream stream{Eigen::MatrixXd(kRows, map.features()), {{0, kRows}}};

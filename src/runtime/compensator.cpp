@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "dcnn/data/rotation.h"
 #include "runtime/checks.h"
@@ -15,6 +16,7 @@ using Eigen::Vector3d;
 using Eigen::Vector4d;
 
 constexpr double kTooFast = 0.6;  // of the sample time between two samples
+constexpr int kSteady = 25;       // samples in a row, until another clock is followed
 constexpr double kQuiet = 0.5;    // s without contact before the bias is tracked again
 
 Matrix3d rotation_of(const OnlineSample& sample) {
@@ -103,7 +105,15 @@ Reason OnlineCompensator::tell_time(const OnlineSample& sample) noexcept {
     return Reason::kNone;
   }
   const double step = sample.t - last_.t;
-  if (!(step > kTooFast * dt_)) return Reason::kClock;
+  if (!(step > kTooFast * dt_)) {
+    const double other = (sample.t - std::exchange(other_t_, sample.t)) / dt_;
+    other_clock_ = other > kTooFast && other < 2.0 - kTooFast ? other_clock_ + 1 : 0;
+    if (other_clock_ < kSteady) return Reason::kClock;
+    other_clock_ = 0;
+    start_anew();
+    return Reason::kGap;
+  }
+  other_clock_ = 0;
   if (step > (options_.longest_bridge + 1.5) * dt_) {
     start_anew();
     return Reason::kGap;

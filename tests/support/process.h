@@ -52,9 +52,9 @@ struct Result {
 
 /// What a program is given beside its arguments.
 struct Surroundings {
-  std::string input;                     ///< file for standard input; empty: as the test has it
-  std::vector<std::string> environment;  ///< NAME=value, added
-  std::vector<std::string> wrapper;      ///< program and arguments that run it, e.g. strace
+  std::string input = {};  ///< file for standard input; empty: as the test has it
+  std::vector<std::string> environment = {};  ///< NAME=value, added
+  std::vector<std::string> wrapper = {};      ///< program and arguments that run it, e.g. strace
 };
 
 /// A program of this build under way: dcnn-<verb> with arguments.

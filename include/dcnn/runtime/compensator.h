@@ -101,6 +101,9 @@ class OnlineCompensator {
   const Eigen::VectorXd* x_ = nullptr;  // features of the newest sample
   Vector6d predicted_ = Vector6d::Zero(), simulated_ = Vector6d::Zero();
   bool started_ = false, overrun_ = false, rearm_before_ = false;
+  // Samples in a row whose clock is steady but behind the one that was followed.
+  int other_clock_ = 0;
+  double other_t_ = 0.0;
   int settling_ = 0;  // samples until the windows hold no sample from before a gap
   OnlineSample last_;
   std::array<Vector6d, kReadings> readings_;
