@@ -5,6 +5,7 @@
 #include "dcnn/calibration/calibration.h"
 #include "dcnn/runtime/realtime.h"
 #include "dcnn/runtime/serve.h"
+#include "support/interrupt.h"
 #include "support/tool.h"
 
 namespace {
@@ -89,6 +90,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--seconds", serve.seconds, "end after so long (default: run until killed)")
       ->check(CLI::PositiveNumber);
+  app.add_option("--late", serve.latest, "most that a packet may come later than the fastest [s]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   app.add_option("--realtime", priority, "lock memory and run at this SCHED_FIFO priority")
       ->check(CLI::Range(1, 99));
   auto* rehearse_option = app.add_option("--rehearse", rehearsal,
@@ -150,12 +154,18 @@ int main(int argc, char** argv) {
     }
     Json report;
     if (rehearsal.empty()) {
+      catch_interrupts();
+      serve.stop = interrupted;
       report = serve_udp(compensator, serve);
     } else {
       report = rehearse(compensator, read_recording(rehearsal, {}, System()),
                         static_cast<std::uint64_t>(hours * 3600.0 / compensator.dt()));
     }
     Tool::print(report);
+    if (interrupted()) {
+      std::cout.flush();
+      die_of_interrupt();
+    }
     return Exit::kDone;
   });
 }

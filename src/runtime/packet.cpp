@@ -170,7 +170,7 @@ Verdict PacketGate::tell_age(double sent, double now) noexcept {
   const double skew = now - sent, silence = now - heard_;
   double least = std::min(skew, least_skew_ + kDrift * silence);
   if (silence > kForgotten) least = skew;
-  if (skew - least > kOldest) return Verdict::kStale;
+  if (skew - least > latest_) return Verdict::kStale;
   least_skew_ = least;
   heard_ = now;
   return Verdict::kAccepted;

@@ -20,8 +20,10 @@ std::uint64_t random_number() {
 /// One conversation: gate, compensator, answers.
 class Server {
  public:
-  Server(OnlineCompensator& compensator, UdpSocket& socket, const PacketKey& key)
-      : compensator_(compensator), socket_(socket), gate_(key, random_number()) {}
+  Server(OnlineCompensator& compensator, UdpSocket& socket, const ServeOptions& options)
+      : compensator_(compensator),
+        socket_(socket),
+        gate_(options.key, random_number(), options.latest) {}
 
   /// Waits for one datagram until `until` at most, or for the moment when a cycle is missed.
   void turn(double until) noexcept {
@@ -79,7 +81,7 @@ class Server {
 
 Json serve_udp(OnlineCompensator& compensator, const ServeOptions& options) {
   UdpSocket socket(options.listen, options.peer);
-  Server server(compensator, socket, options.key);
+  Server server(compensator, socket, options);
   const double begin = monotonic_seconds();
   for (double now = begin; options.seconds <= 0.0 || now < begin + options.seconds;
        now = monotonic_seconds()) {

@@ -14,18 +14,14 @@
 #include "dcnn/runtime/udp.h"
 #include "runtime/support.h"
 #include "support/process.h"
+#include "support/sanitizer.h"
 
 namespace dcnn {
 namespace {
 
+using test::kSanitized;
 using test::run;
 using testing::contains;
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
 
 /// A recording, the simulator that made it, and a model trained on it.
 struct Bench {

@@ -7,6 +7,7 @@
 
 #include "dcnn/core/random.h"
 #include "runtime/support.h"
+#include "support/sanitizer.h"
 
 namespace dcnn {
 namespace {
@@ -241,7 +242,7 @@ TEST(Compensator, AnHourOfCyclesNeedsNoMoreMemory) {
   auto compensator = world().compensator();
   std::uint64_t before = 0;
   RunState state = RunState::kWarmup;
-  for (Index k = 0; k < 1800000; ++k) {
+  for (Index k = 0; k < test::repetitions(1800000); ++k) {
     const Index place = k % 11998;  // forwards and backwards
     OnlineSample sample = world().samples[static_cast<std::size_t>(std::min(place, 11998 - place))];
     sample.t = 0.002 * static_cast<double>(k);

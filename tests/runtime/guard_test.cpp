@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "dcnn/core/random.h"
+#include "support/sanitizer.h"
 
 namespace dcnn {
 namespace {
@@ -59,7 +60,7 @@ TEST(Guard, TenMillionHostileCyclesNeverLeaveItsBounds) {
   Vector6d before = Vector6d::Zero();
   std::array<int, 6> seen{};
   std::int64_t broken = 0;
-  for (int k = 0; k < 10000000; ++k) {
+  for (int k = 0; k < test::repetitions(10000000); ++k) {
     const Vector6d& output = guard.step(hostile_cycle(rng, k));
     const Vector6d size = output.cwiseAbs(), change = (output - before).cwiseAbs();
     broken += !output.allFinite() || size.head<3>().maxCoeff() > limits.force_n ||

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dcnn/core/random.h"
+#include "support/sanitizer.h"
 
 namespace dcnn {
 namespace {
@@ -170,7 +171,7 @@ TEST(Packet, AMillionHostileOnesChangeNothingAndTheRightOnesAreTaken) {
   OnlineSample got;
   Bytes recorded = sealed(0, 0.0);
   std::uint64_t last = 0, taken = 0, legitimate = 0;
-  for (int k = 0; k < 1000000; ++k) {
+  for (int k = 0; k < test::repetitions(1000000); ++k) {
     const double t = 2e-5 * k;
     ASSERT_NE(gate.judge(hostile(rng, last, t, recorded), t, got), Verdict::kAccepted) << k;
     ASSERT_EQ(gate.last(), last) << k;

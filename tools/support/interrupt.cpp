@@ -12,7 +12,7 @@ std::atomic<int> caught{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
 extern "C" void on_signal(int signal) {
-  if (caught.exchange(1) != 0) ::_exit(128 + signal);
+  if (caught.exchange(signal) != 0) ::_exit(128 + signal);
 }
 
 }  // namespace
@@ -26,5 +26,11 @@ void catch_interrupts() {
 }
 
 bool interrupted() { return caught.load() != 0; }
+
+void die_of_interrupt() {
+  std::signal(caught.load(), SIG_DFL);
+  std::raise(caught.load());
+  ::_exit(128 + caught.load());
+}
 
 }  // namespace dcnn

@@ -6,5 +6,7 @@ namespace dcnn {
 /// From now on SIGINT and SIGTERM set a flag; a second signal ends the process with 128 + signal.
 void catch_interrupts();
 bool interrupted();
+/// Dies of the signal that was caught: for a work that has no state to save.
+[[noreturn]] void die_of_interrupt();
 
 }  // namespace dcnn

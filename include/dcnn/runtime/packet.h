@@ -99,11 +99,13 @@ const char* name_of(Verdict verdict);
 class PacketGate {
  public:
   static constexpr std::uint64_t kWindow = 1000;  ///< most that a sequence may lead
-  static constexpr double kOldest = 0.02;         ///< s, most that a packet may be late
+  static constexpr double kOldest =
+      0.02;  ///< s, most that a packet may come later than the fastest
   static constexpr double kForgotten = 0.5;  ///< s of silence after which clocks are compared anew
 
   /// A session is named by a random number: packets of earlier ones are worth nothing.
-  PacketGate(const PacketKey& key, std::uint64_t session) : key_(key), session_(session) {}
+  PacketGate(const PacketKey& key, std::uint64_t session, double latest = kOldest)
+      : key_(key), session_(session), latest_(latest) {}
 
   /// `now` on the receiver's clock, s. The sample is set when accepted.
   Verdict judge(std::span<const std::uint8_t> bytes, double now, OnlineSample& sample) noexcept;
@@ -121,6 +123,7 @@ class PacketGate {
 
   PacketKey key_;
   std::uint64_t session_, last_ = 0, answered_ = 0, nonce_ = 0;
+  double latest_;  // s
   double least_skew_ = 0.0, heard_ = -1e300;
   std::array<std::uint64_t, kVerdicts> counts_{};
   PacketWriter out_{PacketHeader{}};

@@ -29,7 +29,8 @@ class CycleTimes {
 struct ServeOptions {
   std::string listen, peer;
   PacketKey key{};
-  double seconds = 0.0;  ///< 0: until stop() says so
+  double latest = PacketGate::kOldest;  ///< s, most that a packet may come later than the fastest
+  double seconds = 0.0;                 ///< 0: until stop() says so
   std::function<bool()> stop;
 };
 
