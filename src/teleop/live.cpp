@@ -129,10 +129,13 @@ Json run_live_sensor(const TeleopConfig& config, const Ends& identifier, const E
     const double identified = monotonic_seconds();
     answered ? times.identifier.add(identified - woke) : void(++times.identifier_misses);
     const auto number = static_cast<std::uint64_t>(k + 1);
-    other.send(number, slave.body().x, slave.contact(), estimated, slave.orientation());
-    // The first answer may take as long as the other process needs to start.
-    const double patience = k == 0 ? kPatience : 2.0 * kShare * kTeleopTick;
-    const bool commanded = other.receive(number, due + patience, command) == number;
+    const double give_up = k == 0 ? due + kPatience : due + 2.0 * kShare * kTeleopTick;
+    bool commanded = false;
+    do {  // the first packet goes out again until the other process is there
+      other.send(number, slave.body().x, slave.contact(), estimated, slave.orientation());
+      const double retry = k == 0 ? std::min(give_up, monotonic_seconds() + 0.1) : give_up;
+      commanded = other.receive(number, retry, command) == number;
+    } while (!commanded && monotonic_seconds() < give_up);
     require(commanded || k > 0, Exit::kFailure, "the controller does not answer at ",
             controller.peer, "; start it with the same key");
     const double now = monotonic_seconds();
