@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <cmath>
 #include <iostream>
 
 #include "dcnn/calibration/calibration.h"
@@ -158,8 +159,9 @@ int main(int argc, char** argv) {
       serve.stop = interrupted;
       report = serve_udp(compensator, serve);
     } else {
-      report = rehearse(compensator, read_recording(rehearsal, {}, System()),
-                        static_cast<std::uint64_t>(hours * 3600.0 / compensator.dt()));
+      report =
+          rehearse(compensator, read_recording(rehearsal, {}, System()),
+                   static_cast<std::uint64_t>(std::llround(hours * 3600.0 / compensator.dt())));
     }
     Tool::print(report);
     if (interrupted()) {

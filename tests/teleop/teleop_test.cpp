@@ -69,13 +69,13 @@ TEST(Teleop, TheRightSimulatorTakesTheToolOff) {
   EXPECT_LT(row["master_drift_m"].get<double>(), 0.5e-3);
 }
 
-TEST(Teleop, ASimulatorWithAMemoryIsRefused) {
+TEST(Teleop, ASimulatorThatNeedsTheFutureIsRefused) {
   TeleopConfig config = defaults();
-  config.tool.effects = parse_effects(
-      Json::parse(R"([{"effect": "lowpass", "axis": null, "parameters": {"tau_s": 0.01}}])"), "e",
-      Exit::kData);
+  config.tool.effects = parse_effects(Json::parse(R"([{"effect": "loose_load", "axis": "sensor_x",
+                       "parameters": {"slug_kg": 0.05, "gap_m": 0.004}}])"),
+                                      "e", Exit::kData);
   const auto message = error_of([&] { compensate_with(config.tool, "model.json"); }, Exit::kData);
-  EXPECT_TRUE(contains(message, "lowpass")) << message;
+  EXPECT_TRUE(contains(message, "loose_load")) << message;
 }
 
 TeleopConfig stiff_and_late(bool passivity) {
