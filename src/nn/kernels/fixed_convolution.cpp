@@ -5,12 +5,12 @@
 #include <utility>
 
 // width, channels and filters of the images of DCNN, `same` and `valid`
-#define DCNN_FIXED_CONVOLUTIONS(SHAPE)                                                        \
-  SHAPE(5, 1, 8, true)                                                                        \
-  SHAPE(5, 8, 16, true)                                                                       \
-  SHAPE(5, 16, 32, true)                                                                      \
-  SHAPE(5, 32, 32, true) SHAPE(5, 1, 8, false) SHAPE(4, 8, 16, false) SHAPE(3, 16, 32, false) \
-      SHAPE(2, 32, 32, false)
+#define DCNN_FIXED_CONVOLUTIONS(SHAPE) \
+  SHAPE(5, 1, 8, true)                 \
+  SHAPE(5, 8, 16, true)                \
+  SHAPE(5, 16, 32, true)               \
+  SHAPE(5, 32, 32, true)               \
+  SHAPE(5, 1, 8, false) SHAPE(4, 8, 16, false) SHAPE(3, 16, 32, false) SHAPE(2, 32, 32, false)
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "nn/kernels/fixed_convolution.cpp"
@@ -112,11 +112,13 @@ struct Fixed {
   static void rows(const FixedConvolution& c, Index filter, std::index_sequence<R...>) {
     using Function = void (*)(const FixedConvolution&, Index, Index);
     static constexpr std::array<Function, sizeof...(R)> kBlocks{block<R + 1, false>...};
-    constexpr auto kMost = static_cast<Index>(sizeof...(R));
-    const Index whole = c.in_h - 1, count = (whole + kMost - 1) / kMost;
-    for (Index i = 0; i < count; ++i) {
-      const Index begin = whole * i / count, end = whole * (i + 1) / count;
-      kBlocks[static_cast<std::size_t>(end - begin - 1)](c, begin, filter);
+    constexpr auto kMost = static_cast<int>(sizeof...(R));
+    const int whole = static_cast<int>(c.in_h) - 1, count = (whole + kMost - 1) / kMost;
+    const int height = count > 0 ? whole / count : 0, higher = whole - height * count;
+    for (int i = 0, begin = 0; i < count; ++i) {
+      const int rows_of_block = height + (i < higher ? 1 : 0);
+      kBlocks[static_cast<std::size_t>(rows_of_block - 1)](c, begin, filter);
+      begin += rows_of_block;
     }
     if constexpr (kSame) block<1, true>(c, whole, filter);
   }
