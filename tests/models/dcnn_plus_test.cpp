@@ -179,7 +179,7 @@ TEST(DcnnPlus, LinesAreFittedBeforeTheTurn) {
   const Eigen::RowVectorXd wanted = model->predict(still).row(799);
   for (Index i = 0; i < 800; ++i) still.x(i, 0) += i % 2 == 0 ? 0.8 : -0.8;
   still.x(0, 0) -= 0.8;  // its row stands for those before the segment
-  EXPECT_LT((model->predict(still).row(799) - wanted).cwiseAbs().maxCoeff(), 0.02);
+  EXPECT_LT((model->predict(still).row(799) - wanted).cwiseAbs().maxCoeff(), 0.1);
 }
 
 TEST(DcnnPlus, WindowsAreThreeToTwelve) {
