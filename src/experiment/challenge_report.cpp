@@ -183,6 +183,32 @@ std::string comparison_text(const Json& table) {
   return text + "\n";
 }
 
+std::string joined(const Json& names) {
+  std::string text;
+  for (const Json& name : names) text += (text.empty() ? "" : ", ") + name.get<std::string>();
+  return text.empty() ? "nothing" : text;
+}
+
+/// What was hidden and what was said of it.
+std::string story(const Json& s) {
+  std::string hidden;
+  for (const Json& e : s["effects"]) {
+    hidden += (hidden.empty() ? "" : ", ") + e["effect"].get<std::string>() +
+              text_of(" (%.2g of the noise)", e["amplitude"]);
+  }
+  std::string text = s["id"].get<std::string>() +
+                     "  hidden:  " + (hidden.empty() ? "nothing" : hidden) +
+                     "\n       named:   " + joined(s["named"]) +
+                     "\n       verdict: " + s["verdict"].get<std::string>() + "\n";
+  const Json& error = s["holdout"];
+  if (error.contains("after") && error.contains("oracle")) {
+    text += text_of("       held-out error %.3g N, with what was found %.3g N; ", error["before"],
+                    error["after"]) +
+            text_of("the true law fitted leaves %.3g N\n", error["oracle"]);
+  }
+  return text;
+}
+
 void add_failures(HtmlReport& page, const Json& scenarios) {
   page.heading("Where it fails");
   std::vector<std::vector<std::string>> rows;
@@ -203,6 +229,11 @@ std::string challenge_text(const Json& scores) {
   std::string text = std::to_string(scores["scenarios"].size()) + " scenarios of seed " +
                      scores["seed"].dump() + ", sealed " + scores["sha256"].get<std::string>() +
                      "\n";
+  constexpr std::size_t kFew = 5;
+  if (scores["scenarios"].size() <= kFew) {
+    for (const Json& s : scores["scenarios"]) text += story(s);
+    return text;
+  }
   for (const auto& [key, heading] : kHeadline) {
     const std::string value = cell(scores["tables"]["all"].value(key, Json()));
     if (value.empty()) continue;
