@@ -9,20 +9,24 @@
 #include <mutex>
 #include <vector>
 
+#include "support/sanitizer.h"
+
 namespace {
 
 // Plain numbers of a thread: reading them allocates nothing.
 thread_local bool counting = false;
 thread_local long allocation_count = 0, lock_count = 0;
 
+}  // namespace
+
+#if defined(__GLIBC__) && !defined(DCNN_SANITIZED)
+#define DCNN_COUNTS_HEAP 1
+namespace {
 void count_allocation() {
   if (counting) ++allocation_count;
 }
-
 }  // namespace
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define DCNN_COUNTS_HEAP 1
 // The program's own definitions come before the C library's, whose other names do the work.
 extern "C" {
 void* __libc_malloc(std::size_t);
