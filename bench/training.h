@@ -6,6 +6,7 @@
 #include "dcnn/nn/loss.h"
 #include "dcnn/nn/network.h"
 #include "dcnn/nn/optimizer.h"
+#include "tests/support/dcnn_layers.h"
 
 namespace dcnn {
 
@@ -26,20 +27,11 @@ struct Task {
 };
 
 inline Task dcnn_task(const std::string& padding) {
-  Json layers = Json::array();
-  for (const int count : {8, 16, 32, 32}) {
-    layers.push_back({{"kind", "conv2d"}, {"filters", count}, {"padding", padding}});
-    layers.push_back({{"kind", "batch_norm"}});
-    layers.push_back({{"kind", "relu"}});
-  }
-  layers.push_back({{"kind", "dropout"}, {"rate", 0.5}});
-  layers.push_back({{"kind", "flatten"}});
-  layers.push_back({{"kind", "linear"}, {"outputs", 3}});
   const bool same = padding == "same";
   const double products = same ? 508800 : 117024;  // spec 2.0
   // Forward, weight gradient and, but for the first layer, input gradient.
   const double training = 3 * products - (same ? 15 * 5 : 14 * 4) * 4 * 8;
-  return {"dcnn " + padding, layers, {15, 5, 1}, 50, products, training};
+  return {"dcnn " + padding, dcnn_layers(padding), {15, 5, 1}, 50, products, training};
 }
 
 constexpr Index kLstmUnits = 150;

@@ -2,7 +2,6 @@
 #include "nn/init.h"
 #include "nn/kernels/channels.h"
 #include "nn/kernels/elementwise.h"
-#include "nn/kernels/few_outputs.h"
 #include "nn/kernels/tile.h"
 #include "nn/pieces.h"
 
@@ -15,7 +14,7 @@ class LinearStep final : public PlanStep {
       : weight_(Tensor::from(weight.shape(), weight.values())),
         bias_(Tensor::from(bias.shape(), bias.values())) {}
   void run(const Real* x, Real* y) noexcept override {
-    few_outputs(x, weight_.data(), bias_.data(), weight_.dim(1), weight_.dim(0), y);
+    affine_of_one(x, weight_.data(), bias_.data(), weight_.dim(1), weight_.dim(0), y);
   }
 
  private:

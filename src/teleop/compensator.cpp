@@ -5,6 +5,7 @@
 #include "dcnn/data/streaming_features.h"
 #include "dcnn/physics/streaming_simulator.h"
 #include "dcnn/teleop/teleop.h"
+#include "runtime/checks.h"
 
 namespace dcnn {
 namespace {
@@ -66,10 +67,7 @@ class ModelCompensator : public Compensator {
 std::unique_ptr<Compensator> compensate_with(const Identifier& identifier,
                                              const std::string& where) {
   const FeatureLayout& layout = identifier.layout;
-  require(layout.spec.set != FeatureSpec::Set::kAxes && layout.dt > 0.0, Exit::kModel, where,
-          ": no model of a wrist tool in motion; train one on recordings of a pose");
-  require(layout.spec.derivative.kind == DerivativeSpec::Kind::kCausalSavitzkyGolay, Exit::kModel,
-          where, ": its derivatives look into the future; train it with --online");
+  require_online(identifier, where);
   require(std::abs(layout.dt / kTick - 1.0) < 0.01, Exit::kModel, where, ": trained at ",
           1.0 / layout.dt, " Hz, the control runs at 500 Hz; train it on a recording at 500 Hz");
   return std::make_unique<ModelCompensator>(identifier, where);

@@ -6,22 +6,10 @@
 
 #include "dcnn/nn/loss.h"
 #include "dcnn/nn/optimizer.h"
+#include "support/dcnn_layers.h"
 
 namespace dcnn {
 namespace {
-
-Json dcnn_layers(const std::string& padding, std::vector<int> filters = {8, 16, 32, 32}) {
-  Json layers = Json::array();
-  for (const int count : filters) {
-    layers.push_back({{"kind", "conv2d"}, {"filters", count}, {"padding", padding}});
-    layers.push_back({{"kind", "batch_norm"}});
-    layers.push_back({{"kind", "relu"}});
-  }
-  layers.push_back({{"kind", "dropout"}, {"rate", 0.5}});
-  layers.push_back({{"kind", "flatten"}});
-  layers.push_back({{"kind", "linear"}, {"outputs", 3}});
-  return layers;
-}
 
 Tensor random_batch(Shape shape, std::uint64_t seed) {
   Tensor x(std::move(shape));

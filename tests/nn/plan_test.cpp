@@ -7,22 +7,10 @@
 #include <cmath>
 
 #include "dcnn/nn/network.h"
+#include "support/dcnn_layers.h"
 
 namespace dcnn {
 namespace {
-
-Json modules(const std::vector<int>& filters, const std::string& padding) {
-  Json layers = Json::array();
-  for (const int count : filters) {
-    layers.push_back({{"kind", "conv2d"}, {"filters", count}, {"padding", padding}});
-    layers.push_back({{"kind", "batch_norm"}});
-    layers.push_back({{"kind", "relu"}});
-  }
-  layers.push_back({{"kind", "dropout"}, {"rate", 0.5}});
-  layers.push_back({{"kind", "flatten"}});
-  layers.push_back({{"kind", "linear"}, {"outputs", 3}});
-  return layers;
-}
 
 struct Case {
   std::string name;
@@ -31,14 +19,13 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-  const std::vector<int> paper{8, 16, 32, 32};
   return {
-      {"same", modules(paper, "same"), {15, 5, 1}},
-      {"valid", modules(paper, "valid"), {15, 5, 1}},
-      {"many rows", modules(paper, "same"), {61, 5, 1}},
-      {"few rows, valid", modules(paper, "valid"), {5, 5, 1}},
-      {"one row", modules(paper, "same"), {1, 5, 1}},
-      {"other filters", modules({3, 20, 32}, "same"), {7, 4, 2}},
+      {"same", dcnn_layers("same"), {15, 5, 1}},
+      {"valid", dcnn_layers("valid"), {15, 5, 1}},
+      {"many rows", dcnn_layers("same"), {61, 5, 1}},
+      {"few rows, valid", dcnn_layers("valid"), {5, 5, 1}},
+      {"one row", dcnn_layers("same"), {1, 5, 1}},
+      {"other filters", dcnn_layers("same", {3, 20, 32}), {7, 4, 2}},
       {"no relu",
        {{{"kind", "conv2d"}, {"filters", 8}},
         {{"kind", "flatten"}},
@@ -103,7 +90,7 @@ TEST(Plan, ComputesWhatTheNetworkDoesWhateverTheInstructions) {
 TEST(Plan, ForgetsWhatWasNotFinite) {
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   Rng rng(6);
-  const Network network(modules({8, 16, 32, 32}, "same"), {15, 5, 1}, rng);
+  const Network network(dcnn_layers("same"), {15, 5, 1}, rng);
   for (const Real bad : {std::nanf(""), HUGE_VALF}) {
     Tensor x({1, 15, 5, 1});
     x.data()[37] = bad;

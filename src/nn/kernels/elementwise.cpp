@@ -57,35 +57,59 @@ void adam_target(const AdamStep& s, Index n, const Real* gradient, Real* first, 
   });
 }
 
-/// kOutputs dot products at once: as many independent sums, and x is read once.
-template <Index kOutputs>
+/// kOutputs dot products at once, each in kSums sums: x is read once, and latency is hidden.
+template <Index kOutputs, int kSums>
 void affine_block(const Real* x, const Real* weights, const Real* bias, Index inputs, Real* y) {
   using V = hn::Vec<Full>;
   const Full d;
   const auto lanes = static_cast<Index>(hn::Lanes(d));
-  V sum[kOutputs];
-  for (V& s : sum) s = hn::Zero(d);
-  Index i = 0;
-  for (; i + lanes <= inputs; i += lanes) {
+  V sum[kSums][kOutputs];
+  for (auto& part : sum) {
+    for (V& s : part) s = hn::Zero(d);
+  }
+  const auto add = [&](V* part, Index i) HWY_ATTR {
     const V value = hn::LoadU(d, x + i);
     for (Index o = 0; o < kOutputs; ++o) {
-      sum[o] = hn::MulAdd(value, hn::LoadU(d, weights + o * inputs + i), sum[o]);
+      part[o] = hn::MulAdd(value, hn::LoadU(d, weights + o * inputs + i), part[o]);
     }
+  };
+  Index i = 0;
+  for (; i + kSums * lanes <= inputs; i += kSums * lanes) {
+    for (int k = 0; k < kSums; ++k) add(sum[k], i + k * lanes);
   }
+  for (; i + lanes <= inputs; i += lanes) add(sum[0], i);
   for (Index o = 0; o < kOutputs; ++o) {
-    Real total = hn::GetLane(hn::SumOfLanes(d, sum[o]));
+    for (int step = 1; step < kSums; step *= 2) {
+      for (int k = 0; k < kSums; k += 2 * step) {
+        sum[k][o] = hn::Add(sum[k][o], sum[k + step][o]);
+      }
+    }
+    Real total = hn::GetLane(hn::SumOfLanes(d, sum[0][o]));
     for (Index k = i; k < inputs; ++k) total += x[k] * weights[o * inputs + k];
     y[o] = bias[o] + total;
   }
 }
 
-void affine_target(const Real* x, const Real* weights, const Real* bias, Index inputs,
-                   Index outputs, Real* y) {
+template <int kSums>
+void affine_in_sums(const Real* x, const Real* weights, const Real* bias, Index inputs,
+                    Index outputs, Real* y) {
   Index o = 0;
   for (; o + 3 <= outputs; o += 3) {
-    affine_block<3>(x, weights + o * inputs, bias + o, inputs, y + o);
+    affine_block<3, kSums>(x, weights + o * inputs, bias + o, inputs, y + o);
   }
-  for (; o < outputs; ++o) affine_block<1>(x, weights + o * inputs, bias + o, inputs, y + o);
+  for (; o < outputs; ++o) {
+    affine_block<1, kSums>(x, weights + o * inputs, bias + o, inputs, y + o);
+  }
+}
+
+void affine_target(const Real* x, const Real* weights, const Real* bias, Index inputs,
+                   Index outputs, Real* y) {
+  affine_in_sums<1>(x, weights, bias, inputs, outputs, y);
+}
+
+void affine_of_one_target(const Real* x, const Real* weights, const Real* bias, Index inputs,
+                          Index outputs, Real* y) {
+  affine_in_sums<4>(x, weights, bias, inputs, outputs, y);
 }
 
 }  // namespace dcnn::HWY_NAMESPACE
@@ -99,6 +123,7 @@ HWY_EXPORT(multiply_target);
 HWY_EXPORT(sum_arrays_target);
 HWY_EXPORT(adam_target);
 HWY_EXPORT(affine_target);
+HWY_EXPORT(affine_of_one_target);
 
 void relu_forward(const Real* x, Index n, Real* y) {
   HWY_DYNAMIC_DISPATCH(relu_forward_target)(x, n, y);
@@ -124,6 +149,11 @@ void adam(const AdamStep& step, Index n, const Real* gradient, Real* first, Real
 void affine(const Real* x, const Real* weights, const Real* bias, Index inputs, Index outputs,
             Real* y) {
   HWY_DYNAMIC_DISPATCH(affine_target)(x, weights, bias, inputs, outputs, y);
+}
+
+void affine_of_one(const Real* x, const Real* weights, const Real* bias, Index inputs,
+                   Index outputs, Real* y) {
+  HWY_DYNAMIC_DISPATCH(affine_of_one_target)(x, weights, bias, inputs, outputs, y);
 }
 }  // namespace dcnn
 #endif
