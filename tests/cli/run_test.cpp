@@ -4,43 +4,22 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <set>
 #include <sstream>
 
-#include "data/testing.h"
+#include "cli/run_bench.h"
 #include "dcnn/core/json.h"
 #include "dcnn/core/random.h"
-#include "dcnn/data/csv.h"
 #include "dcnn/runtime/udp.h"
 #include "runtime/support.h"
-#include "support/process.h"
 #include "support/sanitizer.h"
 
 namespace dcnn {
 namespace {
 
+using test::bench;
 using test::kSanitized;
 using test::run;
 using testing::contains;
-
-/// A recording, the simulator that made it, and a model trained on it.
-struct Bench {
-  test::TemporaryFolder folder;
-  std::string log = (folder / "free.csv").string(), simulator = (folder / "sim.json").string(),
-              model = (folder / "rigid.dcnn").string();
-  Bench() {
-    write_csv(log, test::free_motion(6000).table);
-    std::ofstream(simulator) << to_json(test::small_tool()).dump();
-    const auto trained =
-        run("train", {"--model", "rigid", "--online", "--train", log, "--quiet", "--out", model});
-    EXPECT_EQ(trained.exit_code, 0) << trained.err;
-  }
-};
-
-const Bench& bench() {
-  static const Bench shared;
-  return shared;
-}
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream in(text);
@@ -51,7 +30,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 TEST(RunTool, LinesInLinesOut) {
   const auto result =
-      run("run", {"--model", bench().model, "--fallback", bench().simulator, "--stdin"},
+      run("run", {"--model", bench().trained("rigid"), "--fallback", bench().simulator, "--stdin"},
           {.input = bench().log});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto lines = lines_of(result.out);
@@ -78,7 +57,7 @@ TEST(RunTool, ALineThatIsNoSampleIsABadCycleAndNotTheEnd) {
   for (const auto& line : lines) changed += line + "\n";
   const auto input = testing::temporary_file("bad.csv", changed);
   const auto result =
-      run("run", {"--model", bench().model, "--fallback", bench().simulator, "--stdin"},
+      run("run", {"--model", bench().trained("rigid"), "--fallback", bench().simulator, "--stdin"},
           {.input = input.string()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto out = lines_of(result.out);
@@ -98,18 +77,26 @@ TEST(RunTool, WrongUseIsOneLine) {
   const auto empty = testing::temporary_file("empty.csv", "");
   const auto foreign = testing::temporary_file("foreign.csv", "a,b\n1,2\n");
   EXPECT_EQ(code({}), 2);
-  EXPECT_EQ(code({"--model", bench().model}), 2);
+  EXPECT_EQ(code({"--model", bench().trained("rigid")}), 2);
   EXPECT_EQ(code({"--model", "absent.dcnn", "--stdin"}), 4);
   EXPECT_EQ(code({"--model", "absent.json", "--stdin"}), 3);
-  EXPECT_EQ(code({"--model", bench().model, "-q", "--stdin"}, {.input = empty.string()}), 3);
-  EXPECT_EQ(code({"--model", bench().model, "-q", "--stdin"}, {.input = foreign.string()}), 3);
-  EXPECT_EQ(code({"--model", bench().model, "--listen", "5000"}), 2);
+  EXPECT_EQ(code({"--model", bench().trained("rigid"), "-q", "--stdin"}, {.input = empty.string()}),
+            3);
+  EXPECT_EQ(
+      code({"--model", bench().trained("rigid"), "-q", "--stdin"}, {.input = foreign.string()}), 3);
+  EXPECT_EQ(code({"--model", bench().trained("rigid"), "--listen", "5000"}), 2);
   const auto key = bench().folder / "code.key";
   EXPECT_EQ(run("run", {"--make-key", key.string()}).exit_code, 0);
   EXPECT_EQ(code({"--make-key", key.string()}), 2);  // never replaced
-  const std::vector<std::string> serve{"--model",     bench().model,    "-q",
-                                       "--listen",    "127.0.0.1:nine", "--peer",
-                                       "127.0.0.1:9", "--key-file",     key.string()};
+  const std::vector<std::string> serve{"--model",
+                                       bench().trained("rigid"),
+                                       "-q",
+                                       "--listen",
+                                       "127.0.0.1:nine",
+                                       "--peer",
+                                       "127.0.0.1:9",
+                                       "--key-file",
+                                       key.string()};
   EXPECT_EQ(code(serve), 2);
   ::chmod(key.c_str(), 0644);
   EXPECT_EQ(code(serve), 2);
@@ -129,8 +116,8 @@ TEST(RunTool, AnswersItsPeerAndNobodyElse) {
   ASSERT_EQ(run("run", {"--make-key", key_file}).exit_code, 0);
   const auto [server, robot] = free_ports();
   test::Process process(
-      "run", {"--model", bench().model, "--fallback", bench().simulator, "--listen", server,
-              "--peer", robot, "--key-file", key_file, "--late", "1000"});
+      "run", {"--model", bench().trained("rigid"), "--fallback", bench().simulator, "--listen",
+              server, "--peer", robot, "--key-file", key_file, "--late", "1000"});
   RobotLink link(robot, server, read_packet_key(key_file));
   ASSERT_TRUE(link.connect(20.0));
   UdpSocket stranger("127.0.0.1:" + std::to_string(19000 + ::getpid() % 1000), server);
@@ -173,53 +160,15 @@ TEST(RunTool, AnswersItsPeerAndNobodyElse) {
   EXPECT_EQ(report["packets"]["tag"], 0);  // the kernel dropped them
 }
 
-TEST(RunTool, ServingAllocatesNothingAndTakesNoLock) {
-  if (kSanitized) GTEST_SKIP() << "the sanitizer has an allocator of its own";
-  const auto counts = bench().folder / "counts";
-  const auto result =
-      run("run",
-          {"--model", bench().model, "--fallback", bench().simulator, "--average", "4",
-           "--track-bias", "10", "--stdin"},
-          {.input = bench().log,
-           .environment = {"LD_PRELOAD=" DCNN_COUNT_CALLS, "COUNT_FILE=" + counts.string(),
-                           "COUNT_FROM=3", "COUNT_TO=1000000"}});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  std::ifstream file(counts);
-  long reads = 0, allocations = -1, locks = -1;
-  file >> reads >> allocations >> locks;
-  EXPECT_GT(reads, 20);
-  EXPECT_EQ(allocations, 0);
-  EXPECT_EQ(locks, 0);
-}
-
-TEST(RunTool, ServingMakesNoSystemCallButReadAndWrite) {
-  if (kSanitized) GTEST_SKIP() << "the sanitizer makes calls of its own";
-  const auto trace = bench().folder / "trace";
-  const auto result =
-      run("run", {"--model", bench().model, "--fallback", bench().simulator, "--stdin"},
-          {.input = bench().log, .wrapper = {"strace", "-f", "-o", trace.string()}});
-  if (result.exit_code != 0) GTEST_SKIP() << "strace does not run here";
-  std::set<std::string> calls;
-  int reads = 0;
-  for (const auto& line : lines_of(test::slurp(trace))) {
-    const bool input = contains(line, " read(0, ");
-    if (input && contains(line, " = 0")) break;
-    reads += input;
-    const auto begin = line.find_first_not_of("0123456789 ");
-    if (reads > 3) calls.insert(line.substr(begin, line.find('(') - begin));
-  }
-  EXPECT_GT(reads, 20);
-  const std::set<std::string> allowed{"read", "write", "clock_gettime"};
-  for (const auto& call : calls) EXPECT_TRUE(allowed.contains(call)) << call;
-}
-
 TEST(RunTool, ARehearsalTellsTimesStatesAndMemory) {
-  const auto result = run("run", {"--model", bench().model, "--fallback", bench().simulator,
-                                  "--rehearse", bench().log, "--hours", "0.02"});
+  const auto result = run("run", {"--model", bench().trained("rigid"), "--fallback",
+                                  bench().simulator, "--rehearse", bench().log, "--hours", "0.02"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Json report = parse_json(result.out, "report", Exit::kFailure);
   EXPECT_EQ(report["cpu"]["cycles"], 36000);
   EXPECT_GT(report["states"]["NETWORK"].get<int>(), 30000) << report;
+  // A sanitizer keeps what was freed for a while.
+  if (kSanitized) return;
   EXPECT_LE(report["memory_growth_bytes"].get<double>(), 65536.0);
 }
 
