@@ -23,19 +23,18 @@ int main(int argc, char** argv) {
             kExamples);
   BenchRequest request;
   std::filesystem::path out;
-  auto& app = tool.app();
-  app.add_option("models", request.models, "model files")->required();
-  app.add_option("--data", request.data,
-                 "recording to predict (default: 32045 rows drawn from the model's statistics)");
-  app.add_option("--lengths", request.lengths, "samples per call")
-      ->delimiter(',')
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  app.add_option("--repetitions", request.repetitions, "passes over all samples")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  app.add_option("--out", out, "folder for bench.html and bench.json");
-  const ReadFlags read(app);
+  tool.option("models", request.models, "model files").required();
+  tool.option("--data", request.data,
+              "recording to predict (default: 32045 rows drawn from the model's statistics)");
+  tool.option("--lengths", request.lengths, "samples per call")
+      .separated_by_commas()
+      .between(1, 100000)
+      .with_default();
+  tool.option("--repetitions", request.repetitions, "passes over all samples")
+      .between(1, 1000)
+      .with_default();
+  tool.option("--out", out, "folder for bench.html and bench.json");
+  const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {
     request.read = read.options();

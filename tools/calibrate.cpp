@@ -71,16 +71,15 @@ int main(int argc, char** argv) {
   std::filesystem::path out;
   CalibrationOptions options;
   std::vector<double> nominal;
-  auto& app = tool.app();
-  app.add_option("--pairs", input.pairs, "CSV of pairs: sx,sy,sz,rx,ry,rz [N], optionally w");
-  app.add_option("--loaded", input.loaded, "static poses with a mass hung at the tip");
-  app.add_option("--unloaded", input.unloaded, "the same poses without it");
-  app.add_option("--static", input.poses, "static poses; gravity on the tool is the reference");
-  app.add_option("--mass-kg", input.mass_kg, "hung mass, or the tool's (else it is estimated)");
-  app.add_flag("--with-bias", options.with_bias, "the sensor has a constant offset: find it");
-  app.add_option("--nominal", nominal, "mounting as designed: rx ry rz [rad]")->expected(3);
-  app.add_option("--out", out, "calibration.json to write")->required();
-  const ReadFlags read(app);
+  tool.option("--pairs", input.pairs, "CSV of pairs: sx,sy,sz,rx,ry,rz [N], optionally w");
+  tool.option("--loaded", input.loaded, "static poses with a mass hung at the tip");
+  tool.option("--unloaded", input.unloaded, "the same poses without it");
+  tool.option("--static", input.poses, "static poses; gravity on the tool is the reference");
+  tool.option("--mass-kg", input.mass_kg, "hung mass, or the tool's (else it is estimated)");
+  tool.flag("--with-bias", options.with_bias, "the sensor has a constant offset: find it");
+  tool.option("--nominal", nominal, "mounting as designed: rx ry rz [rad]").values(3);
+  tool.option("--out", out, "calibration.json to write").required();
+  const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {
     if (!nominal.empty()) {

@@ -55,32 +55,30 @@ int main(int argc, char** argv) {
   std::vector<std::string> ids;
   std::filesystem::path out, seal;
   conceal::Injection injection;
-  auto& app = tool.app();
-  auto* many = app.add_option("--scenarios", scenarios, "how many, of every group its share");
-  app.add_option("--scenario", ids, "these, as a sealed file names them under `drawn`")
-      ->excludes(many);
-  app.add_flag("--score", score, "score OUT/reports/*/report.json against the seal")
-      ->excludes(many);
-  app.add_option("--out", out, "folder of the scenarios")->required();
-  app.add_option("--seal", seal, "file of the answers, outside that folder")->required();
+  auto many = tool.option("--scenarios", scenarios, "how many, of every group its share");
+  tool.option("--scenario", ids, "these, as a sealed file names them under `drawn`").excludes(many);
+  tool.flag("--score", score, "score OUT/reports/*/report.json against the seal").excludes(many);
+  tool.option("--out", out, "folder of the scenarios").required();
+  tool.option("--seal", seal, "file of the answers, outside that folder").required();
 
-  auto* what = app.add_option("--inject", injection.what,
-                              "effect, effect@axis or a JSON file of effects to hide in --motion");
-  what->excludes(many)->needs(app.add_option("--motion", injection.motion, "recordings of a tool"));
-  app.add_option("--sim", injection.simulator, "their simulator (sim.json)")->needs(what);
-  app.add_option("--system", injection.system, "of a machine of one axis, instead of --sim")
-      ->needs(what)
-      ->excludes("--sim");
-  app.add_option("--amplitude", injection.amplitude, "of --inject, in the log's noise")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber)
-      ->needs(what);
-  const ReadFlags read(app);
+  auto what = tool.option("--inject", injection.what,
+                          "effect, effect@axis or a JSON file of effects to hide in --motion");
+  what.excludes(many).needs(tool.option("--motion", injection.motion, "recordings of a tool"));
+  const auto sim =
+      tool.option("--sim", injection.simulator, "their simulator (sim.json)").needs(what);
+  tool.option("--system", injection.system, "of a machine of one axis, instead of --sim")
+      .needs(what)
+      .excludes(sim);
+  tool.option("--amplitude", injection.amplitude, "of --inject, in the log's noise")
+      .with_default()
+      .positive()
+      .needs(what);
+  const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {
     if (score) return judge(tool, out, seal);
     const std::uint64_t seed = tool.common().seed.value_or(1);
-    if (*what) {
+    if (what.given()) {
       require(injection.simulator.empty() != injection.system.empty(), Exit::kUsage,
               "--inject needs --sim, or --system of another machine");
       injection.read = read.options();

@@ -27,26 +27,25 @@ int main(int argc, char** argv) {
   DiagnosisRequest request;
   std::filesystem::path out;
   std::string clock = "auto";
-  auto& app = tool.app();
-  app.add_option("--sim", request.simulator,
-                 "simulator of the tool (JSON); without it the recordings need columns *_sim");
-  app.add_option(
-         "--system", request.system,
-         "system description of another machine (JSON, \"kind\": \"axes\"), instead of --sim")
-      ->excludes("--sim");
-  app.add_option("--fit", request.fit, "recordings to learn from")->required();
-  app.add_option("--holdout", request.holdout,
-                 "recordings to judge by (default: every fifth block of 5 s of the others)");
-  app.add_option("--clock", clock, "whether the recordings share one clock: auto, shared, own")
-      ->check(CLI::IsMember({"auto", "shared", "own"}))
-      ->capture_default_str();
-  app.add_option("--out", out, "folder for report.json, report.html, model.json and predictions")
-      ->required();
+  const auto sim =
+      tool.option("--sim", request.simulator,
+                  "simulator of the tool (JSON); without it the recordings need columns *_sim");
+  tool.option("--system", request.system,
+              "system description of another machine (JSON, \"kind\": \"axes\"), instead of --sim")
+      .excludes(sim);
+  tool.option("--fit", request.fit, "recordings to learn from").required();
+  tool.option("--holdout", request.holdout,
+              "recordings to judge by (default: every fifth block of 5 s of the others)");
+  tool.option("--clock", clock, "whether the recordings share one clock: auto, shared, own")
+      .one_of({"auto", "shared", "own"})
+      .with_default();
+  tool.option("--out", out, "folder for report.json, report.html, model.json and predictions")
+      .required();
   std::vector<std::string> without;
-  app.add_option("--without", without, "leave out parts of the method, to see what they are worth")
-      ->check(CLI::IsMember(ablations()))
-      ->group("For research");
-  const ReadFlags read(app);
+  tool.option("--without", without, "leave out parts of the method, to see what they are worth")
+      .one_of(ablations())
+      .group("For research");
+  const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {
     request.read = read.options();

@@ -51,24 +51,20 @@ int main(int argc, char** argv) {
   EvaluationRequest request;
   std::string levels = "clean,40,30,20,10", noise_mode = "feature", noise_on = "features";
   std::filesystem::path out;
-  auto& app = tool.app();
-  app.add_option("models", request.models, "model files")->required();
-  app.add_option("--data", request.data, "recordings to score on")->required();
-  app.add_option("--snr", levels, "signal-to-noise ratios of the input [dB], or clean")
-      ->capture_default_str();
-  app.add_option("--runs", request.runs, "noise draws per level")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  app.add_option("--noise-mode", noise_mode,
-                 "power of the noise: per feature, or as MATLAB's awgn 'measured'")
-      ->check(CLI::IsMember({"feature", "matlab"}))
-      ->capture_default_str();
-  app.add_option("--noise-on", noise_on,
-                 "what the noise is added to: the features, or the pose they are derived from")
-      ->check(CLI::IsMember({"features", "pose"}))
-      ->capture_default_str();
-  app.add_option("--out", out, "folder for report.html and evaluation.json");
-  const ReadFlags read(app);
+  tool.option("models", request.models, "model files").required();
+  tool.option("--data", request.data, "recordings to score on").required();
+  tool.option("--snr", levels, "signal-to-noise ratios of the input [dB], or clean").with_default();
+  tool.option("--runs", request.runs, "noise draws per level").between(1, 100000).with_default();
+  tool.option("--noise-mode", noise_mode,
+              "power of the noise: per feature, or as MATLAB's awgn 'measured'")
+      .one_of({"feature", "matlab"})
+      .with_default();
+  tool.option("--noise-on", noise_on,
+              "what the noise is added to: the features, or the pose they are derived from")
+      .one_of({"features", "pose"})
+      .with_default();
+  tool.option("--out", out, "folder for report.html and evaluation.json");
+  const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {
     request.levels = parse_levels(levels);

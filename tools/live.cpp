@@ -40,21 +40,17 @@ int main(int argc, char** argv) {
   std::string role;
   double seconds = 0.0;
   Ends identifier{"5302", "5301"}, sensor{"5303", "5304"};
-  auto& app = tool.app();
-  app.add_option("--role", role, "sensor or controller")
-      ->required()
-      ->check(CLI::IsMember({"sensor", "controller"}));
-  app.add_option("--config", config_path, "configuration as for dcnn-teleop");
-  app.add_option("--seconds", seconds, "shorter than the configuration's duration")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--key-file", key_file, "the key of this run, the same for all")->required();
-  app.add_option("--identifier-listen", identifier.listen, "own address towards dcnn-run")
-      ->capture_default_str();
-  app.add_option("--identifier", identifier.peer, "address of dcnn-run")->capture_default_str();
-  app.add_option("--sensor", sensor.listen, "the sensor's address towards the controller")
-      ->capture_default_str();
-  app.add_option("--controller", sensor.peer, "the controller's address")->capture_default_str();
-  app.add_option("--out", out, "folder for the controller's report.html, SVG and CSV");
+  tool.option("--role", role, "sensor or controller").required().one_of({"sensor", "controller"});
+  tool.option("--config", config_path, "configuration as for dcnn-teleop");
+  tool.option("--seconds", seconds, "shorter than the configuration's duration").positive();
+  tool.option("--key-file", key_file, "the key of this run, the same for all").required();
+  tool.option("--identifier-listen", identifier.listen, "own address towards dcnn-run")
+      .with_default();
+  tool.option("--identifier", identifier.peer, "address of dcnn-run").with_default();
+  tool.option("--sensor", sensor.listen, "the sensor's address towards the controller")
+      .with_default();
+  tool.option("--controller", sensor.peer, "the controller's address").with_default();
+  tool.option("--out", out, "folder for the controller's report.html, SVG and CSV");
 
   return tool.run(argc, argv, [&] {
     TeleopConfig config =

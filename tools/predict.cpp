@@ -57,11 +57,10 @@ Recording predict_with_simulator(const std::filesystem::path& model,
 int main(int argc, char** argv) {
   Tool tool("dcnn-predict", "Predicts the tool's force for every row of a recording.", kExamples);
   std::filesystem::path model, data, out;
-  auto& app = tool.app();
-  app.add_option("model", model, "model file (.dcnn), or a simulator (.json)")->required();
-  app.add_option("--data", data, "recording")->required();
-  app.add_option("--out", out, "CSV to write: the input columns and <target>_hat")->required();
-  const ReadFlags read(app);
+  tool.option("model", model, "model file (.dcnn), or a simulator (.json)").required();
+  tool.option("--data", data, "recording").required();
+  tool.option("--out", out, "CSV to write: the input columns and <target>_hat").required();
+  const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {
     ReadOptions options = read.options();

@@ -84,36 +84,32 @@ int main(int argc, char** argv) {
   std::string repeat = "draws";
   int trainings = 20;
   bool plan_only = false;
-  auto& app = tool.app();
-  app.add_option("--preset", request.preset, "how much of everything")
-      ->check(CLI::IsMember(kPresets))
-      ->capture_default_str();
-  app.add_option("--out", request.out, "folder for the report and all work [out/reproduce-PRESET]");
+  tool.option("--preset", request.preset, "how much of everything").one_of(kPresets).with_default();
+  tool.option("--out", request.out, "folder for the report and all work [out/reproduce-PRESET]");
   request.scene = "configs/sim/embedded.json";
-  auto* scene = app.add_option("--scene", request.scene,
-                               "simulation of recordings named train and test (JSON)")
-                    ->capture_default_str();
-  app.add_option("--data", request.data, "own recordings instead: one to train on, one to test on")
-      ->expected(2)
-      ->excludes(scene);
-  app.add_option("--models", request.models, "which models (default: all of the preset)");
-  app.add_option("--augment-only", request.augment_only,
-                 "the model that alone is noise-trained in the third reading")
-      ->capture_default_str();
-  app.add_option("--repeat", repeat,
-                 "spread over draws of the test noise, or beside it over trainings")
-      ->check(CLI::IsMember({"draws", "training"}))
-      ->capture_default_str();
-  app.add_option("--trainings", trainings, "how many, with --repeat training")
-      ->check(CLI::Range(2, 1000))
-      ->capture_default_str();
-  app.add_option("--epochs", request.epochs, "epochs, instead of the preset's")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--draws", request.draws, "draws of the test noise, instead of the preset's")
-      ->check(CLI::Range(1, 100000));
-  app.add_option("--commit", request.commit, "of the code, for the report")->capture_default_str();
-  app.add_flag("--plan", plan_only, "print the steps and their expected time, do nothing");
-  const ReadFlags read(app);
+  auto scene =
+      tool.option("--scene", request.scene, "simulation of recordings named train and test (JSON)")
+          .with_default();
+  tool.option("--data", request.data, "own recordings instead: one to train on, one to test on")
+      .values(2)
+      .excludes(scene);
+  tool.option("--models", request.models, "which models (default: all of the preset)");
+  tool.option("--augment-only", request.augment_only,
+              "the model that alone is noise-trained in the third reading")
+      .with_default();
+  tool.option("--repeat", repeat,
+              "spread over draws of the test noise, or beside it over trainings")
+      .one_of({"draws", "training"})
+      .with_default();
+  tool.option("--trainings", trainings, "how many, with --repeat training")
+      .between(2, 1000)
+      .with_default();
+  tool.option("--epochs", request.epochs, "epochs, instead of the preset's").positive();
+  tool.option("--draws", request.draws, "draws of the test noise, instead of the preset's")
+      .between(1, 100000);
+  tool.option("--commit", request.commit, "of the code, for the report").with_default();
+  tool.flag("--plan", plan_only, "print the steps and their expected time, do nothing");
+  const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {
     request.read = read.options();

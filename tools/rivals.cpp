@@ -38,13 +38,12 @@ int main(int argc, char** argv) {
   std::filesystem::path out;
   std::vector<std::string> networks;
   std::string preset = "quick";
-  auto& app = tool.app();
-  app.add_option("--sim", request.simulator, "simulator of the tool (JSON)")->required();
-  app.add_option("--fit", request.fit, "recordings to learn from")->required();
-  app.add_option("--holdout", request.holdout, "recordings to judge by");
-  app.add_option("--networks", networks, "models of dcnn-train that learn the remainder too");
-  app.add_option("--preset", preset, "of the networks")->capture_default_str();
-  app.add_option("--out", out, "folder for <method>/report.json")->required();
+  tool.option("--sim", request.simulator, "simulator of the tool (JSON)").required();
+  tool.option("--fit", request.fit, "recordings to learn from").required();
+  tool.option("--holdout", request.holdout, "recordings to judge by");
+  tool.option("--networks", networks, "models of dcnn-train that learn the remainder too");
+  tool.option("--preset", preset, "of the networks").with_default();
+  tool.option("--out", out, "folder for <method>/report.json").required();
 
   return tool.run(argc, argv, [&] {
     Json reports = rivals::run(request);

@@ -60,54 +60,52 @@ int main(int argc, char** argv) {
   bool lines = false;
   double contact = 0.0, hours = 0.025;
   int priority = 0;
-  auto& app = tool.app();
-  app.add_option("--model", model, "trained with --online (.dcnn), or a simulator (.json)");
-  app.add_option("--fallback", fallback, "simulator that steps in for the model (model.json)");
-  app.add_option("--calibration", calibration, "sensor frame to robot frame (dcnn-calibrate)");
-  auto* in = app.add_flag("--stdin", lines, "rows on standard input, answers on standard output");
-  auto* listen =
-      app.add_option("--listen", serve.listen, "own address, HOST:PORT or PORT (loopback)");
-  auto* peer = app.add_option("--peer", serve.peer, "the robot's address; nobody else is heard");
-  auto* key = app.add_option("--key-file", key_file, "32 secret bytes that both ends hold");
-  app.add_option("--make-key", make_key, "write a new key (mode 0600) and end");
-  app.add_option("--average", options.average, "weighted mean of so many force readings")
-      ->check(CLI::Range(1, 16));
-  app.add_option("--track-bias", options.bias_seconds,
-                 "track the sensor's offset with this time constant [s], frozen in contact")
-      ->check(CLI::PositiveNumber);
-  auto* contact_option = app.add_option("--contact", contact,
-                                        "contact threshold [N] (default: the "
-                                        "model's, 1 false alarm an hour)")
-                             ->check(CLI::PositiveNumber);
-  app.add_option("--limit", options.guard.force_n, "most force put out, per axis [N]")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--slew", options.guard.slew_n, "most change of it, per axis and sample [N]")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--disagreement", options.guard.disagreement_n,
-                 "most difference between model and fallback, per axis [N]")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--seconds", serve.seconds, "end after so long (default: run until killed)")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--late", serve.latest, "most that a packet may come later than the fastest [s]")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--realtime", priority, "lock memory and run at this SCHED_FIFO priority")
-      ->check(CLI::Range(1, 99));
-  auto* rehearse_option = app.add_option("--rehearse", rehearsal,
-                                         "play a recording to itself as "
-                                         "fast as it goes; times, states, memory");
-  app.add_option("--hours", hours, "simulated hours of the rehearsal")
-      ->check(CLI::PositiveNumber)
-      ->needs(rehearse_option)
-      ->capture_default_str();
-  listen->needs(peer)->needs(key);
-  peer->needs(listen);
-  key->needs(listen);
-  in->excludes(listen)->excludes(rehearse_option);
-  listen->excludes(rehearse_option);
+  tool.option("--model", model, "trained with --online (.dcnn), or a simulator (.json)");
+  tool.option("--fallback", fallback, "simulator that steps in for the model (model.json)");
+  tool.option("--calibration", calibration, "sensor frame to robot frame (dcnn-calibrate)");
+  auto in = tool.flag("--stdin", lines, "rows on standard input, answers on standard output");
+  auto listen = tool.option("--listen", serve.listen, "own address, HOST:PORT or PORT (loopback)");
+  auto peer = tool.option("--peer", serve.peer, "the robot's address; nobody else is heard");
+  auto key = tool.option("--key-file", key_file, "32 secret bytes that both ends hold");
+  tool.option("--make-key", make_key, "write a new key (mode 0600) and end");
+  tool.option("--average", options.average, "weighted mean of so many force readings")
+      .between(1, 16);
+  tool.option("--track-bias", options.bias_seconds,
+              "track the sensor's offset with this time constant [s], frozen in contact")
+      .positive();
+  auto contact_option = tool.option("--contact", contact,
+                                    "contact threshold [N] (default: the "
+                                    "model's, 1 false alarm an hour)")
+                            .positive();
+  tool.option("--limit", options.guard.force_n, "most force put out, per axis [N]")
+      .positive()
+      .with_default();
+  tool.option("--slew", options.guard.slew_n, "most change of it, per axis and sample [N]")
+      .positive()
+      .with_default();
+  tool.option("--disagreement", options.guard.disagreement_n,
+              "most difference between model and fallback, per axis [N]")
+      .positive()
+      .with_default();
+  tool.option("--seconds", serve.seconds, "end after so long (default: run until killed)")
+      .positive();
+  tool.option("--late", serve.latest, "most that a packet may come later than the fastest [s]")
+      .positive()
+      .with_default();
+  tool.option("--realtime", priority, "lock memory and run at this SCHED_FIFO priority")
+      .between(1, 99);
+  auto rehearse_option = tool.option("--rehearse", rehearsal,
+                                     "play a recording to itself as "
+                                     "fast as it goes; times, states, memory");
+  tool.option("--hours", hours, "simulated hours of the rehearsal")
+      .positive()
+      .needs(rehearse_option)
+      .with_default();
+  listen.needs(peer).needs(key);
+  peer.needs(listen);
+  key.needs(listen);
+  in.excludes(listen).excludes(rehearse_option);
+  listen.excludes(rehearse_option);
 
   return tool.run(argc, argv, [&] {
     if (!make_key.empty()) {
@@ -119,7 +117,7 @@ int main(int argc, char** argv) {
             "give --stdin, --listen with --peer and --key-file, or --rehearse");
     if (!key_file.empty()) serve.key = read_packet_key(key_file);
     if (!calibration.empty()) options.R_ES = read_calibration(calibration).R_ES;
-    if (contact_option->count() > 0) options.contact_n = contact;
+    if (contact_option.given()) options.contact_n = contact;
     const bool drifts = options.bias_seconds > 0.0;
     std::optional<Identifier> identifier;
     std::optional<Simulator> physics;

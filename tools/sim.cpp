@@ -46,15 +46,14 @@ int main(int argc, char** argv) {
             "Simulates recordings of a tool on a wrist sensor, with effects hidden in them.",
             kExamples);
   std::filesystem::path config, sim, motion, out;
-  auto& app = tool.app();
-  auto* from_config = app.add_option("--config", config, "what to simulate (JSON)");
-  auto* from_sim = app.add_option("--sim", sim, "simulator: sim.json, or a corrected model.json");
-  auto* with_motion = app.add_option("--motion", motion, "recording whose motion is simulated");
-  from_sim->needs(with_motion)->excludes(from_config);
-  with_motion->needs(from_sim);
-  app.add_option("--out", out, "folder (with --config) or CSV file (with --motion) to write")
-      ->required();
-  const ReadFlags read(app);
+  auto from_config = tool.option("--config", config, "what to simulate (JSON)");
+  auto from_sim = tool.option("--sim", sim, "simulator: sim.json, or a corrected model.json");
+  auto with_motion = tool.option("--motion", motion, "recording whose motion is simulated");
+  from_sim.needs(with_motion).excludes(from_config);
+  with_motion.needs(from_sim);
+  tool.option("--out", out, "folder (with --config) or CSV file (with --motion) to write")
+      .required();
+  const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {
     require(!config.empty() || !sim.empty(), Exit::kUsage, "give --config, or --sim with --motion");

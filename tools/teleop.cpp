@@ -37,13 +37,11 @@ int main(int argc, char** argv) {
             kExamples);
   std::filesystem::path config_path, corrected, calibration, out;
   std::vector<std::filesystem::path> models;
-  auto& app = tool.app();
-  app.add_option("--config", config_path, "configuration (default: that of configs/teleop.json)");
-  app.add_option("--model", models, "trained models (.dcnn)");
-  app.add_option("--corrected", corrected,
-                 "simulator that compensates (model.json of dcnn-diagnose)");
-  app.add_option("--calibration", calibration, "sensor frame to robot frame (dcnn-calibrate)");
-  app.add_option("--out", out, "folder for report.html, teleop.json, SVG and CSV")->required();
+  tool.option("--config", config_path, "configuration (default: that of configs/teleop.json)");
+  tool.option("--model", models, "trained models (.dcnn)");
+  tool.option("--corrected", corrected, "simulator that compensates (model.json of dcnn-diagnose)");
+  tool.option("--calibration", calibration, "sensor frame to robot frame (dcnn-calibrate)");
+  tool.option("--out", out, "folder for report.html, teleop.json, SVG and CSV").required();
 
   return tool.run(argc, argv, [&] {
     const TeleopConfig config =

@@ -90,24 +90,21 @@ int main(int argc, char** argv) {
   std::string list;
   for (const ModelKind* kind : model_kinds())
     list += std::string("\n  ") + kind->name + ": " + kind->summary;
-  auto& app = tool.app();
-  app.add_option("--train", request.training, "recordings to learn from")->required();
-  app.add_option("--valid", request.validation,
-                 "recordings for validation (default: the last 15 % of each training recording)");
-  app.add_option("--config", flags.file, "configuration (JSON)");
-  app.add_option("--preset", flags.preset, "fills what the configuration leaves out")
-      ->check(CLI::IsMember(kPresets));
-  app.add_option("--model", flags.model, "which identifier:" + list);
-  app.add_option("--system", flags.system, "description of another machine (JSON)");
-  app.add_option("--epochs", flags.epochs, "number of epochs")->check(CLI::PositiveNumber);
-  app.add_option("--base", request.base,
-                 "simulator (sim.json or model.json) whose remainder is learned");
-  app.add_flag("--online", flags.online,
-               "causal derivatives: required by dcnn-run and dcnn-teleop");
-  app.add_option("--out", request.out, "model file to write; its run directory is beside it")
-      ->required();
-  app.add_flag("--resume", request.resume, "go on from the last checkpoint");
-  const ReadFlags read(app);
+  tool.option("--train", request.training, "recordings to learn from").required();
+  tool.option("--valid", request.validation,
+              "recordings for validation (default: the last 15 % of each training recording)");
+  tool.option("--config", flags.file, "configuration (JSON)");
+  tool.option("--preset", flags.preset, "fills what the configuration leaves out").one_of(kPresets);
+  tool.option("--model", flags.model, "which identifier:" + list);
+  tool.option("--system", flags.system, "description of another machine (JSON)");
+  tool.option("--epochs", flags.epochs, "number of epochs").positive();
+  tool.option("--base", request.base,
+              "simulator (sim.json or model.json) whose remainder is learned");
+  tool.flag("--online", flags.online, "causal derivatives: required by dcnn-run and dcnn-teleop");
+  tool.option("--out", request.out, "model file to write; its run directory is beside it")
+      .required();
+  tool.flag("--resume", request.resume, "go on from the last checkpoint");
+  const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {
     request.read = read.options();

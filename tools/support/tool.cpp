@@ -1,5 +1,7 @@
 #include "support/tool.h"
 
+#include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 #include <numbers>
 
@@ -8,25 +10,50 @@
 namespace dcnn {
 
 Tool::Tool(const std::string& name, const std::string& summary, const std::string& examples)
-    : name_(name), app_(summary, name) {
-  app_.set_version_flag("--version", name + " " DCNN_VERSION);
-  app_.footer("\nExamples:\n" + examples +
-              "\nSI units and radians everywhere. Exit codes: 0 done, 1 failure, 2 wrong usage, 3 "
-              "bad data,\n"
-              "4 bad model, 75 interrupted with the state saved.");
-  app_.add_flag("--json", common_.json, "print the result as one JSON document on stdout");
-  app_.add_flag("-q,--quiet", common_.quiet, "no progress and no notes");
-  app_.add_option("--threads", common_.threads, "number of threads (default: all cores)")
-      ->check(CLI::Range(1, 1024));
-  app_.add_option("--seed", common_.seed, "seed of everything random");
+    : name_(name), app_(std::make_unique<CLI::App>(summary, name)) {
+  app_->set_version_flag("--version", name + " " DCNN_VERSION);
+  app_->footer("\nExamples:\n" + examples +
+               "\nSI units and radians everywhere. Exit codes: 0 done, 1 failure, 2 wrong usage, 3 "
+               "bad data,\n"
+               "4 bad model, 75 interrupted with the state saved.");
+  flag("--json", common_.json, "print the result as one JSON document on stdout");
+  flag("-q,--quiet", common_.quiet, "no progress and no notes");
+  option("--threads", common_.threads, "number of threads (default: all cores)").between(1, 1024);
+  option("--seed", common_.seed, "seed of everything random");
+}
+
+Tool::~Tool() = default;
+
+template <typename T>
+Option Tool::option(const std::string& names, T& variable, const std::string& help) {
+  return Option(*app_->add_option(names, variable, help));
+}
+
+using Path = std::filesystem::path;
+template Option Tool::option(const std::string&, int&, const std::string&);
+template Option Tool::option(const std::string&, double&, const std::string&);
+template Option Tool::option(const std::string&, std::string&, const std::string&);
+template Option Tool::option(const std::string&, Path&, const std::string&);
+template Option Tool::option(const std::string&, std::optional<int>&, const std::string&);
+template Option Tool::option(const std::string&, std::optional<Index>&, const std::string&);
+template Option Tool::option(const std::string&, std::optional<double>&, const std::string&);
+template Option Tool::option(const std::string&, std::optional<std::string>&, const std::string&);
+template Option Tool::option(const std::string&, std::optional<Path>&, const std::string&);
+template Option Tool::option(const std::string&, std::vector<Index>&, const std::string&);
+template Option Tool::option(const std::string&, std::vector<double>&, const std::string&);
+template Option Tool::option(const std::string&, std::vector<std::string>&, const std::string&);
+template Option Tool::option(const std::string&, std::vector<Path>&, const std::string&);
+
+Option Tool::flag(const std::string& names, bool& variable, const std::string& help) {
+  return Option(*app_->add_flag(names, variable, help));
 }
 
 int Tool::parse(int argc, char** argv) {
   try {
-    app_.parse(argc, argv);
+    app_->parse(argc, argv);
     return -1;
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app_.exit(error);  // --help, --version
+    if (error.get_exit_code() == 0) return app_->exit(error);  // --help, --version
     return fail_line(std::string(error.what()) + "; see " + name_ + " --help", Exit::kUsage);
   }
 }
@@ -63,21 +90,21 @@ void Tool::note(const std::string& text) const {
 
 void Tool::print(const Json& json) { std::cout << json.dump(2) << "\n"; }
 
-ReadFlags::ReadFlags(CLI::App& app) {
-  app.add_option("--position-unit", position_unit_, "unit of positions in the recordings")
-      ->check(CLI::IsMember({"m", "mm"}))
-      ->capture_default_str();
-  app.add_option("--angle-unit", angle_unit_, "unit of angles in the recordings")
-      ->check(CLI::IsMember({"rad", "deg"}))
-      ->capture_default_str();
-  app.add_option("--force-sign", force_sign_, "-1 where the log holds the reaction")
-      ->check(CLI::IsMember({1.0, -1.0}))
-      ->capture_default_str();
+ReadFlags::ReadFlags(Tool& tool) {
+  tool.option("--position-unit", position_unit_, "unit of positions in the recordings")
+      .one_of({"m", "mm"})
+      .with_default();
+  tool.option("--angle-unit", angle_unit_, "unit of angles in the recordings")
+      .one_of({"rad", "deg"})
+      .with_default();
+  tool.option("--force-sign", force_sign_, "-1 where the log holds the reaction")
+      .one_of({1.0, -1.0})
+      .with_default();
   resample_ =
-      app.add_option("--resample", resample_hz_,
-                     "put irregular clocks on a regular one [Hz; default: the recording's rate]")
-          ->expected(0, 1)
-          ->check(CLI::NonNegativeNumber);
+      tool.option("--resample", resample_hz_,
+                  "put irregular clocks on a regular one [Hz; default: the recording's rate]")
+          .value_optional()
+          .not_negative();
 }
 
 ReadOptions ReadFlags::options() const {
@@ -85,7 +112,7 @@ ReadOptions ReadFlags::options() const {
   if (position_unit_ == "mm") options.position_unit = 1e-3;
   if (angle_unit_ == "deg") options.angle_unit = std::numbers::pi / 180.0;
   options.force_sign = force_sign_;
-  options.resample = resample_->count() > 0;
+  options.resample = resample_->given();
   options.resample_hz = resample_hz_;
   return options;
 }

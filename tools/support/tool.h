@@ -1,14 +1,15 @@
 // What every dcnn-<verb> shares: common flags, one-line errors, exit codes (contract.md section 4).
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "dcnn/core/json.h"
 #include "dcnn/data/recording.h"
+#include "support/option.h"
 
 namespace dcnn {
 
@@ -23,8 +24,14 @@ class Tool {
  public:
   /// `examples` ends the --help text: lines that can be pasted.
   Tool(const std::string& name, const std::string& summary, const std::string& examples);
+  ~Tool();
 
-  CLI::App& app() { return app_; }
+  /// `names` as CLI11 reads them: "--out", "-q,--quiet", or "models" for arguments without a flag.
+  /// T: a number, text, a path, a vector or an optional of these.
+  template <typename T>
+  Option option(const std::string& names, T& variable, const std::string& help);
+  Option flag(const std::string& names, bool& variable, const std::string& help);
+
   const CommonFlags& common() const { return common_; }
 
   /// Parses, then calls `body`. Returns the exit code; every failure has become one line on stderr.
@@ -40,21 +47,20 @@ class Tool {
   int fail_line(const std::string& message, Exit exit) const;
 
   std::string name_;
-  CLI::App app_;
+  std::unique_ptr<CLI::App> app_;
   CommonFlags common_;
 };
 
 /// --position-unit, --angle-unit, --force-sign and --resample.
 class ReadFlags {
  public:
-  explicit ReadFlags(CLI::App& app);
+  explicit ReadFlags(Tool& tool);
   ReadOptions options() const;
 
  private:
   std::string position_unit_ = "m", angle_unit_ = "rad";
-  double force_sign_ = 1.0;
-  CLI::Option* resample_;
-  double resample_hz_ = 0.0;
+  double force_sign_ = 1.0, resample_hz_ = 0.0;
+  std::optional<Option> resample_;
 };
 
 }  // namespace dcnn

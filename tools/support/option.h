@@ -1,0 +1,45 @@
+// What our tools use of CLI11's options, compiled once: in every program its headers cost seconds.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace dcnn {
+
+/// An option of Tool::option() or Tool::flag(); copies name the same one.
+class Option {
+ public:
+  explicit Option(CLI::Option& option) : option_(&option) {}
+
+  Option required() const;
+  /// --help shows what the variable holds now.
+  Option with_default() const;
+  Option between(int low, int high) const;
+  Option positive() const;
+  Option not_negative() const;
+  Option one_of(const std::vector<std::string>& words) const;
+  Option one_of(std::initializer_list<double> numbers) const;
+  /// Takes exactly so many values.
+  Option values(int count) const;
+  /// Stands without a value too.
+  Option value_optional() const;
+  Option separated_by_commas() const;
+  Option needs(Option other) const;
+  Option excludes(Option other) const;
+  /// --help lists it under this heading.
+  Option group(const std::string& heading) const;
+
+  /// Whether the command line has it.
+  bool given() const;
+
+ private:
+  CLI::Option* option_;
+};
+
+}  // namespace dcnn
