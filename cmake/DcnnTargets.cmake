@@ -19,14 +19,14 @@ function(dcnn_compile_options target)
     <Eigen/Dense> <dcnn/core/json.h> <algorithm> <functional> <memory> <string> <vector>)
 endfunction()
 
-# Eight files of a room are compiled as one, which halves the time of a full build. Effects, one a
-# file, all call their functions alike, and Highway's kernels include themselves: these stay apart.
+# Eight files of a room are compiled as one, which halves the time of a full build. Highway's kernels
+# include themselves: they stay apart.
 function(dcnn_unite_rooms target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
   foreach(source ${sources})
     cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/src OUTPUT_VARIABLE inside)
-    if(inside MATCHES "^physics/effects/|^nn/kernels/")
+    if(inside MATCHES "^nn/kernels/")
       continue()
     endif()
     string(REGEX MATCH "^[^/]+" room ${inside})

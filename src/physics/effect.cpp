@@ -108,7 +108,7 @@ void keep_outside(const EffectSpec& spec, const EffectKind& kind, const Motion& 
 
 std::vector<const EffectKind*> effect_kinds() {
   return {
-#define EFFECT(id) &id##_effect,
+#define EFFECT(id) &effects::id::effect,
 #include "physics/effects.def"
 #undef EFFECT
   };

@@ -8,7 +8,10 @@
 
 namespace dcnn {
 
-#define EFFECT(id) extern const EffectKind id##_effect;
+#define EFFECT(id)                \
+  namespace effects::id {         \
+  extern const EffectKind effect; \
+  }
 #include "physics/effects.def"
 #undef EFFECT
 

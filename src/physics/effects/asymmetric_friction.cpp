@@ -2,7 +2,7 @@
 
 #include "physics/friction.h"
 
-namespace dcnn {
+namespace dcnn::effects::asymmetric_friction {
 namespace {
 
 auto law(Options& parameters) {
@@ -13,7 +13,7 @@ auto law(Options& parameters) {
 }  // namespace
 
 // A difference in the dry part is no effect of its own: while the axis moves it is an offset.
-const EffectKind asymmetric_friction_effect{
+const EffectKind effect{
     .name = "asymmetric_friction",
     .stage = Stage::kForce,
     .kind = "structural",
@@ -31,4 +31,4 @@ const EffectKind asymmetric_friction_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::asymmetric_friction

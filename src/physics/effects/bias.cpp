@@ -1,6 +1,6 @@
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::bias {
 namespace {
 
 void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolModel&,
@@ -18,7 +18,7 @@ EffectStream stream(const EffectSpec&, Options& parameters) {
 
 }  // namespace
 
-const EffectKind bias_effect{
+const EffectKind effect{
     .name = "bias",
     .stage = Stage::kOffset,
     .kind = "sensor",
@@ -35,4 +35,4 @@ const EffectKind bias_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::bias

@@ -2,7 +2,7 @@
 
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::cable_field {
 namespace {
 
 /// The cable of the embedded data set (spec 1.6): smooth in the orientation, without memory.
@@ -27,7 +27,7 @@ EffectStream stream(const EffectSpec&, Options& parameters) {
 
 }  // namespace
 
-const EffectKind cable_field_effect{
+const EffectKind effect{
     .name = "cable_field",
     .stage = Stage::kForce,
     .kind = "structural",
@@ -38,4 +38,4 @@ const EffectKind cable_field_effect{
     .stream = stream,
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::cable_field

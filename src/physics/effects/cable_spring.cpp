@@ -1,6 +1,6 @@
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::cable_spring {
 namespace {
 
 auto law(Options& parameters) {
@@ -10,7 +10,7 @@ auto law(Options& parameters) {
 
 }  // namespace
 
-const EffectKind cable_spring_effect{
+const EffectKind effect{
     .name = "cable_spring",
     .stage = Stage::kForce,
     .kind = "structural",
@@ -28,4 +28,4 @@ const EffectKind cable_spring_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::cable_spring

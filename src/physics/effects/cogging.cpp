@@ -2,7 +2,7 @@
 
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::cogging {
 namespace {
 
 auto law(Options& parameters) {
@@ -13,7 +13,7 @@ auto law(Options& parameters) {
 
 }  // namespace
 
-const EffectKind cogging_effect{
+const EffectKind effect{
     .name = "cogging",
     .stage = Stage::kForce,
     .kind = "structural",
@@ -33,4 +33,4 @@ const EffectKind cogging_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::cogging

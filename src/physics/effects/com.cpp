@@ -1,6 +1,6 @@
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::com {
 namespace {
 
 void change(ToolModel& model, Options& parameters) {
@@ -9,7 +9,7 @@ void change(ToolModel& model, Options& parameters) {
 
 }  // namespace
 
-const EffectKind com_effect{
+const EffectKind effect{
     .name = "com",
     .stage = Stage::kTool,
     .kind = "parameter",
@@ -26,4 +26,4 @@ const EffectKind com_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::com

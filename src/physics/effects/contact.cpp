@@ -1,6 +1,6 @@
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::contact {
 namespace {
 
 void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolModel&,
@@ -15,7 +15,7 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolMo
 
 }  // namespace
 
-const EffectKind contact_effect{
+const EffectKind effect{
     .name = "contact",
     .stage = Stage::kForce,
     .kind = "external",
@@ -31,4 +31,4 @@ const EffectKind contact_effect{
                                const Eigen::VectorXd&) { return offset_parameters(a, "force"); }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::contact

@@ -2,7 +2,7 @@
 
 #include "physics/friction.h"
 
-namespace dcnn {
+namespace dcnn::effects::coulomb_friction {
 namespace {
 
 auto law(Options& parameters) {
@@ -13,7 +13,7 @@ auto law(Options& parameters) {
 
 }  // namespace
 
-const EffectKind coulomb_friction_effect{
+const EffectKind effect{
     .name = "coulomb_friction",
     .stage = Stage::kForce,
     .kind = "structural",
@@ -32,4 +32,4 @@ const EffectKind coulomb_friction_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::coulomb_friction

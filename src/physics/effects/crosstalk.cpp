@@ -1,6 +1,6 @@
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::crosstalk {
 namespace {
 
 Eigen::Matrix3d leak(Options& parameters) {
@@ -26,7 +26,7 @@ EffectStream stream(const EffectSpec&, Options& parameters) {
 
 }  // namespace
 
-const EffectKind crosstalk_effect{
+const EffectKind effect{
     .name = "crosstalk",
     .stage = Stage::kSensor,
     .kind = "sensor",
@@ -44,4 +44,4 @@ const EffectKind crosstalk_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::crosstalk

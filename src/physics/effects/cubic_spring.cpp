@@ -1,6 +1,6 @@
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::cubic_spring {
 namespace {
 
 auto law(Options& parameters) {
@@ -10,7 +10,7 @@ auto law(Options& parameters) {
 
 }  // namespace
 
-const EffectKind cubic_spring_effect{
+const EffectKind effect{
     .name = "cubic_spring",
     .stage = Stage::kForce,
     .kind = "structural",
@@ -28,4 +28,4 @@ const EffectKind cubic_spring_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::cubic_spring

@@ -5,7 +5,7 @@
 #include "physics/effect_law.h"
 #include "physics/first_order.h"
 
-namespace dcnn {
+namespace dcnn::effects::flexible_resonance {
 namespace {
 
 void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
@@ -41,7 +41,7 @@ EffectStream stream(const EffectSpec& spec, Options& parameters) {
 
 }  // namespace
 
-const EffectKind flexible_resonance_effect{
+const EffectKind effect{
     .name = "flexible_resonance",
     .stage = Stage::kResonance,
     .kind = "structural",
@@ -60,4 +60,4 @@ const EffectKind flexible_resonance_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::flexible_resonance

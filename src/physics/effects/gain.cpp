@@ -1,6 +1,6 @@
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::gain {
 namespace {
 
 void apply(Wrench& wrench, const Motion&, const EffectSpec&, const ToolModel&,
@@ -16,7 +16,7 @@ EffectStream stream(const EffectSpec&, Options& parameters) {
 
 }  // namespace
 
-const EffectKind gain_effect{
+const EffectKind effect{
     .name = "gain",
     .stage = Stage::kSensor,
     .kind = "sensor",
@@ -32,4 +32,4 @@ const EffectKind gain_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::gain

@@ -1,6 +1,6 @@
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::gravity_tilt {
 namespace {
 
 void change(ToolModel& model, Options& parameters) {
@@ -11,7 +11,7 @@ void change(ToolModel& model, Options& parameters) {
 
 }  // namespace
 
-const EffectKind gravity_tilt_effect{
+const EffectKind effect{
     .name = "gravity_tilt",
     .stage = Stage::kTool,
     .kind = "parameter",
@@ -27,4 +27,4 @@ const EffectKind gravity_tilt_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::gravity_tilt

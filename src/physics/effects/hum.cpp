@@ -2,7 +2,7 @@
 
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::hum {
 namespace {
 
 void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolModel&,
@@ -15,7 +15,7 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolMo
 
 }  // namespace
 
-const EffectKind hum_effect{
+const EffectKind effect{
     .name = "hum",
     .stage = Stage::kOffset,
     .kind = "sensor",
@@ -38,4 +38,4 @@ const EffectKind hum_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::hum

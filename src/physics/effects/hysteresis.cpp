@@ -2,7 +2,7 @@
 
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::hysteresis {
 namespace {
 
 /// Solves dy/du = 1 - rate·y exactly from y over u.
@@ -57,7 +57,7 @@ EffectStream stream(const EffectSpec& spec, Options& parameters) {
 
 }  // namespace
 
-const EffectKind hysteresis_effect{
+const EffectKind effect{
     .name = "hysteresis",
     .stage = Stage::kForce,
     .kind = "structural",
@@ -76,4 +76,4 @@ const EffectKind hysteresis_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::hysteresis

@@ -1,6 +1,6 @@
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::inertia {
 namespace {
 
 void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
@@ -28,7 +28,7 @@ EffectStream stream(const EffectSpec& spec, Options& parameters) {
 
 }  // namespace
 
-const EffectKind inertia_effect{
+const EffectKind effect{
     .name = "inertia",
     .stage = Stage::kForce,
     .kind = "parameter",
@@ -46,4 +46,4 @@ const EffectKind inertia_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::inertia

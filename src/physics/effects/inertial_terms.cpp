@@ -1,13 +1,13 @@
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::inertial_terms {
 namespace {
 
 void change(ToolModel& model, Options&) { model.inertial = ToolModel::Inertial::kFull; }
 
 }  // namespace
 
-const EffectKind inertial_terms_effect{
+const EffectKind effect{
     .name = "inertial_terms",
     .stage = Stage::kTool,
     .kind = "structural",
@@ -19,4 +19,4 @@ const EffectKind inertial_terms_effect{
                                const Eigen::VectorXd&) { return Json::object(); }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::inertial_terms

@@ -1,6 +1,6 @@
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::linear_drift {
 namespace {
 
 void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolModel&,
@@ -10,7 +10,7 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolMo
 
 }  // namespace
 
-const EffectKind linear_drift_effect{
+const EffectKind effect{
     .name = "linear_drift",
     .stage = Stage::kOffset,
     .kind = "sensor",
@@ -27,4 +27,4 @@ const EffectKind linear_drift_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::linear_drift

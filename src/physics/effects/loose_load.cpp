@@ -3,7 +3,7 @@
 
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::loose_load {
 namespace {
 
 /// A slug that slides without friction between two stops, relative to the tool. Stops are plastic
@@ -58,7 +58,7 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const T
 
 }  // namespace
 
-const EffectKind loose_load_effect{
+const EffectKind effect{
     .name = "loose_load",
     .stage = Stage::kForce,
     .kind = "structural",
@@ -77,4 +77,4 @@ const EffectKind loose_load_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::loose_load

@@ -1,7 +1,7 @@
 #include "physics/effect_law.h"
 #include "physics/first_order.h"
 
-namespace dcnn {
+namespace dcnn::effects::lowpass {
 namespace {
 
 /// x' = (u - x)/tau of each column, from equilibrium, exact for an input linear between samples.
@@ -43,7 +43,7 @@ EffectStream stream(const EffectSpec&, Options& parameters) {
 
 }  // namespace
 
-const EffectKind lowpass_effect{
+const EffectKind effect{
     .name = "lowpass",
     .stage = Stage::kDynamics,
     .kind = "sensor",
@@ -60,4 +60,4 @@ const EffectKind lowpass_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::lowpass

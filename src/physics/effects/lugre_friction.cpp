@@ -3,7 +3,7 @@
 
 #include "physics/friction.h"
 
-namespace dcnn {
+namespace dcnn::effects::lugre_friction {
 namespace {
 
 /// Mean deflection z of the bristles (Canudas de Wit et al. 1995): dz/dt = v - abs(v) z/reach with
@@ -56,7 +56,7 @@ EffectStream stream(const EffectSpec& spec, Options& parameters) {
 
 }  // namespace
 
-const EffectKind lugre_friction_effect{
+const EffectKind effect{
     .name = "lugre_friction",
     .stage = Stage::kForce,
     .kind = "structural",
@@ -79,4 +79,4 @@ const EffectKind lugre_friction_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::lugre_friction

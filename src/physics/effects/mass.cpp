@@ -1,6 +1,6 @@
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::mass {
 namespace {
 
 void change(ToolModel& model, Options& parameters) {
@@ -9,7 +9,7 @@ void change(ToolModel& model, Options& parameters) {
 
 }  // namespace
 
-const EffectKind mass_effect{
+const EffectKind effect{
     .name = "mass",
     .stage = Stage::kTool,
     .kind = "parameter",
@@ -25,4 +25,4 @@ const EffectKind mass_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::mass

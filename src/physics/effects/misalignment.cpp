@@ -1,7 +1,7 @@
 #include "dcnn/data/rotation.h"
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::misalignment {
 namespace {
 
 void apply(Wrench& wrench, const Motion&, const EffectSpec&, const ToolModel&,
@@ -22,7 +22,7 @@ EffectStream stream(const EffectSpec&, Options& parameters) {
 
 }  // namespace
 
-const EffectKind misalignment_effect{
+const EffectKind effect{
     .name = "misalignment",
     .stage = Stage::kSensor,
     .kind = "sensor",
@@ -38,4 +38,4 @@ const EffectKind misalignment_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::misalignment

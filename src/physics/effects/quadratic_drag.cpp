@@ -2,7 +2,7 @@
 
 #include "physics/friction.h"
 
-namespace dcnn {
+namespace dcnn::effects::quadratic_drag {
 namespace {
 
 auto law(Options& parameters) {
@@ -12,7 +12,7 @@ auto law(Options& parameters) {
 
 }  // namespace
 
-const EffectKind quadratic_drag_effect{
+const EffectKind effect{
     .name = "quadratic_drag",
     .stage = Stage::kForce,
     .kind = "structural",
@@ -30,4 +30,4 @@ const EffectKind quadratic_drag_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::quadratic_drag

@@ -1,6 +1,6 @@
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::quantisation {
 namespace {
 
 void apply(Wrench& wrench, const Motion&, const EffectSpec&, const ToolModel&,
@@ -18,7 +18,7 @@ EffectStream stream(const EffectSpec&, Options& parameters) {
 
 }  // namespace
 
-const EffectKind quantisation_effect{
+const EffectKind effect{
     .name = "quantisation",
     .stage = Stage::kQuantisation,
     .kind = "sensor",
@@ -34,4 +34,4 @@ const EffectKind quantisation_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::quantisation

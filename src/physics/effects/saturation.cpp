@@ -2,7 +2,7 @@
 
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::saturation {
 namespace {
 
 void apply(Wrench& wrench, const Motion&, const EffectSpec& spec, const ToolModel&,
@@ -21,7 +21,7 @@ EffectStream stream(const EffectSpec& spec, Options& parameters) {
 
 }  // namespace
 
-const EffectKind saturation_effect{
+const EffectKind effect{
     .name = "saturation",
     .stage = Stage::kSaturation,
     .kind = "sensor",
@@ -38,4 +38,4 @@ const EffectKind saturation_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::saturation

@@ -1,6 +1,6 @@
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::step_bias {
 namespace {
 
 void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolModel&,
@@ -10,7 +10,7 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolMo
 
 }  // namespace
 
-const EffectKind step_bias_effect{
+const EffectKind effect{
     .name = "step_bias",
     .stage = Stage::kOffset,
     .kind = "sensor",
@@ -26,4 +26,4 @@ const EffectKind step_bias_effect{
                                const Eigen::VectorXd&) { return offset_parameters(a, "step"); }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::step_bias

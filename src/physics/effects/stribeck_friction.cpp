@@ -2,7 +2,7 @@
 
 #include "physics/friction.h"
 
-namespace dcnn {
+namespace dcnn::effects::stribeck_friction {
 namespace {
 
 auto law(Options& parameters) {
@@ -16,7 +16,7 @@ auto law(Options& parameters) {
 
 }  // namespace
 
-const EffectKind stribeck_friction_effect{
+const EffectKind effect{
     .name = "stribeck_friction",
     .stage = Stage::kForce,
     .kind = "structural",
@@ -35,4 +35,4 @@ const EffectKind stribeck_friction_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::stribeck_friction

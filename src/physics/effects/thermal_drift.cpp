@@ -2,7 +2,7 @@
 
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::thermal_drift {
 namespace {
 
 /// Follows the logged temperature.
@@ -33,7 +33,7 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolMo
 
 }  // namespace
 
-const EffectKind thermal_drift_effect{
+const EffectKind effect{
     .name = "thermal_drift",
     .stage = Stage::kOffset,
     .kind = "sensor",
@@ -62,4 +62,4 @@ const EffectKind thermal_drift_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::thermal_drift

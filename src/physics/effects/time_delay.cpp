@@ -3,7 +3,7 @@
 
 #include "physics/effect_law.h"
 
-namespace dcnn {
+namespace dcnn::effects::time_delay {
 namespace {
 
 /// The cubic through the four samples about `place` (in samples from `begin`), Lagrange's form;
@@ -72,7 +72,7 @@ EffectStream stream(const EffectSpec&, Options& parameters) {
 
 }  // namespace
 
-const EffectKind time_delay_effect{
+const EffectKind effect{
     .name = "time_delay",
     .stage = Stage::kDynamics,
     .kind = "sensor",
@@ -89,4 +89,4 @@ const EffectKind time_delay_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::time_delay

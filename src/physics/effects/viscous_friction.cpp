@@ -1,6 +1,6 @@
 #include "physics/friction.h"
 
-namespace dcnn {
+namespace dcnn::effects::viscous_friction {
 namespace {
 
 auto law(Options& parameters) {
@@ -10,7 +10,7 @@ auto law(Options& parameters) {
 
 }  // namespace
 
-const EffectKind viscous_friction_effect{
+const EffectKind effect{
     .name = "viscous_friction",
     .stage = Stage::kForce,
     .kind = "structural",
@@ -28,4 +28,4 @@ const EffectKind viscous_friction_effect{
                   }}},
 };
 
-}  // namespace dcnn
+}  // namespace dcnn::effects::viscous_friction
