@@ -5,6 +5,7 @@
 #include <complex>
 #include <numbers>
 
+#include "core/linear_algebra.h"
 #include "dcnn/data/fourier.h"
 
 namespace dcnn {
@@ -20,7 +21,7 @@ double bend(const Eigen::VectorXd& x, double dt) {
   const Eigen::ArrayXd u = Eigen::ArrayXd::LinSpaced(n, 0.0, 1.0);
   Eigen::MatrixXd A(n, 5);
   for (Index k = 0; k < A.cols(); ++k) A.col(k) = u.pow(static_cast<double>(k));
-  const Eigen::VectorXd c = (A.transpose() * A).ldlt().solve(A.transpose() * x);
+  const Eigen::VectorXd c = solve_symmetric(A.transpose() * A, A.transpose() * x);
   const double seconds = dt * static_cast<double>(n - 1);
   return 2.0 * c(2) / (seconds * seconds);
 }

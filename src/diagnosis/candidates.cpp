@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/linear_algebra.h"
 #include "diagnosis/spectral_lines.h"
 #include "physics/effect_law.h"
 
@@ -85,7 +86,7 @@ double best_order(const AngleBins& bins) {
     Eigen::Matrix4d gram = A.transpose() * bins.count.asDiagonal() * A;
     gram.diagonal().array() += 1e-9 * gram.diagonal().maxCoeff();
     const Eigen::Vector4d b = A.transpose() * bins.sum;
-    const double gain = b.dot(gram.ldlt().solve(b));
+    const double gain = b.dot(solve_symmetric(gram, b).col(0));
     if (gain > most) most = gain, best = order;
   }
   return best;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "core/linear_algebra.h"
+
 namespace dcnn {
 namespace {
 
@@ -114,12 +116,7 @@ Eigen::VectorXd Setting::whitened(const Signals& signals) const {
 
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   if (A.cols() == 0) return Eigen::VectorXd(0);
-  const Eigen::VectorXd scale =
-      A.colwise().norm().transpose().unaryExpr([](double n) { return n > 0.0 ? 1.0 / n : 0.0; });
-  const Eigen::MatrixXd scaled = A * scale.asDiagonal();
-  Eigen::MatrixXd gram = scaled.transpose() * scaled;
-  gram.diagonal().array() += 1e-11;
-  return scale.cwiseProduct(gram.ldlt().solve(scaled.transpose() * b));
+  return solve_gram(A.transpose() * A, A.transpose() * b, 1e-11);
 }
 
 Eigen::MatrixXd appended(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {

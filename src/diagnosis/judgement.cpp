@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/linear_algebra.h"
 #include "dcnn/data/fourier.h"
 
 namespace dcnn {
@@ -30,12 +31,7 @@ std::vector<std::vector<Index>> time_blocks(const Setting& setting, double secon
 }
 
 Eigen::MatrixXd normal_inverse(const Eigen::MatrixXd& gram) {
-  const Eigen::VectorXd scale =
-      gram.diagonal().unaryExpr([](double g) { return g > 0.0 ? 1.0 / std::sqrt(g) : 0.0; });
-  Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
-  scaled.diagonal().array() += 1e-11;
-  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(gram.rows(), gram.cols());
-  return scale.asDiagonal() * scaled.ldlt().solve(identity) * scale.asDiagonal();
+  return solve_gram(gram, Eigen::MatrixXd::Identity(gram.rows(), gram.cols()), 1e-11);
 }
 
 /// Numbers of a member's published parameters at given coordinates.

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear_algebra.h"
 #include "diagnosis/judgement.h"
 
 namespace dcnn {
 namespace {
 
 constexpr int kPieces = 6;
+constexpr double kRidge = 1e-10;
 
 /// Which piece of its recording each row belongs to, numbered over all recordings.
 std::vector<int> pieces_of(const Setting& setting) {
@@ -30,14 +32,6 @@ struct Sums {
   Eigen::VectorXd match;
 };
 
-Eigen::VectorXd solved(const Eigen::MatrixXd& gram, const Eigen::VectorXd& match) {
-  const Eigen::VectorXd scale =
-      gram.diagonal().unaryExpr([](double g) { return g > 0.0 ? 1.0 / std::sqrt(g) : 0.0; });
-  Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
-  scaled.diagonal().array() += 1e-10;
-  return scale.cwiseProduct(scaled.ldlt().solve(scale.cwiseProduct(match)));
-}
-
 /// What a fit to all but one piece explains of that piece (or, with no piece left out, of all).
 double explained(const Sums& all, const std::vector<Sums>& pieces,
                  const std::vector<Index>& columns, bool leave_out) {
@@ -46,11 +40,11 @@ double explained(const Sums& all, const std::vector<Sums>& pieces,
   };
   double sum = 0.0;
   const Sums whole = part(all);
-  const Eigen::VectorXd fitted = solved(whole.gram, whole.match);
+  const Eigen::VectorXd fitted = solve_gram(whole.gram, whole.match, kRidge);
   for (const Sums& piece : pieces) {
     const Sums own = part(piece);
-    const Eigen::VectorXd c =
-        leave_out ? solved(whole.gram - own.gram, whole.match - own.match) : fitted;
+    Eigen::VectorXd c = fitted;
+    if (leave_out) c = solve_gram(whole.gram - own.gram, whole.match - own.match, kRidge);
     sum += 2.0 * c.dot(own.match) - c.dot(own.gram * c);
   }
   return sum;

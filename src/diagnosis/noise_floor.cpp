@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/linear_algebra.h"
 #include "dcnn/data/fourier.h"
 #include "dcnn/data/rotation.h"
 #include "diagnosis/median.h"
@@ -205,7 +206,7 @@ std::vector<Floor> floor_at_rest(const Case& study, const Signals& residual) {
   gram.diagonal().array() += 1e-9;
   std::vector<Floor> floors;
   for (Index j = 0; j < y.cols(); ++j) {
-    const Eigen::VectorXd left = y.col(j) - A * gram.ldlt().solve(A.transpose() * y.col(j));
+    const Eigen::VectorXd left = y.col(j) - A * solve_symmetric(gram, A.transpose() * y.col(j));
     Floor floor;
     floor.white = left.squaredNorm() / dof;
     floor.source = "poses at rest, beside a free matrix on gravity and an offset";

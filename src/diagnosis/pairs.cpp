@@ -1,6 +1,7 @@
 // Two linear members at once against any one or two others: what a greedy search cannot see.
 #include <algorithm>
 
+#include "core/linear_algebra.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/search.h"
 
@@ -17,12 +18,7 @@ bool is_linear(const Member& member) {
 double gain_of(const Eigen::MatrixXd& gram, const Eigen::VectorXd& match,
                const std::vector<Index>& columns) {
   const Eigen::VectorXd b = match(columns);
-  Eigen::MatrixXd G = gram(columns, columns);
-  const Eigen::VectorXd scale = G.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  G = scale.asDiagonal() * G * scale.asDiagonal();
-  G.diagonal().array() += 1e-9;
-  const Eigen::VectorXd c = scale.cwiseProduct(b);
-  return c.dot(G.ldlt().solve(c));
+  return b.dot(solve_gram(gram(columns, columns), b, 1e-9).col(0));
 }
 
 struct Pool {

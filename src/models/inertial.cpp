@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/linear_algebra.h"
+
 namespace dcnn {
 namespace {
 
@@ -81,7 +83,7 @@ JointProblem joint_problem(const LeastSquares& sums, const WristColumns& columns
 class LogCholesky {
  public:
   explicit LogCholesky(const Matrix4d& scaled, const Eigen::Matrix<double, 6, 1>& bias) {
-    const Matrix4d L = scaled.llt().matrixL();
+    const Matrix4d L = cholesky(scaled);
     for (Index k = 0; k < kBody; ++k) {
       const auto [i, j] = kPlaces[static_cast<std::size_t>(k)];
       point_[k] = i == j ? std::log(L(i, i)) : L(i, j);
@@ -159,7 +161,7 @@ InertialParameters constrained(const JointProblem& problem, LogCholesky start) {
     VectorXd wanted = VectorXd::Zero(stacked.rows());
     wanted.head(error.size()) = -error;
     LogCholesky next = start;
-    next.point() += stacked.householderQr().solve(wanted);
+    next.point() += solve_least_squares(stacked, wanted);
     for (const Index k : {0, 2, 5, 9}) next.point()[k] = std::max(next.point()[k], kFlat);
     const double reached = cost(next);
     if (!(reached < least)) {
@@ -218,13 +220,12 @@ InertialFit fit_inertial(const LeastSquares& sums, const WristColumns& columns) 
   InertialFit fit;
   fit.parameters = solve(dense);
   fit.free_mass = fit.parameters[0];
-  const Eigen::SelfAdjointEigenSolver<Matrix4d> eigen(scaled_pseudo_inertia(fit.parameters));
-  const double largest = std::max(eigen.eigenvalues().maxCoeff(), 1e-6);
-  fit.constraint_active = eigen.eigenvalues().minCoeff() < -1e-12 * largest;
+  const auto [values, vectors] = spectrum_of(scaled_pseudo_inertia(fit.parameters));
+  const double largest = std::max(values.maxCoeff(), 1e-6);
+  fit.constraint_active = values.minCoeff() < -1e-12 * largest;
   if (!fit.constraint_active) return fit;
-  const Eigen::Vector4d inside = eigen.eigenvalues().cwiseMax(kInside * largest);
-  const Matrix4d start =
-      eigen.eigenvectors() * inside.asDiagonal() * eigen.eigenvectors().transpose();
+  const VectorXd inside = values.cwiseMax(kInside * largest);
+  const Matrix4d start = vectors * inside.asDiagonal() * vectors.transpose();
   fit.parameters = constrained(problem, LogCholesky(start, fit.parameters.tail<6>()));
   return fit;
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include "core/linear_algebra.h"
+
 namespace dcnn {
 namespace {
 
@@ -24,8 +26,7 @@ void LeastSquares::add(const Eigen::MatrixXd& a, const Eigen::MatrixXd& y) {
   Eigen::MatrixXd stacked(width + a.rows(), width);
   stacked.topRows(width) = triangle_;
   stacked.bottomRows(a.rows()) << a, y;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(std::move(stacked));
-  triangle_ = qr.matrixQR().topRows(width).triangularView<Eigen::Upper>();
+  triangle_ = triangle_of(std::move(stacked));
   rows_ += a.rows();
 }
 
@@ -55,15 +56,13 @@ Eigen::VectorXd LeastSquares::column_rms() const {
 Eigen::VectorXd solve(const DenseProblem& problem) {
   const Eigen::VectorXd inverse_size =
       problem.size.unaryExpr([](double s) { return s > 0.0 ? 1.0 / s : 1.0; });
-  const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::HouseholderQRPreconditioner> svd(
-      problem.a * inverse_size.asDiagonal(), Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& d = svd.singularValues();
+  const auto [U, V, d] = singular_values(problem.a * inverse_size.asDiagonal());
   Eigen::VectorXd filter = d;
   for (double& value : filter) {
     value = value > kRank * d[0] ? value / (value * value + problem.ridge) : 0.0;
   }
-  const Eigen::VectorXd along = svd.matrixU().transpose() * problem.y;
-  return inverse_size.asDiagonal() * (svd.matrixV() * filter.cwiseProduct(along));
+  const Eigen::VectorXd along = U.transpose() * problem.y;
+  return inverse_size.asDiagonal() * (V * filter.cwiseProduct(along));
 }
 
 Eigen::VectorXd known_before(const LeastSquares& sums) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/linear_algebra.h"
 #include "models/tensor_io.h"
 
 namespace dcnn {
@@ -46,13 +47,11 @@ bool LevenbergMarquardt::iterate() {
 
 /// Raises mu until the step dw = -(H + mu·I)^-1 g lowers the loss.
 bool LevenbergMarquardt::step(const NormalEquations& equations) {
-  Eigen::LLT<Eigen::MatrixXd> cholesky(weights_.size());
   while (mu_ <= settings_.most_mu) {
     Eigen::MatrixXd damped = equations.hessian;
     damped.diagonal().array() += mu_;
-    cholesky.compute(damped);
-    if (cholesky.info() == Eigen::Success) {
-      const Eigen::VectorXd next = weights_ - cholesky.solve(equations.gradient);
+    if (const auto change = solve_definite(damped, equations.gradient)) {
+      const Eigen::VectorXd next = weights_ - *change;
       const double loss = training_.loss(next);
       if (loss < loss_) {
         weights_ = next;

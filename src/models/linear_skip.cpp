@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear_algebra.h"
 #include "dcnn/core/random.h"
 #include "models/random_streams.h"
 #include "models/tensor_io.h"
@@ -82,9 +83,10 @@ void LinearSkip::solve(const std::vector<Gram>& grams) {
     rows += level_weights_[k] * grams[k].rows;
   }
   normal.diagonal().tail(normal.rows() - 1).array() += kRidge * rows;
-  weights_ = normal.llt().solve(moment);
-  require(weights_.allFinite(), Exit::kFailure,
+  const auto weights = solve_definite(normal, moment);
+  require(weights && weights->allFinite(), Exit::kFailure,
           "the linear part could not be fitted: a feature is not finite");
+  weights_ = *weights;
 }
 
 void LinearSkip::weigh(const std::vector<Gram>& grams) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear_algebra.h"
+
 namespace dcnn {
 namespace {
 
@@ -54,8 +56,7 @@ void Envelope::learn(const MatrixXd& x) {
   MatrixXd correlation = z.transpose() * z / n;
   correlation.diagonal().array() +=
       1e-4;  // two features that always move together may part a little
-  whitener_ = MatrixXd::Identity(x.cols(), x.cols());
-  correlation.llt().matrixL().solveInPlace(whitener_);
+  whitener_ = inverse_cholesky(correlation);
 }
 
 Envelope::Envelope(const MatrixXd& x, double dt) {

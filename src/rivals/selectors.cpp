@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/linear_algebra.h"
 #include "dcnn/core/random.h"
 #include "rivals/gram.h"
 
@@ -28,7 +29,7 @@ Fit least_squares(const Block& all, const Columns& chosen) {
   if (chosen.empty()) return fit;
   Eigen::MatrixXd A = all.xx(chosen, chosen);
   A.diagonal().array() += 1e-6 * all.rows;  // the ridge that users set against collinear columns
-  const VectorXd x = A.ldlt().solve(VectorXd(all.xy(chosen)));
+  const VectorXd x = solve_symmetric(A, all.xy(chosen));
   for (std::size_t k = 0; k < chosen.size(); ++k) fit.theta(chosen[k]) = x(static_cast<Index>(k));
   fit.error = error_of(all, fit.theta);
   return fit;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/linear_algebra.h"
+
 namespace dcnn::frame_tcn {
 namespace {
 
@@ -121,7 +123,7 @@ Eigen::MatrixXd wiener(const Moments& signal, const Eigen::MatrixXd& noise, Inde
   const auto rows = newest_blocks(signal.newest.cols(), known);
   Eigen::MatrixXd normal = signal.blocks(rows, rows) + noise(rows, rows);
   normal.diagonal().array() += kRidge;
-  return normal.llt().solve(signal.newest(rows, Eigen::all)).transpose();
+  return solve_definite(normal, signal.newest(rows, Eigen::all)).value().transpose();
 }
 
 Eigen::VectorXd expected_error(const Moments& signal, const Eigen::MatrixXd& noise,

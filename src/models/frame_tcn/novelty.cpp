@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear_algebra.h"
+
 namespace dcnn::frame_tcn {
 namespace {
 
@@ -66,9 +68,7 @@ void Novelty::learn(Index cloud, const Eigen::MatrixXd& seen, const Eigen::Matri
   const Eigen::VectorXd variance = covariance.diagonal();
   covariance *= 1.0 - kShrink;
   covariance.diagonal() = variance.array() + kLeastVariance;
-  whiten.middleCols(cloud * kSigns, kSigns) = Eigen::MatrixXd(covariance.llt().matrixL())
-                                                  .triangularView<Eigen::Lower>()
-                                                  .solve(Eigen::MatrixXd::Identity(kSigns, kSigns));
+  whiten.middleCols(cloud * kSigns, kSigns) = inverse_cholesky(covariance);
   Eigen::VectorXd far = distance(cloud, held_out);
   const auto rare = static_cast<Index>(kRareShare * static_cast<double>(far.size()));
   std::nth_element(far.begin(), far.end() - 1 - rare, far.end());

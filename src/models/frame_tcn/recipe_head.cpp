@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear_algebra.h"
 #include "models/frame_tcn/recipe.h"
 #include "models/random_streams.h"
 
@@ -42,7 +43,7 @@ class HeadEquations {
     for (Index k = 0; k < 6; ++k) normal_.block(k * size_, k * size_, size_, size_) = plain_;
     normal_.bottomLeftCorner(half, half) = normal_.topRightCorner(half, half).transpose().eval();
     normal_.diagonal().array() += kRidge * total_;
-    return normal_.llt().solve(right_);
+    return solve_definite(normal_, right_).value();
   }
 
  private:
