@@ -39,8 +39,11 @@ void drive(RobotLink& link) {
   for (Index k = 0; k < kSamples; ++k) {
     const auto sequence = link.send(test::sample_of(recording, k));
     const double patience = monotonic_seconds() + 10.0;
-    while (const auto result = link.receive(patience)) {
-      if (result->answers == sequence) break;
+    bool answered = false;
+    while (!answered) {
+      const auto result = link.receive(patience);
+      ASSERT_TRUE(result) << "no answer to sample " << k;
+      answered = result->answers == sequence;
     }
   }
 }
@@ -63,7 +66,7 @@ class RunCalls : public ::testing::TestWithParam<Service> {
     const std::string server = "127.0.0.1:" + std::to_string(port),
                       robot = "127.0.0.1:" + std::to_string(port + 10000);
     for (const char* word : {"--listen", server.c_str(), "--peer", robot.c_str(), "--key-file",
-                             key_file.c_str(), "--late", "1000", "--seconds", "8"}) {
+                             key_file.c_str(), "--late", "1000", "--seconds", "10"}) {
       arguments.emplace_back(word);
     }
     const test::Process process("run", arguments, around);
