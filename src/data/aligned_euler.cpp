@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 
 #include "data/feature_blocks.h"
 #include "dcnn/data/rotation.h"
@@ -18,12 +17,11 @@ Eigen::Vector3d circular_mean(const std::vector<Recording>& recordings) {
 }
 
 Eigen::MatrixXd aligned_euler(const Recording& recording, const Eigen::Vector3d& branch) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
   Eigen::MatrixXd euler = euler_angles(recording);
   for (const Segment& segment : recording.segments) {
     for (Index k = 0; k < 3; ++k) {
       auto angle = euler.col(k).segment(segment.begin, segment.size());
-      angle.array() -= kTurn * std::round((angle[0] - branch[k]) / kTurn);
+      angle.array() += nearest_turn(angle[0], branch[k]) - angle[0];
     }
   }
   return euler;

@@ -59,9 +59,8 @@ Eigen::MatrixXd low_pass(const Eigen::MatrixXd& signals, const std::vector<Segme
                          double dt, double hz) {
   if (hz == 0.0) return signals;
   // Poles of the Butterworth filter of order 4 at pi/8 and 3·pi/8 from the real axis.
-  const Section sections[] = {
-      make_section(hz, dt, 0.5 / std::cos(std::numbers::pi / 8.0)),
-      make_section(hz, dt, 0.5 / std::cos(3.0 * std::numbers::pi / 8.0))};
+  const Section sections[] = {make_section(hz, dt, 0.5 / std::cos(std::numbers::pi / 8.0)),
+                              make_section(hz, dt, 0.5 / std::cos(3.0 * std::numbers::pi / 8.0))};
   const auto settling = static_cast<Index>(std::ceil(5.0 / (hz * dt)));
   Eigen::MatrixXd filtered(signals.rows(), signals.cols());
   for (const Segment& segment : segments) {

@@ -14,10 +14,6 @@ Eigen::Vector4d quaternion_from_euler(double alpha, double beta, double gamma) {
           sa * cb * cg - ca * sb * sg};
 }
 
-Eigen::Matrix3d rotation_of(const Eigen::Vector4d& q) {
-  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
-}
-
 }  // namespace
 
 Eigen::Matrix3d rotation_from_euler(const Eigen::Vector3d& euler) {
@@ -36,11 +32,19 @@ Eigen::Vector3d euler_from_rotation(const Eigen::Matrix3d& R) {
   return {std::atan2(R(1, 0), R(0, 0)), beta, std::atan2(R(2, 1), R(2, 2))};
 }
 
-void unwrap(Eigen::Ref<Eigen::MatrixXd> angles) {
+Eigen::Matrix3d rotation_from_quaternion(const Eigen::Vector4d& q) {
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+}
+
+double nearest_turn(double angle, double near) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
+  return angle - kTurn * std::round((angle - near) / kTurn);
+}
+
+void unwrap(Eigen::Ref<Eigen::MatrixXd> angles) {
   for (Index column = 0; column < angles.cols(); ++column) {
     for (Index i = 1; i < angles.rows(); ++i) {
-      angles(i, column) -= kTurn * std::round((angles(i, column) - angles(i - 1, column)) / kTurn);
+      angles(i, column) = nearest_turn(angles(i, column), angles(i - 1, column));
     }
   }
 }
@@ -69,7 +73,7 @@ Eigen::MatrixXd euler_angles(const Recording& recording) {
     const Eigen::MatrixXd q = quaternions(recording);
     euler.resize(q.rows(), 3);
     for (Index i = 0; i < q.rows(); ++i) {
-      euler.row(i) = euler_from_rotation(rotation_of(q.row(i).transpose()));
+      euler.row(i) = euler_from_rotation(rotation_from_quaternion(q.row(i).transpose()));
     }
   } else {
     euler = recording.block(kEuler);
@@ -82,7 +86,7 @@ std::vector<Eigen::Matrix3d> rotations(const Recording& recording) {
   const Eigen::MatrixXd q = quaternions(recording);
   std::vector<Eigen::Matrix3d> R(static_cast<std::size_t>(q.rows()));
   for (Index i = 0; i < q.rows(); ++i) {
-    R[static_cast<std::size_t>(i)] = rotation_of(q.row(i).transpose());
+    R[static_cast<std::size_t>(i)] = rotation_from_quaternion(q.row(i).transpose());
   }
   return R;
 }

@@ -1,7 +1,6 @@
 #include "dcnn/data/streaming_features.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "data/feature_blocks.h"
 #include "dcnn/data/rotation.h"
@@ -53,8 +52,7 @@ const Eigen::VectorXd& StreamingFeatures::push(const Eigen::Vector3d& position,
   if (body_) {
     sample.tail<4>() = q;
   } else {
-    sample.segment<3>(3) =
-        euler_from_rotation(Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix());
+    sample.segment<3>(3) = euler_from_rotation(rotation_from_quaternion(q));
   }
   return advance(sample);
 }
@@ -82,10 +80,9 @@ void StreamingFeatures::join(Sample& sample) const {
     if (count_ > 0 && sample.tail<4>().dot(last_.tail<4>()) < 0.0) sample.tail<4>() *= -1.0;
     return;
   }
-  constexpr double kTurn = 2.0 * std::numbers::pi;
   for (Index k = 0; k < 3; ++k) {
     const double near = count_ > 0 ? last_[3 + k] : layout_.circular_mean[k];
-    sample[3 + k] -= kTurn * std::round((sample[3 + k] - near) / kTurn);
+    sample[3 + k] = nearest_turn(sample[3 + k], near);
   }
 }
 
@@ -99,8 +96,7 @@ void StreamingFeatures::write(const Sample& now, const Sample& first, const Samp
   Eigen::Matrix<double, 3, 5> groups;
   if (body_) {
     const Eigen::Vector4d q = now.tail<4>();
-    const Eigen::Matrix3d R_SB =
-        R_SE_ * Eigen::Quaterniond(q[0], -q[1], -q[2], -q[3]).toRotationMatrix();
+    const Eigen::Matrix3d R_SB = R_SE_ * rotation_from_quaternion(q).transpose();
     groups << R_SB.col(2), R_SB * first.head<3>(), R_SE_ * angular_rate(q, first.tail<4>()),
         R_SB * second.head<3>(), R_SE_ * angular_rate(q, second.tail<4>());
   } else {

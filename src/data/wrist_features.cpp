@@ -133,7 +133,7 @@ Motion body_motion(const Recording& recording, const FeatureLayout& layout,
   const MatrixXd q = quaternions(recording);
   const Matrix3d R_SE = rotation_from_euler(layout.spec.sensor_rotation_rpy.reverse()).transpose();
   const auto R_SB = [&](Index i) -> Matrix3d {
-    return R_SE * Eigen::Quaterniond(q(i, 0), -q(i, 1), -q(i, 2), -q(i, 3)).toRotationMatrix();
+    return R_SE * rotation_from_quaternion(q.row(i)).transpose();
   };
   motion.orientation = Vector3d::UnitZ().transpose().replicate(q.rows(), 1);
   turn_rows(motion.orientation, R_SB);

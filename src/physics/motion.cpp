@@ -79,8 +79,7 @@ void smooth_orientation(const Recording& recording, const ToolModel& model,
   const MatrixXd q = differentiate(quaternions(recording), recording, spec).value;
   for (Index k = 0; k < q.rows(); ++k) {
     motion.R_BS[static_cast<std::size_t>(k)] =
-        Eigen::Quaterniond(q(k, 0), q(k, 1), q(k, 2), q(k, 3)).normalized().toRotationMatrix() *
-        model.R_ES();
+        rotation_from_quaternion(q.row(k).normalized()) * model.R_ES();
   }
   motion.euler = differentiate(motion.euler, recording, spec).value;
 }

@@ -1,7 +1,6 @@
 #include "dcnn/physics/streaming_simulator.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "data/feature_blocks.h"
 #include "dcnn/data/rotation.h"
@@ -81,15 +80,14 @@ const InstantWrench& StreamingSimulator::push(const Vector3d& position, const Ve
 const InstantWrench& StreamingSimulator::push(const Vector3d& position,
                                               const Eigen::Vector4d& quaternion) {
   const Eigen::Vector4d q = quaternion.normalized();
-  const Eigen::Matrix3d R_BE = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  const Eigen::Matrix3d R_BE = rotation_from_quaternion(q);
   return advance(features_.push(position, quaternion), R_BE, euler_from_rotation(R_BE));
 }
 
 const InstantWrench& StreamingSimulator::advance(const Eigen::VectorXd& x,
                                                  const Eigen::Matrix3d& R_BE, Vector3d euler) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
   for (int i = 0; i < 3 && !now_.first; ++i) {
-    euler[i] -= kTurn * std::round((euler[i] - now_.euler[i]) / kTurn);
+    euler[i] = nearest_turn(euler[i], now_.euler[i]);
   }
   now_.euler = euler;
   now_.R_BS = R_BE * R_ES_;

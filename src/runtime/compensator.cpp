@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "dcnn/data/rotation.h"
@@ -21,8 +20,7 @@ constexpr double kQuiet = 0.5;    // s without contact before the bias is tracke
 
 Matrix3d rotation_of(const OnlineSample& sample) {
   if (sample.euler) return rotation_from_euler(*sample.euler);
-  const Vector4d q = sample.quaternion.normalized();
-  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  return rotation_from_quaternion(sample.quaternion.normalized());
 }
 
 Vector6d turned(const Matrix3d& R, const Vector6d& wrench) {
@@ -124,7 +122,6 @@ Reason OnlineCompensator::tell_time(const OnlineSample& sample) noexcept {
 
 /// Straight lines through samples that are missing between the last one and this one.
 void OnlineCompensator::bridge(const OnlineSample& sample, Index steps) noexcept {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
   Vector4d to = sample.quaternion;
   if (to.dot(last_.quaternion) < 0.0) to = -to;
   for (Index k = 1; k < steps; ++k) {
@@ -132,7 +129,7 @@ void OnlineCompensator::bridge(const OnlineSample& sample, Index steps) noexcept
     std::optional<Vector3d> euler;
     if (sample.euler && last_.euler) {
       Vector3d way = *sample.euler - *last_.euler;
-      for (double& angle : way) angle = std::remainder(angle, kTurn);
+      for (double& angle : way) angle = nearest_turn(angle, 0.0);
       euler = *last_.euler + u * way;
     }
     feed(last_.position + u * (sample.position - last_.position),

@@ -13,6 +13,11 @@ Eigen::Matrix3d rotation_from_euler(const Eigen::Vector3d& euler);
 /// beta in [-pi/2, pi/2], alpha and gamma in (-pi, pi]; at the singularity alpha carries the turn.
 Eigen::Vector3d euler_from_rotation(const Eigen::Matrix3d& R);
 
+/// Of a unit quaternion (w,x,y,z).
+Eigen::Matrix3d rotation_from_quaternion(const Eigen::Vector4d& q);
+
+/// The angle plus that multiple of 2 pi which brings it nearest to `near`, rad.
+double nearest_turn(double angle, double near);
 /// Adds multiples of 2 pi to each column so that |step| < pi.
 void unwrap(Eigen::Ref<Eigen::MatrixXd> angles);
 
