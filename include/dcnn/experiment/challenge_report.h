@@ -12,7 +12,7 @@ namespace dcnn {
 std::string challenge_text(const Json& scores);
 std::string challenge_html(const Json& scores);
 
-/// FOLDER/scores.json and FOLDER/report.html.
+/// FOLDER/scores.json, FOLDER/report.html and its first figure, FOLDER/holdout.svg.
 void write_challenge(const std::filesystem::path& folder, const Json& scores);
 
 }  // namespace dcnn

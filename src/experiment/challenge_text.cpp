@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <cstdio>
+
+#include "dcnn/experiment/challenge_report.h"
+#include "experiment/challenge_tables.h"
+
+namespace dcnn {
+namespace {
+
+const Columns kHeadline{{"top1", "first name is right"},
+                        {"set", "all named, nothing else"},
+                        {"class_set", "the same, alternatives count"},
+                        {"found", "effects named"},
+                        {"found_class", "effects named or among the alternatives"},
+                        {"false_discovery", "false names among all names"},
+                        {"null_specificity", "\"consistent\" where nothing is hidden"},
+                        {"null_without_name", "no name where nothing is hidden"},
+                        {"abstention", "no name for what has none"},
+                        {"verdict", "verdict right"},
+                        {"axis", "axis right"},
+                        {"interval_overlap", "overlap of intervals"},
+                        {"parameter_error", "relative error of a number"},
+                        {"coverage", "truth within ci95"},
+                        {"after_over_oracle", "hold-out error over the true law's"},
+                        {"after_over_floor", "hold-out error over the estimated floor"},
+                        {"seconds", "seconds a scenario"},
+                        {"ran", "ended without an error"}};
+
+std::string text_of(const char* format, double a, double b = 0.0, double c = 0.0) {
+  char text[96];
+  std::snprintf(text, sizeof text, format, a, b, c);
+  return text;
+}
+
+/// One method a row, rates in per cent, medians.
+std::string comparison_text(const Json& table) {
+  const Columns columns{{"top1", "first"},
+                        {"set", "set"},
+                        {"false_discovery", "false"},
+                        {"null_without_name", "nulls"},
+                        {"verdict", "verdict"},
+                        {"after_over_oracle", "hold-out"},
+                        {"seconds", "seconds"}};
+  std::string text(28, ' ');
+  for (const auto& [key, heading] : columns)
+    text += std::string(10 - heading.size(), ' ') + heading;
+  for (const auto& [label, rates] : table.items()) {
+    std::string line = label;
+    line.resize(28, ' ');
+    for (const auto& [key, heading] : columns) {
+      const Json value = rates.value(key, Json());
+      std::string said;
+      if (value.contains("rate") && !value["rate"].is_null()) {
+        said = text_of("%.0f %%", 100.0 * value["rate"].get<double>());
+      } else if (value.contains("median")) {
+        said = text_of("%.4g", value["median"]);
+      }
+      line += std::string(10 - std::min<std::size_t>(10, said.size()), ' ') + said;
+    }
+    text += "\n" + line;
+  }
+  return text + "\n";
+}
+
+std::string joined(const Json& names) {
+  std::string text;
+  for (const Json& name : names) text += (text.empty() ? "" : ", ") + name.get<std::string>();
+  return text.empty() ? "nothing" : text;
+}
+
+/// What was hidden and what was said of it.
+std::string story(const Json& s) {
+  std::string hidden;
+  for (const Json& e : s["effects"]) {
+    hidden += (hidden.empty() ? "" : ", ") + e["effect"].get<std::string>() +
+              text_of(" (%.2g of the noise)", e["amplitude"]);
+  }
+  std::string text = s["id"].get<std::string>() +
+                     "  hidden:  " + (hidden.empty() ? "nothing" : hidden) +
+                     "\n       named:   " + joined(s["named"]) +
+                     "\n       verdict: " + s["verdict"].get<std::string>() + "\n";
+  const Json& error = s["holdout"];
+  if (error.contains("after") && error.contains("oracle")) {
+    text += text_of("       held-out error %.3g N, with what was found %.3g N; ", error["before"],
+                    error["after"]) +
+            text_of("the true law fitted leaves %.3g N\n", error["oracle"]);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string score_text(const Json& value) {
+  if (value.is_null()) return "";
+  if (value.contains("rate")) {
+    if (value["rate"].is_null()) return "";
+    return text_of("%.0f %% [%.0f, %.0f]", 100.0 * value["rate"].get<double>(),
+                   100.0 * value["low"].get<double>(), 100.0 * value["high"].get<double>()) +
+           " of " + value["n"].dump();
+  }
+  return text_of("%.4g, 90 %% below %.4g", value["median"], value["p90"]);
+}
+
+Json beside_rivals(const Json& scores) {
+  Json table{{"dcnn-diagnose", scores["tables"]["all"]}};
+  table.update(scores["rivals"]);
+  for (const auto& [method, rates] : scores["rivals"].items()) table[method].erase("verdict");
+  table["the true law"] = {{"after_over_oracle", {{"median", 1.0}, {"p90", 1.0}}}};
+  return table;
+}
+
+Json beside_ablations(const Json& scores) {
+  Json table{{"complete", scores["tables"]["all"]}};
+  for (const auto& [part, rates] : scores["ablations"].items()) table["without " + part] = rates;
+  return table;
+}
+
+std::string challenge_text(const Json& scores) {
+  std::string text = std::to_string(scores["scenarios"].size()) + " scenarios of seed " +
+                     scores["seed"].dump() + ", sealed " + scores["sha256"].get<std::string>() +
+                     "\n";
+  constexpr std::size_t kFew = 5;
+  if (scores["scenarios"].size() <= kFew) {
+    for (const Json& s : scores["scenarios"]) text += story(s);
+    return text;
+  }
+  for (const auto& [key, heading] : kHeadline) {
+    const std::string value = score_text(scores["tables"]["all"].value(key, Json()));
+    if (value.empty()) continue;
+    std::string label = heading;
+    label.resize(46, ' ');
+    text += label + value + "\n";
+  }
+  if (!scores["missing"].empty()) {
+    text += std::to_string(scores["missing"].size()) + " scenarios are not yet run\n";
+  }
+  if (!scores["rivals"].empty()) text += "\n" + comparison_text(beside_rivals(scores));
+  if (!scores["ablations"].empty()) text += "\n" + comparison_text(beside_ablations(scores));
+  return text;
+}
+
+}  // namespace dcnn
