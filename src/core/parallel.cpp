@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <exception>
 
 namespace dcnn {
 
@@ -13,8 +14,22 @@ Index piece_count(Index n) {
 }
 
 void for_each_piece(Index count, const std::function<void(Index)>& work) {
+  // What leaves a parallel region as an exception ends the program.
+  std::exception_ptr thrown;
+  Index thrown_by = count;
 #pragma omp parallel for schedule(static) if (count > 1)
-  for (Index k = 0; k < count; ++k) work(k);
+  for (Index k = 0; k < count; ++k) {
+    try {
+      work(k);
+    } catch (...) {
+#pragma omp critical(dcnn_thrown_by_a_piece)
+      if (k < thrown_by) {
+        thrown = std::current_exception();
+        thrown_by = k;
+      }
+    }
+  }
+  if (thrown) std::rethrow_exception(thrown);
 }
 
 void set_threads(int threads) {

@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace dcnn {
 namespace {
@@ -27,6 +31,21 @@ TEST(Pieces, EveryPieceIsWorkedOnOnce) {
   std::vector<std::atomic<int>> seen(100);
   for_each_piece(100, [&](Index k) { ++seen[static_cast<std::size_t>(k)]; });
   for (const auto& count : seen) EXPECT_EQ(count, 1);
+}
+
+TEST(Pieces, WhatThePieceOfLeastNumberThrowsComesOut) {
+  std::vector<int> done(40, 0);
+  const auto work = [&](Index k) {
+    if (k == 7 || k == 31) throw std::runtime_error("piece " + std::to_string(k));
+    done[static_cast<std::size_t>(k)] = 1;
+  };
+  try {
+    for_each_piece(40, work);
+    FAIL() << "nothing was thrown";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "piece 7");
+  }
+  EXPECT_EQ(std::accumulate(done.begin(), done.end(), 0), 38);
 }
 
 }  // namespace

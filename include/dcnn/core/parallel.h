@@ -17,6 +17,7 @@ Index piece_count(Index n);
 inline Index piece_begin(Index n, Index pieces, Index k) { return n * k / pieces; }
 
 /// Calls work(k) for k in [0, count) on the OpenMP threads; which thread takes which k is fixed.
+/// What work throws is thrown once all are done, that of the least k first.
 void for_each_piece(Index count, const std::function<void(Index)>& work);
 
 /// Number of threads for all later work; 0 leaves OpenMP's choice (OMP_NUM_THREADS, else all
