@@ -2,9 +2,11 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <string>
+#include <utility>
 
 #include "data/testing.h"
 #include "dcnn/data/csv.h"
@@ -37,6 +39,12 @@ struct RunBench {
 inline const RunBench& bench() {
   static const RunBench shared;
   return shared;
+}
+
+/// Two ports that were free a moment ago.
+inline std::pair<std::string, std::string> free_ports() {
+  const int first = 20000 + static_cast<int>(::getpid()) % 20000;
+  return {"127.0.0.1:" + std::to_string(first), "127.0.0.1:" + std::to_string(first + 20000)};
 }
 
 }  // namespace dcnn::test

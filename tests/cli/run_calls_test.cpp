@@ -1,11 +1,8 @@
 // What dcnn-run does after start-up: it waits, receives, sends and reads the clock; nothing else.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
-#include <map>
 #include <set>
-#include <sstream>
 
 #include "cli/run_bench.h"
 #include "dcnn/runtime/udp.h"
@@ -62,9 +59,7 @@ class RunCalls : public ::testing::TestWithParam<Service> {
     }
     const auto key_file = (bench().folder / "calls.key").string();
     if (!std::filesystem::exists(key_file)) run("run", {"--make-key", key_file});
-    const int port = 30000 + static_cast<int>(::getpid()) % 10000;
-    const std::string server = "127.0.0.1:" + std::to_string(port),
-                      robot = "127.0.0.1:" + std::to_string(port + 10000);
+    const auto [server, robot] = test::free_ports();
     for (const char* word : {"--listen", server.c_str(), "--peer", robot.c_str(), "--key-file",
                              key_file.c_str(), "--late", "1000", "--seconds", "10"}) {
       arguments.emplace_back(word);

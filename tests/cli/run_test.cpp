@@ -17,6 +17,7 @@ namespace dcnn {
 namespace {
 
 using test::bench;
+using test::free_ports;
 using test::kSanitized;
 using test::run;
 using testing::contains;
@@ -103,12 +104,6 @@ TEST(RunTool, WrongUseIsOneLine) {
   ::chmod(key.c_str(), 0600);
   std::filesystem::resize_file(key, 31);
   EXPECT_EQ(code(serve), 2);
-}
-
-/// Two ports that were free a moment ago.
-std::pair<std::string, std::string> free_ports() {
-  const int first = 20000 + static_cast<int>(::getpid()) % 20000;
-  return {"127.0.0.1:" + std::to_string(first), "127.0.0.1:" + std::to_string(first + 20000)};
 }
 
 TEST(RunTool, AnswersItsPeerAndNobodyElse) {
