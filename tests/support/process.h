@@ -29,7 +29,9 @@ inline std::string slurp(const std::filesystem::path& path) {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "dcnn-test-XXXXXX").string();
+    // mkdtemp() writes the name's last six letters, which must be X.
+    const std::string name = "dcnn-test-" + std::string(6, 'X');
+    std::string pattern = (std::filesystem::temp_directory_path() / name).string();
     path_ = ::mkdtemp(pattern.data());
   }
   ~TemporaryFolder() {
