@@ -9,7 +9,6 @@ file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/dcnnConfig.cmake
 "include(CMakeFindDependencyMacro)
 list(APPEND CMAKE_MODULE_PATH \${CMAKE_CURRENT_LIST_DIR})
 find_dependency(Eigen3 3.4 NO_MODULE)
-find_dependency(nlohmann_json)
 find_dependency(OpenMP COMPONENTS CXX)
 find_dependency(hwy)
 find_dependency(Sodium)

@@ -1,5 +1,12 @@
 # How every target of this project is compiled.
-function(dcnn_warnings target)
+function(dcnn_flags target)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    # Templates fill the compiler's memory: collecting it every few megabytes takes a twentieth of its time.
+    target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=700000)
+  endif()
+  if(NOT DCNN_WARNINGS)
+    return()
+  endif()
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     # GCC 12 reports the inlined code of std::string itself (GCC bugs 105329 and 105651), and memory that
@@ -12,11 +19,11 @@ function(dcnn_warnings target)
   endif()
 endfunction()
 
-# Warnings, and the headers that take longest precompiled.
+# The same, and the headers that take longest precompiled.
 function(dcnn_compile_options target)
-  dcnn_warnings(${target})
+  dcnn_flags(${target})
   target_precompile_headers(${target} PRIVATE
-    <Eigen/Dense> <dcnn/core/json.h> <algorithm> <functional> <memory> <string> <vector>)
+    <Eigen/Dense> <dcnn/core/json.h> <algorithm> <functional> <memory> <sstream> <string> <vector>)
 endfunction()
 
 # Eight files of a room are compiled as one, which halves the time of a full build. Highway's kernels
@@ -42,8 +49,12 @@ function(dcnn_add_library target)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     PRIVATE ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(${target} PUBLIC Eigen3::Eigen nlohmann_json::nlohmann_json
-    PRIVATE OpenMP::OpenMP_CXX hwy::hwy Sodium::sodium)
+  target_link_libraries(${target} PUBLIC Eigen3::Eigen PRIVATE
+    $<BUILD_INTERFACE:nlohmann_json::nlohmann_json> $<LINK_ONLY:OpenMP::OpenMP_CXX> hwy::hwy Sodium::sodium)
+  # One file makes threads. Elsewhere OpenMP would only cost time: Clang looks for parallel regions in
+  # every function, a quarter of its work.
+  set_source_files_properties(${PROJECT_SOURCE_DIR}/src/core/parallel.cpp PROPERTIES
+    COMPILE_OPTIONS "${OpenMP_CXX_FLAGS}" SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
   # Fixed alignment: a consumer compiled with -march=native must agree with us about Eigen's memory.
   # Threads are ours alone, in fixed pieces: Eigen's own would make results depend on their number.
   target_compile_definitions(${target} PUBLIC EIGEN_MAX_ALIGN_BYTES=16 EIGEN_DONT_PARALLELIZE

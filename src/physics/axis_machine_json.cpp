@@ -90,7 +90,7 @@ Json inner_parameters(const EffectKind& kind, const Json& outer, const Axis& axi
       inner[name] = 0.0;
       if (!parameter) continue;
       const auto found = outer.find(parameter->stem);
-      if (found == outer.end() || !found->is_number()) break;
+      if (!found || !found->is_number()) break;
       inner[name] = parameter->sign * (found->get<double>() - parameter->shift);
       ++used;
     }

@@ -32,7 +32,7 @@ struct Setup {
 std::uint64_t read_seed(Options& options) {
   const Json seed = options.raw("seed");
   if (seed.is_null()) return 1;
-  if (!seed.is_number_unsigned() && !(seed.is_number_integer() && seed >= 0))
+  if (!seed.is_number_unsigned() && !(seed.is_number_integer() && seed.get<std::int64_t>() >= 0))
     options.reject("seed", "must be a whole number of at least 0");
   return seed.get<std::uint64_t>();
 }

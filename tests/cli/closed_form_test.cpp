@@ -40,7 +40,7 @@ TEST_F(ClosedFormTools, LearnFromPosesAtRestAndLeaveARunDirectory) {
     ASSERT_EQ(fitted.exit_code, 0) << fitted.err;
     const Json summary = parse_json(fitted.out, "train", Exit::kFailure);
     EXPECT_EQ(summary["model"], model);
-    EXPECT_GT(summary["validation_rows"], 0);
+    EXPECT_GT(summary["validation_rows"].get<int>(), 0);
     const auto folder = std::filesystem::path(out).replace_extension(".run");
     EXPECT_EQ(test::slurp(folder / "best.dcnn"), test::slurp(out));
     EXPECT_EQ(test::slurp(folder / "last.dcnn"), test::slurp(out));

@@ -89,7 +89,8 @@ const Json* find(const Json& report, const std::string& effect) {
 /// The finding's number, with its unit checked.
 double number(const Json& finding, const char* name, const char* unit) {
   EXPECT_EQ(finding["parameters"][name]["unit"], unit) << finding.dump();
-  EXPECT_LT(finding["parameters"][name]["ci95"][0], finding["parameters"][name]["ci95"][1]);
+  const auto interval = finding["parameters"][name]["ci95"].get<std::vector<double>>();
+  EXPECT_LT(interval[0], interval[1]);
   return finding["parameters"][name]["value"];
 }
 

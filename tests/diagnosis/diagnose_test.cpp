@@ -103,8 +103,9 @@ TEST(Diagnose, TakesApartTwoEffectsAndShowsTheErrorFall) {
   ASSERT_EQ(found, (std::vector<std::string>{"coulomb_friction", "mass"}));
   for (const Json& f : report["findings"]) {
     for (const auto& [name, p] : f["parameters"].items()) {
-      EXPECT_LT(p["ci95"][0], p["value"]) << name;
-      EXPECT_LT(p["value"], p["ci95"][1]) << name;
+      const auto value = p["value"].get<double>();
+      EXPECT_LT(p["ci95"][0].get<double>(), value) << name;
+      EXPECT_LT(value, p["ci95"][1].get<double>()) << name;
     }
     EXPECT_LT(f["p_value"].get<double>(), 0.01);
     EXPECT_GT(f["holdout_gain"].get<double>(), 0.02);
@@ -113,8 +114,9 @@ TEST(Diagnose, TakesApartTwoEffectsAndShowsTheErrorFall) {
   for (std::size_t j = 0; j < 3; ++j) {
     EXPECT_LT(fit["holdout_rmse_after"][j].get<double>(), 0.0415);
   }
-  EXPECT_GT(fit["holdout_rmse_before"][2], fit["holdout_rmse_parameters"][2]);
-  EXPECT_GT(fit["holdout_rmse_parameters"][2], fit["holdout_rmse_after"][2]);
+  const auto refitted = fit["holdout_rmse_parameters"][2].get<double>();
+  EXPECT_GT(fit["holdout_rmse_before"][2].get<double>(), refitted);
+  EXPECT_GT(refitted, fit["holdout_rmse_after"][2].get<double>());
 
   // What the files hold is what dcnn-sim makes of model.json.
   write_diagnosis(bench / "out", diagnosis);

@@ -167,7 +167,7 @@ TEST(StaticConfig, IsAListOfPosesAtRest) {
 /// The message that a changed configuration is refused with.
 std::string refusal(const std::string& pointer, const Json& value) {
   Json config = small_config();
-  config[Json::json_pointer(pointer)] = value;
+  at_pointer(config, pointer) = value;
   try {
     simulate_config(config, "c.json");
   } catch (const Error& error) {

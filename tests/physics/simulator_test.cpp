@@ -194,7 +194,7 @@ TEST(Simulator, ReadsBackWhatItWrites) {
 /// The message of the Error that the changed sim.json is refused with.
 std::string refusal(const std::string& pointer, const Json& value) {
   Json json = example_sim();
-  json[Json::json_pointer(pointer)] = value;
+  at_pointer(json, pointer) = value;
   try {
     parse_simulator(json, "sim.json", Exit::kData);
   } catch (const Error& error) {

@@ -1,6 +1,7 @@
 // Recordings of a swinging tool for the tests of the physics room.
 #pragma once
 
+#include <sstream>
 #include <string>
 
 #include "dcnn/physics/simulator.h"
@@ -73,6 +74,16 @@ inline Wrench applied(const EffectSpec& effect, const Motion& motion, Wrench wre
                       const ToolModel& model = example_tool()) {
   apply_effect(effect, motion, model, wrench);
   return wrench;
+}
+
+/// The value that a JSON pointer such as "/effects/0/axis" leads to.
+inline Json& at_pointer(Json& json, const std::string& pointer) {
+  Json* place = &json;
+  std::istringstream keys(pointer.substr(1));
+  for (std::string key; std::getline(keys, key, '/');) {
+    place = place->is_array() ? &place->at(std::stoul(key)) : &(*place)[key];
+  }
+  return *place;
 }
 
 /// A file of this repository as JSON.
