@@ -59,7 +59,7 @@ function(dcnn_add_library target)
   # Threads are ours alone, in fixed pieces: Eigen's own would make results depend on their number.
   target_compile_definitions(${target} PUBLIC EIGEN_MAX_ALIGN_BYTES=16 EIGEN_DONT_PARALLELIZE
     PRIVATE DCNN_VERSION="${PROJECT_VERSION}"
-            "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_AVX3_DL)")
+            "HWY_DISABLED_TARGETS=(${DCNN_DISABLED_TARGETS})")
   target_compile_features(${target} PUBLIC cxx_std_20)
   dcnn_compile_options(${target})
   if(DCNN_UNITE_ROOMS)

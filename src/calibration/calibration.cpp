@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 constexpr double kDegenerate = 1e-3, kMirrored = 0.05;  // spec 7
 constexpr double kGainTolerance = 0.02;
 constexpr double kOtherMounting = 20.0 * M_PI / 180.0;  // no assembly tolerance
+constexpr double kClearF = 20.0;  // by chance in less than 2 of 1000 sets of four pairs
 
 std::string text(const char* format, double a, double b = 0, double c = 0) {
   char line[160];
@@ -45,6 +46,33 @@ void check_pairs(const ForcePairs& pairs, bool with_bias) {
        text("(or one axis negated) the residual is %.3g N", other.residual_rms), reading);
 }
 
+/// The rotation nearest to H^T (Kabsch), whatever H is worth.
+Matrix3d nearest_rotation(const Eigen::JacobiSVD<Matrix3d>& svd) {
+  const double d = (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0 ? -1.0 : 1.0;
+  return svd.matrixV() * Vector3d(1.0, 1.0, d).asDiagonal() * svd.matrixU().transpose();
+}
+
+double chi_squared(const MatrixXd& s, const MatrixXd& r, const Eigen::VectorXd& weights,
+                   const Matrix3d& R) {
+  return (r - s * R.transpose()).rowwise().squaredNorm().dot(weights);
+}
+
+/// Says so where an offset of the sensor that was not asked for explains the residual (F-test).
+void suggest_bias(const ForcePairs& pairs, double chi2, Calibration& result) {
+  const MatrixXd s = pairs.sensor.rowwise() - mean(pairs.sensor, pairs.weights);
+  const MatrixXd r = pairs.reference.rowwise() - mean(pairs.reference, pairs.weights);
+  const auto freedom = static_cast<double>(3 * s.rows() - 6);
+  if (freedom < 6.0) return;
+  const Matrix3d H = s.transpose() * pairs.weights.asDiagonal() * r;
+  const Eigen::JacobiSVD<Matrix3d> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double with = chi_squared(s, r, pairs.weights, nearest_rotation(svd));
+  if (!(chi2 - with > kClearF * 3.0 * with / freedom)) return;
+  result.notes.push_back(
+      text("the residual of %.3g N is %.3g N with a constant offset of the sensor: "
+           "add --with-bias",
+           result.residual_rms, std::sqrt(with / (3.0 * pairs.weights.sum()))));
+}
+
 /// The rotation that turns s into r, H = sum w s r^T.
 Matrix3d best_rotation(const Matrix3d& H, const ForcePairs& pairs,
                        const CalibrationOptions& options) {
@@ -59,7 +87,7 @@ Matrix3d best_rotation(const Matrix3d& H, const ForcePairs& pairs,
           ": nearly parallel forces leave the turn about sensor axis ",
           text("(%.2f, %.2f, %.2f)", axis[0], axis[1], axis[2]),
           " undetermined; add orientations that load another axis");
-  return svd.matrixV() * Vector3d(1.0, 1.0, d).asDiagonal() * svd.matrixU().transpose();
+  return nearest_rotation(svd);
 }
 
 void compare_with_nominal(const ForcePairs& pairs, const CalibrationOptions& options,
@@ -120,14 +148,14 @@ Calibration calibrate(const ForcePairs& pairs, const CalibrationOptions& options
   result.gain = (result.R_ES * H).trace() / energy;
   result.offset = r_mean.transpose() - result.R_ES * s_mean.transpose();
 
-  const MatrixXd left = r - s * result.R_ES.transpose();
-  const double chi2 = left.rowwise().squaredNorm().dot(pairs.weights);
+  const double chi2 = chi_squared(s, r, pairs.weights, result.R_ES);
   result.residual_rms = std::sqrt(chi2 / (3.0 * pairs.weights.sum()));
   const auto freedom = static_cast<double>(3 * s.rows() - (options.with_bias ? 6 : 3));
   const Matrix3d information = energy * Matrix3d::Identity() - weighted.transpose() * s;
   result.covariance = chi2 / std::max(freedom, 1.0) * information.inverse();
 
   add_notes(Eigen::JacobiSVD<Matrix3d>(H).singularValues(), result);
+  if (!options.with_bias) suggest_bias(pairs, chi2, result);
   if (options.nominal) compare_with_nominal(pairs, options, result);
   return result;
 }

@@ -80,6 +80,16 @@ TEST(Calibration, BiasIsFoundWithTheTurn) {
   EXPECT_LT((c.offset + kMounting * bias).norm(), 1e-12);
 }
 
+TEST(Calibration, ABiasThatWasNotAskedForIsPointedOut) {
+  const auto notes = [](const Vector3d& bias) {
+    return calibrate(random_pairs(12, 0.05, bias), {}).notes;
+  };
+  EXPECT_TRUE(notes(Vector3d::Zero()).empty());
+  const auto said = notes({1.0, -0.5, 0.3});
+  ASSERT_FALSE(said.empty());
+  EXPECT_TRUE(contains(said.back(), "--with-bias")) << said.back();
+}
+
 TEST(Calibration, WeightsLeaveOutWhatTheyDoNotTrust) {
   ForcePairs pairs = random_pairs(20, 0.0);
   pairs.sensor.row(3) += Eigen::RowVector3d(4, 4, 4);
