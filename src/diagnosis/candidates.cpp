@@ -160,6 +160,11 @@ bool has_temperature(const Case& study) {
   });
 }
 
+bool has_acceleration(const Case& study) {
+  return std::all_of(study.logs.begin(), study.logs.end(),
+                     [](const Log& log) { return log.motion.a_B.rows() == log.motion.samples(); });
+}
+
 }  // namespace
 
 bool is_listed(const Case& study, const EffectKind& kind) {
@@ -196,15 +201,19 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
   if (study.axis && kind.axis == AxisRule::kAngle && study.axis->axis().position.empty()) {
     return because("no position is logged");
   }
-  if (kind.stage == Stage::kTool && !study.own_tool && std::string(kind.name) != "mass") {
+  const std::string name = kind.name;
+  const bool felt_at_rest =
+      name != "inertial_terms" && name != "loose_load" && (name != "com" || study.has_torque());
+  if (!study.is_static() && !felt_at_rest && !has_acceleration(study)) {
+    return because("no position or acceleration is logged");
+  }
+  if (kind.stage == Stage::kTool && !study.own_tool && name != "mass") {
     return because("the simulator's own tool is not known");
   }
-  if (std::string(kind.name) == "inertial_terms" &&
-      study.simulator.model.inertial == ToolModel::Inertial::kFull) {
+  if (name == "inertial_terms" && study.simulator.model.inertial == ToolModel::Inertial::kFull) {
     return because("the simulator has all inertial terms");
   }
-  if ((std::string(kind.name) == "com" || std::string(kind.name) == "inertial_terms") &&
-      study.is_static() && !study.has_torque()) {
+  if ((name == "com" || name == "inertial_terms") && study.is_static() && !study.has_torque()) {
     return because("at rest the force does not depend on it");
   }
   return true;
