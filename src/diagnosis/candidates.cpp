@@ -29,13 +29,12 @@ std::vector<Eigen::VectorXd> seed_grid(const EffectFit& form) {
   return grid;
 }
 
-/// What is left, averaged over 20 ms, and the rows' directions along one axis.
 struct AngleBins {
   double low = 0.0, width = 0.02;
   Eigen::VectorXd sum, count;
 };
 
-/// The force along n, collected in bins of the angle.
+/// What is left along n, collected in bins of the angle.
 AngleBins bin_by_angle(const Case& study, const Signals& left, const std::string& axis) {
   AngleBins bins;
   double low = 1e300, high = -1e300;
@@ -110,17 +109,19 @@ void add_resonances(const Scan& scan, const Signals& left, const std::vector<Flo
                     std::vector<Member>& list) {
   const Case& study = scan.setting().study;
   const EffectKind& kind = *find_effect("flexible_resonance");
+  // Above half the rate of the blocks a mode shows its stiffness alone.
+  const double top = std::min(0.25 / study.dt(), 0.5 / scan.setting().whitener.block_seconds());
   for (std::size_t j = 0; j < study.channels.size(); ++j) {
     if (study.channels[j] > 2) continue;
-    auto peaks =
-        spectral_lines(study, left, floors, 1.5, 0.25 / study.dt(), static_cast<Index>(j), 3);
+    auto peaks = spectral_lines(study, left, floors, 1.5, top, static_cast<Index>(j), 3);
     for (const double hz : {4.0, 8.0, 14.0}) peaks.push_back({hz, 0.0, 0.0});
     for (const Peak& peak : peaks) {
       for (const double zeta : kind.fits[0].shapes[1].seeds) {
         list.push_back(make_member(
             kind, kind.fits[0],
             admitted_axes(AxisRule::kSensor)[static_cast<std::size_t>(study.channels[j])],
-            study.has_torque(), Eigen::Vector2d(peak.hz, zeta)));
+            study.has_torque(), Eigen::Vector2d(std::min(peak.hz, top), zeta)));
+        list.back().most_shapes = Eigen::Vector2d(top, kind.fits[0].shapes[1].high);
       }
     }
   }
