@@ -65,7 +65,6 @@ AngleBins bin_by_angle(const Case& study, const Signals& left, const std::string
   return bins;
 }
 
-/// One whole period within the range of the angle.
 double least_order(const AngleBins& bins) {
   return 2.0 * std::numbers::pi / (bins.width * static_cast<double>(bins.sum.size()));
 }
