@@ -2,7 +2,6 @@
 #include <limits>
 
 #include "conceal/draws.h"
-#include "dcnn/core/error.h"
 
 namespace dcnn::conceal {
 namespace {
@@ -83,11 +82,13 @@ Hidden clipped(const Contribution& contribution, Hidden h, double target) {
 
 }  // namespace
 
-Hidden of_amplitude(const std::vector<Path>& paths, const Scenario& s, Hidden h, double target) {
+std::optional<Hidden> of_amplitude(const std::vector<Path>& paths, const Scenario& s, Hidden h,
+                                   double target) {
+  constexpr double kNothing = 1e-6;  // N, of parameters as drawn: below it there is rounding alone
   const Contribution contribution(paths, s);
   if (h.effect == "saturation") h = clipped(contribution, h, target);
   double now = contribution(h);
-  require(now > 0.0, Exit::kUsage, s.id, ": ", h.effect, " changes nothing on this motion");
+  if (now < kNothing) return std::nullopt;
   if (h.effect != "saturation" && h.effect != "inertial_terms") {
     // Secant steps through the origin: exact at once for what is linear.
     for (int k = 0; k < 4 && std::abs(now / target - 1.0) > 0.01; ++k) {

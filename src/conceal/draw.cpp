@@ -119,12 +119,13 @@ void place(Hidden& h, const std::vector<Path>& paths, Rng& rng) {
   if (h.effect == "step_bias") h.interval_s = {a, end};
 }
 
-Scenario draw(const std::string& id, std::uint64_t seed) {
-  const Request request = parse(id);
+namespace {
+
+/// One attempt at a scenario; nothing where one of its effects changes nothing on its motion.
+std::optional<Scenario> attempt(const std::string& id, const Request& request, Rng rng) {
   Scenario s;
   s.id = id;
   s.group = request.group;
-  Rng rng({seed, hash_of(id)});
   const std::vector<Wanted> wanted = choose(request, rng);
   draw_simulator(request, wanted, s, rng);
   const std::vector<Path> paths = draw_motion(s, rng);
@@ -137,10 +138,25 @@ Scenario draw(const std::string& id, std::uint64_t seed) {
     h.foreign = request.group == "foreign";
     thermometer = thermometer || h.parameters.count("t_ref_degc") != 0;
     place(h, paths, rng);
-    s.hidden.push_back(of_amplitude(paths, s, h, w.amplitude * s.noise.sigma));
+    const auto strong = of_amplitude(paths, s, h, w.amplitude * s.noise.sigma);
+    if (!strong) return std::nullopt;
+    s.hidden.push_back(*strong);
   }
   record(s, paths, thermometer, rng);
   return s;
+}
+
+}  // namespace
+
+Scenario draw(const std::string& id, std::uint64_t seed) {
+  constexpr std::uint64_t kAttempts = 50;
+  const Request request = parse(id);
+  for (std::uint64_t k = 0; k < kAttempts; ++k) {
+    const Rng rng = k == 0 ? Rng({seed, hash_of(id)}) : Rng({seed, hash_of(id), k});
+    if (auto scenario = attempt(id, request, rng)) return *std::move(scenario);
+  }
+  fail(Exit::kUsage, id, ": ", request.effect, " changes nothing on any of ", kAttempts,
+       " motions of seed ", seed, "; give another seed");
 }
 
 }  // namespace dcnn::conceal

@@ -31,8 +31,10 @@ bool confounded(const std::string& a, const std::string& b);
 void place(Hidden& h, const std::vector<Path>& paths, Rng& rng);
 
 /// Scales `h` until it alone changes the fit recordings by `target` [N] on its strongest axis,
-/// or as far as its parameters stay plausible. Its amplitude is what it has then.
-Hidden of_amplitude(const std::vector<Path>& paths, const Scenario& s, Hidden h, double target);
+/// or as far as its parameters stay plausible. Its amplitude is what it has then. Nothing where it
+/// changes nothing on these paths: friction along an axis that rests.
+std::optional<Hidden> of_amplitude(const std::vector<Path>& paths, const Scenario& s, Hidden h,
+                                   double target);
 
 /// Fills s.recordings from the paths.
 void record(Scenario& s, const std::vector<Path>& paths, bool thermometer, Rng& rng);

@@ -29,13 +29,12 @@ std::vector<Eigen::VectorXd> seed_grid(const EffectFit& form) {
   return grid;
 }
 
-/// What is left, averaged over 20 ms, and the rows' directions along one axis.
 struct AngleBins {
   double low = 0.0, width = 0.02;
   Eigen::VectorXd sum, count;
 };
 
-/// The force along n, collected in bins of the angle.
+/// What is left along n, collected in bins of the angle.
 AngleBins bin_by_angle(const Case& study, const Signals& left, const std::string& axis) {
   AngleBins bins;
   double low = 1e300, high = -1e300;
@@ -66,7 +65,6 @@ AngleBins bin_by_angle(const Case& study, const Signals& left, const std::string
   return bins;
 }
 
-/// One whole period within the range of the angle.
 double least_order(const AngleBins& bins) {
   return 2.0 * std::numbers::pi / (bins.width * static_cast<double>(bins.sum.size()));
 }
@@ -110,17 +108,19 @@ void add_resonances(const Scan& scan, const Signals& left, const std::vector<Flo
                     std::vector<Member>& list) {
   const Case& study = scan.setting().study;
   const EffectKind& kind = *find_effect("flexible_resonance");
+  // Above half the rate of the blocks a mode shows its stiffness alone.
+  const double top = std::min(0.25 / study.dt(), 0.5 / scan.setting().whitener.block_seconds());
   for (std::size_t j = 0; j < study.channels.size(); ++j) {
     if (study.channels[j] > 2) continue;
-    auto peaks =
-        spectral_lines(study, left, floors, 1.5, 0.25 / study.dt(), static_cast<Index>(j), 3);
+    auto peaks = spectral_lines(study, left, floors, 1.5, top, static_cast<Index>(j), 3);
     for (const double hz : {4.0, 8.0, 14.0}) peaks.push_back({hz, 0.0, 0.0});
     for (const Peak& peak : peaks) {
       for (const double zeta : kind.fits[0].shapes[1].seeds) {
         list.push_back(make_member(
             kind, kind.fits[0],
             admitted_axes(AxisRule::kSensor)[static_cast<std::size_t>(study.channels[j])],
-            study.has_torque(), Eigen::Vector2d(peak.hz, zeta)));
+            study.has_torque(), Eigen::Vector2d(std::min(peak.hz, top), zeta)));
+        list.back().most_shapes = Eigen::Vector2d(top, kind.fits[0].shapes[1].high);
       }
     }
   }
@@ -160,6 +160,11 @@ bool has_temperature(const Case& study) {
   });
 }
 
+bool has_acceleration(const Case& study) {
+  return std::all_of(study.logs.begin(), study.logs.end(),
+                     [](const Log& log) { return log.motion.a_B.rows() == log.motion.samples(); });
+}
+
 }  // namespace
 
 bool is_listed(const Case& study, const EffectKind& kind) {
@@ -196,15 +201,19 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
   if (study.axis && kind.axis == AxisRule::kAngle && study.axis->axis().position.empty()) {
     return because("no position is logged");
   }
-  if (kind.stage == Stage::kTool && !study.own_tool && std::string(kind.name) != "mass") {
+  const std::string name = kind.name;
+  const bool felt_at_rest =
+      name != "inertial_terms" && name != "loose_load" && (name != "com" || study.has_torque());
+  if (!study.is_static() && !felt_at_rest && !has_acceleration(study)) {
+    return because("no position or acceleration is logged");
+  }
+  if (kind.stage == Stage::kTool && !study.own_tool && name != "mass") {
     return because("the simulator's own tool is not known");
   }
-  if (std::string(kind.name) == "inertial_terms" &&
-      study.simulator.model.inertial == ToolModel::Inertial::kFull) {
+  if (name == "inertial_terms" && study.simulator.model.inertial == ToolModel::Inertial::kFull) {
     return because("the simulator has all inertial terms");
   }
-  if ((std::string(kind.name) == "com" || std::string(kind.name) == "inertial_terms") &&
-      study.is_static() && !study.has_torque()) {
+  if ((name == "com" || name == "inertial_terms") && study.is_static() && !study.has_torque()) {
     return because("at rest the force does not depend on it");
   }
   return true;

@@ -12,42 +12,9 @@
 namespace dcnn {
 namespace {
 
-constexpr double kFinestStep = 0.9e-3;  // N
 constexpr Index kFewestClipped = 20;
 constexpr double kNearLimit = 0.25;  // s, in which noise is clipped and the mean is not the force
 constexpr double kFast = 1.25;       // of the motion's band: half the rate of the block means
-
-/// The finest difference between neighbouring values, if all differences are multiples of it.
-double lattice(const Signals& measured, Index channel) {
-  std::vector<double> values;
-  for (const auto& m : measured) {
-    for (Index i = 0; i < m.rows(); ++i) values.push_back(m(i, channel));
-  }
-  std::sort(values.begin(), values.end());
-  const double size = std::max(std::abs(values.front()), std::abs(values.back()));
-  double step = 0.0;
-  std::vector<double> gaps;
-  for (std::size_t k = 1; k < values.size(); ++k) {
-    const double gap = values[k] - values[k - 1];
-    if (gap > 1e-9 * size) gaps.push_back(gap);
-  }
-  if (gaps.size() < 8 || gaps.size() > values.size() / 4) return 0.0;  // hardly a value repeats
-  step = *std::min_element(gaps.begin(), gaps.end());
-  double sum = 0.0, count = 0.0;
-  for (const double gap : gaps) {
-    const double n = std::round(gap / step);
-    if (std::abs(gap / step - n) > 0.02) return 0.0;
-    sum += gap;
-    count += n;
-  }
-  return sum / count;  // over the whole range: decimals of the log average out
-}
-
-Signals measured_of(const Case& study) {
-  Signals measured;
-  for (const Log& log : study.logs) measured.push_back(log.measured);
-  return measured;
-}
 
 /// Samples where the channel knocks, strongest of each 60 ms.
 std::vector<Index> spikes(const Eigen::VectorXd& r, double sigma, double dt) {
@@ -81,18 +48,6 @@ Index turned_before(const Eigen::VectorXd& field, Index i, double dt) {
 }
 
 }  // namespace
-
-double rounding_step(const Case& study) {
-  const Signals measured = measured_of(study);
-  double least = 0.0;
-  for (Index j = 0; j < study.channel_count(); ++j) {
-    if (study.channels[static_cast<std::size_t>(j)] > 2) continue;
-    const double step = lattice(measured, j);
-    if (step < kFinestStep && !study.axis) return 0.0;
-    least = least == 0.0 ? step : std::min(least, step);
-  }
-  return least;
-}
 
 std::vector<Clipping> clipping(const Case& study) {
   std::vector<Clipping> list;

@@ -11,6 +11,10 @@ namespace dcnn {
 /// Step of a lattice on which the values of every force channel lie, 0 for none above 0.9 mN (what
 /// a log's own decimals make is finer).
 double rounding_step(const Case& study);
+/// The finest step of the log itself: its last decimal, or what a printer rounded to.
+double reading_digit(const Case& study);
+/// Standard deviation of a step that was read off the whole range of the values.
+double rounding_deviation(const Case& study, double step);
 
 /// A limit at which at least 20 samples of a channel stand, and the rows they disturb.
 struct Clipping {

@@ -52,7 +52,9 @@ double difference_step(const Case& study, const std::vector<Member>& members, co
   const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(c.index)];
   // A hum's frequency is known to a small part of a turn over all recordings.
   if (member.name() == "hum") return 0.003 / (span_seconds(study) * member.shapes(c.index));
-  return member.shapes(c.index) > 0.995 * shape.high ? -1e-3 : 1e-3;
+  const double high =
+      member.most_shapes.size() > c.index ? member.most_shapes(c.index) : shape.high;
+  return member.shapes(c.index) > 0.995 * high ? -1e-3 : 1e-3;
 }
 
 Eigen::MatrixXd derivatives(const Setting& setting, const std::vector<Member>& members,

@@ -13,10 +13,9 @@ namespace {
 constexpr int kFlips = 999;
 constexpr double kFlipSeconds = 1.0;
 constexpr double kConstancySeconds = 8.0;
-constexpr double kSandwichSeconds = 1.0;
-constexpr double kSelection = 1.2;  // how much the choice among many widens an interval
 
-/// Rows of a whitened vector in blocks of time, all channels together.
+}  // namespace
+
 std::vector<std::vector<Index>> time_blocks(const Setting& setting, double seconds) {
   std::map<std::pair<std::uint32_t, std::int64_t>, std::vector<Index>> blocks;
   const auto& info = setting.whitener.row_info();
@@ -33,40 +32,6 @@ std::vector<std::vector<Index>> time_blocks(const Setting& setting, double secon
 Eigen::MatrixXd normal_inverse(const Eigen::MatrixXd& gram) {
   return solve_gram(gram, Eigen::MatrixXd::Identity(gram.rows(), gram.cols()), 1e-11);
 }
-
-/// Numbers of a member's published parameters at given coordinates.
-Eigen::VectorXd published(const Member& member, const std::vector<std::string>& names) {
-  const Json parameters = member.form->parameters(member.amplitudes, member.shapes);
-  Eigen::VectorXd values(static_cast<Index>(names.size()));
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    values(static_cast<Index>(k)) = parameters.at(names[k]).get<double>();
-  }
-  return values;
-}
-
-/// d(published)/d(coordinates) by differences.
-Eigen::MatrixXd published_gradient(const Member& member, const std::vector<std::string>& names) {
-  const Index amplitudes = member.amplitudes.size(), shapes = member.shapes.size();
-  const Eigen::VectorXd here = published(member, names);
-  Eigen::MatrixXd gradient(here.size(), amplitudes + shapes);
-  for (Index k = 0; k < amplitudes + shapes; ++k) {
-    Member moved = member;
-    double step = 1e-6;
-    if (k < amplitudes) {
-      step = std::max(1e-9, 1e-5 * member.amplitudes.cwiseAbs().maxCoeff());
-      moved.amplitudes(k) += step;
-    } else {
-      const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(k - amplitudes)];
-      double& value = moved.shapes(k - amplitudes);
-      if (search_scale(shape, value) + step > search_scale(shape, shape.high)) step = -step;
-      value = from_search_scale(moved, k - amplitudes, search_scale(shape, value) + step);
-    }
-    gradient.col(k) = (published(moved, names) - here) / step;
-  }
-  return gradient;
-}
-
-}  // namespace
 
 std::pair<Index, Index> tangent_columns(const JointFit& fit, std::size_t member) {
   Index first = 0;
@@ -153,52 +118,6 @@ std::vector<Constancy> constancy(const Setting& setting, const JointFit& fit) {
     list[m].z = (score - dof) / std::sqrt(2.0 * dof);
   }
   return list;
-}
-
-std::vector<std::vector<Estimate>> estimates(const Setting& setting, const JointFit& fit) {
-  const Eigen::MatrixXd inverse = normal_inverse(fit.tangent.transpose() * fit.tangent);
-  Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(inverse.rows(), inverse.cols());
-  for (const auto& rows : time_blocks(setting, kSandwichSeconds)) {
-    const Eigen::VectorXd g = fit.tangent(rows, Eigen::all).transpose() * fit.residual(rows);
-    middle += g * g.transpose();
-  }
-  const Eigen::MatrixXd sandwich = inverse * middle * inverse;
-  std::vector<std::vector<Estimate>> all;
-  for (std::size_t m = 0; m < fit.members.size(); ++m) {
-    const Member& member = fit.members[m];
-    const auto [first, count] = tangent_columns(fit, m);
-    std::vector<std::string> names;
-    const Json parameters = member.form->parameters(member.amplitudes, member.shapes);
-    for (const auto& [name, value] : parameters.items()) names.push_back(name);
-    const Eigen::VectorXd values = published(member, names);
-    Eigen::VectorXd deviation = Eigen::VectorXd::Zero(values.size());
-    if (member.fixed && member.fixed_deviation.size() > 0) {
-      // Its coordinates are on the plain scale here.
-      const Eigen::MatrixXd gradient = published_gradient(member, names);
-      Eigen::VectorXd sd = member.fixed_deviation;
-      for (Index k = 0; k < member.shapes.size(); ++k) {
-        if (member.form->shapes[static_cast<std::size_t>(k)].low > 0.0) {
-          sd(member.amplitudes.size() + k) /= member.shapes(k);  // of its logarithm
-        }
-      }
-      deviation = (gradient * sd.asDiagonal()).rowwise().norm() * kSelection;
-    }
-    if (count > 0) {
-      const Eigen::MatrixXd gradient = published_gradient(member, names);
-      const auto spread = [&, begin = first, size = count](const Eigen::MatrixXd& covariance) {
-        const Eigen::MatrixXd part = covariance.block(begin, begin, size, size);
-        return Eigen::VectorXd((gradient * part * gradient.transpose()).diagonal().cwiseMax(0.0));
-      };
-      deviation = spread(inverse).cwiseMax(spread(sandwich)).cwiseSqrt() * kSelection;
-    }
-    all.emplace_back();
-    for (Index k = 0; k < values.size(); ++k) {
-      const std::string& name = names[static_cast<std::size_t>(k)];
-      all.back().push_back({name, unit_of_parameter(name), values(k),
-                            values(k) - 1.96 * deviation(k), values(k) + 1.96 * deviation(k)});
-    }
-  }
-  return all;
 }
 
 double flip_p_value(const Setting& setting, const JointFit& fit, std::size_t member) {

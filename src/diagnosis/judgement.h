@@ -30,13 +30,20 @@ struct Constancy {
 };
 std::vector<Constancy> constancy(const Setting& setting, const JointFit& fit);
 
+/// Rows of a whitened vector in blocks of time, all channels together.
+std::vector<std::vector<Index>> time_blocks(const Setting& setting, double seconds);
+/// The inverse of a Gram matrix, with a ridge that only decides what the data leave open.
+Eigen::MatrixXd normal_inverse(const Eigen::MatrixXd& gram);
+
 /// A published number with its 95 % interval.
 struct Estimate {
   std::string name, unit;
   double value = 0.0, low = 0.0, high = 0.0;
 };
 /// Of all members, in their order: the larger of the model's and the sandwich's deviation over
-/// blocks of 1 s, widened for the selection.
+/// blocks of 1 s, widened for the selection. What is searched for on a logarithmic scale has its
+/// interval there, and so has a strength that hangs on such a number: likelihoods of time
+/// constants and frequencies are far from symmetric where the data hardly hold them.
 std::vector<std::vector<Estimate>> estimates(const Setting& setting, const JointFit& fit);
 
 /// Sign-flip p value of one member with all others in the model: block scores keep their size and

@@ -43,7 +43,8 @@ double from_search_scale(const Member& member, Index i, double coordinate) {
   const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(i)];
   const double value = shape.low > 0.0 ? std::exp(coordinate) : coordinate;
   const double least = member.least_shapes.size() > i ? member.least_shapes(i) : shape.low;
-  return std::clamp(value, std::min(least, shape.high), shape.high);
+  const double most = member.most_shapes.size() > i ? member.most_shapes(i) : shape.high;
+  return std::clamp(value, std::min(least, most), most);
 }
 
 }  // namespace dcnn

@@ -18,6 +18,8 @@ struct Member {
   /// Least values of the shapes where these recordings can tell less than the effect allows: a
   /// period that is never completed is a spring. Empty for none.
   Eigen::VectorXd least_shapes;
+  /// The greatest ones, likewise: a mode above what the blocks hold does not ring in them.
+  Eigen::VectorXd most_shapes;
   /// Found at the full rate by a test of its own (hum above the blocks' band, rounding, clipping,
   /// knocks): the joint fit leaves it as it is.
   bool fixed = false;

@@ -15,6 +15,10 @@ bool is_itself(const Case& study, const Member& member) {
   // On an axis the position says which way a force resists.
   if (study.axis && name == "hysteresis") return member.amplitudes(0) > 0.0;
   if (study.axis && name == "flexible_resonance") return member.shapes(1) < 0.5;
+  // No more than all of the tool rings, but for noise.
+  if (!study.axis && name == "flexible_resonance" && std::abs(member.amplitudes(0)) > 1.5) {
+    return false;
+  }
   if (name != "stribeck_friction") return true;
   const double ratio = member.amplitudes(1) / std::max(1e-300, member.amplitudes(0));
   return ratio > 1.0 && (!study.axis || ratio < 4.0);
@@ -130,12 +134,65 @@ Trial Scan::tuned(const Trial& start, Detail detail) const {
   return best;
 }
 
+/// A mode that nothing drives at its own frequency has hollows at many: the best damping at the
+/// frequencies where a comb has its peaks, highest first.
+std::vector<Trial> Scan::hollows(const Member& mode, Detail detail, std::size_t most) const {
+  std::vector<Trial> comb;
+  Member member = mode;
+  for (double hz = 1.5; hz <= mode.most_shapes(0); hz *= 1.15) {
+    comb.emplace_back();
+    for (const double zeta : {0.01, 0.03, 0.1, 0.3}) {
+      member.shapes << hz, zeta;
+      const Trial trial = evaluate(member, detail);
+      if (trial.gain > comb.back().gain) comb.back() = trial;
+    }
+  }
+  std::vector<Trial> peaks;
+  for (std::size_t k = 0; k < comb.size(); ++k) {
+    const bool peak = comb[k].gain > 0.0 && (k == 0 || comb[k].gain >= comb[k - 1].gain) &&
+                      (k + 1 == comb.size() || comb[k].gain >= comb[k + 1].gain);
+    if (peak) peaks.push_back(comb[k]);
+  }
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [](const Trial& x, const Trial& y) { return x.gain > y.gain; });
+  if (peaks.size() > most) peaks.resize(most);
+  return peaks;
+}
+
+std::vector<Member> Scan::as_likely(const Member& mode, double within) const {
+  std::vector<Trial> seen{evaluate(mode, Detail::kCoarse)};
+  for (const Trial& start : hollows(mode, Detail::kCoarse, 12)) {
+    improved(start, Detail::kCoarse, 40, &seen);
+  }
+  double most = 0.0;
+  for (const Trial& trial : seen) most = std::max(most, trial.gain);
+  std::vector<Member> likely;
+  for (const Trial& trial : seen) {
+    if (trial.gain >= most - within) likely.push_back(trial.member);
+  }
+  return likely;
+}
+
 Trial Scan::refine(const Trial& seed, Detail detail, int evaluations) const {
-  const bool is_line = seed.member.name() == "hum" && !setting_.study.without.refinement;
-  const Trial start = is_line && detail == Detail::kCoarse ? tuned(seed, detail) : seed;
+  if (seed.member.shapes.size() == 0 || setting_.study.without.refinement) return seed;
+  const std::string name = seed.member.name();
+  const bool coarse = detail == Detail::kCoarse;
+  if (coarse && name == "hum") return improved(tuned(seed, detail), detail, evaluations);
+  if (!coarse || name != "flexible_resonance" || seed.gain < 2.0 * seed.price) {
+    return improved(seed, detail, evaluations);
+  }
+  Trial best = improved(seed, detail, evaluations);
+  for (const Trial& start : hollows(seed.member, detail, 4)) {
+    const Trial trial = improved(start, detail, evaluations);
+    if (trial.gain > best.gain) best = trial;
+  }
+  return best;
+}
+
+Trial Scan::improved(const Trial& start, Detail detail, int evaluations,
+                     std::vector<Trial>* seen) const {
   const auto& shapes = start.member.form->shapes;
   const Index n = start.member.shapes.size();
-  if (n == 0 || setting_.study.without.refinement) return start;
   Eigen::VectorXd x(n), size(n);
   for (Index i = 0; i < n; ++i) {
     const ShapeParameter& shape = shapes[static_cast<std::size_t>(i)];
@@ -143,7 +200,8 @@ Trial Scan::refine(const Trial& seed, Detail detail, int evaluations) const {
     size(i) = shape.low > 0.0 ? 0.4 : 0.15 * (shape.high - shape.low);
     if (detail == Detail::kFine) size(i) *= 0.2;
     if (start.member.name() == "cogging") size(i) = 0.01;
-    if (is_line) size(i) = 0.1 / (span_seconds(setting_.study) * start.member.shapes(i));
+    if (start.member.name() == "hum")
+      size(i) = 0.1 / (span_seconds(setting_.study) * start.member.shapes(i));
     if (start.member.name() == "flexible_resonance" && i == 0) size(i) = 0.05;
   }
   Trial best = start;
@@ -154,57 +212,11 @@ Trial Scan::refine(const Trial& seed, Detail detail, int evaluations) const {
     }
     const Trial trial = evaluate(member, detail);
     if (trial.gain > best.gain) best = trial;
+    if (seen) seen->push_back(trial);
     return -trial.gain;
   };
   simplex_search(loss, x, size, n == 1 ? evaluations * 2 / 3 : evaluations);
   return best;
-}
-
-Eigen::VectorXd simplex_search(const std::function<double(const Eigen::VectorXd&)>& f,
-                               const Eigen::VectorXd& x, const Eigen::VectorXd& size,
-                               int evaluations) {
-  const Index n = x.size();
-  std::vector<std::pair<double, Eigen::VectorXd>> points{{f(x), x}};
-  for (Index i = 0; i < n; ++i) {
-    Eigen::VectorXd p = x;
-    p(i) += size(i);
-    points.emplace_back(f(p), p);
-  }
-  const auto by_value = [](const auto& a, const auto& b) { return a.first < b.first; };
-  for (int used = static_cast<int>(n) + 1; used < evaluations;) {
-    std::stable_sort(points.begin(), points.end(), by_value);
-    auto& worst = points.back();
-    Eigen::VectorXd centre = Eigen::VectorXd::Zero(n);
-    for (Index i = 0; i < n; ++i) centre += points[static_cast<std::size_t>(i)].second;
-    centre /= static_cast<double>(n);
-    const auto at = [&](double factor) {
-      Eigen::VectorXd p = centre + factor * (worst.second - centre);
-      ++used;
-      return std::pair{f(p), p};
-    };
-    auto trial = at(-1.0);
-    if (trial.first < points.front().first) {
-      auto further = at(-2.0);
-      worst = further.first < trial.first ? further : trial;
-    } else if (trial.first < points[static_cast<std::size_t>(n - 1)].first) {
-      worst = trial;
-    } else {
-      auto inner = at(trial.first < worst.first ? -0.5 : 0.5);
-      if (inner.first < std::min(trial.first, worst.first)) {
-        worst = inner;
-      } else {
-        for (std::size_t i = 1; i < points.size(); ++i) {
-          points[i].second = 0.5 * (points[i].second + points[0].second);
-          points[i].first = f(points[i].second);
-          ++used;
-        }
-      }
-    }
-    if ((points.back().second - points.front().second).cwiseAbs().maxCoeff() <
-        1e-3 * size.maxCoeff())
-      break;
-  }
-  return std::min_element(points.begin(), points.end(), by_value)->second;
 }
 
 }  // namespace dcnn

@@ -32,6 +32,9 @@ class Scan {
   Trial evaluate(const Member& member, Detail detail = Detail::kFine) const;
   /// Shapes improved from where they are (Nelder and Mead 1965 on their search scales).
   Trial refine(const Trial& start, Detail detail = Detail::kFine, int evaluations = 40) const;
+  /// Modes of its axis, among those that a search meets, whose gain is at most `within` below the
+  /// largest.
+  std::vector<Member> as_likely(const Member& mode, double within) const;
   /// Its whitened columns, (rows, amplitudes), or one column for an effect without amplitudes.
   Eigen::MatrixXd columns(const Member& member, Detail detail = Detail::kFine) const;
   /// The least rms, in the unit of the channel it shows on most, at which the effect would be named
@@ -44,6 +47,9 @@ class Scan {
 
  private:
   Trial tuned(const Trial& start, Detail detail) const;
+  std::vector<Trial> hollows(const Member& mode, Detail detail, std::size_t most) const;
+  Trial improved(const Trial& start, Detail detail, int evaluations,
+                 std::vector<Trial>* seen = nullptr) const;
 
   const Setting& setting_;
   Chain chain_;

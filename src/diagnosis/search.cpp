@@ -86,7 +86,9 @@ bool Search::swap() {
     const JointFit rest = without(m);
     const double own = rest.chi2 - fit_.chi2 - setting_->price * fit_.members[m].parameters();
     for (const Trial& trial : additions(rest)) {
-      if (trial.member.kind == fit_.members[m].kind && trial.member.axis == fit_.members[m].axis) {
+      // The same effect counts where it has better shapes than those that it was found with.
+      if (trial.member.kind == fit_.members[m].kind && trial.member.axis == fit_.members[m].axis &&
+          trial.net_gain() < own + setting_->price) {
         continue;
       }
       if (trial.net_gain() < own - 2.0 * setting_->price)

@@ -18,6 +18,9 @@ void Search::detect() {
                                     study_.channels[static_cast<std::size_t>(clip.channel)])],
                                 study_.has_torque(), Eigen::VectorXd::Constant(1, clip.limit));
     member.fixed = true;
+    // A limit is read off: known to the digit, or to the step that rounding makes of it.
+    const double digit = std::max(reading_digit(study_), rounding_step(study_));
+    member.fixed_deviation = Eigen::VectorXd::Constant(1, digit / std::sqrt(12.0));
     apart_.push_back(member);
     masked_.insert(masked_.end(), clip.spans.begin(), clip.spans.end());
   }
@@ -28,6 +31,7 @@ void Search::detect() {
     Member member = make_member(kind, kind.fits[0], "", study_.has_torque(),
                                 Eigen::VectorXd::Constant(1, step));
     member.fixed = true;
+    member.fixed_deviation = Eigen::VectorXd::Constant(1, rounding_deviation(study_, step));
     rounding_ = member;
     for (Case* study : {&study_, &softer_, &harder_}) {
       study->rounding_step = step;

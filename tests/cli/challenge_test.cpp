@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
+#include <thread>
 
 #include "dcnn/core/json.h"
 #include "support/process.h"
@@ -114,6 +117,56 @@ TEST(ChallengeScript, OneScenarioOfAKindTellsItsStory) {
   const Json scores = read_json(set / "scores.json", Exit::kData);
   ASSERT_EQ(scores["scenarios"].size(), 1U);
   EXPECT_EQ(scores["scenarios"][0]["named"], Json({"viscous_friction"}));
+}
+
+/// Processes other than this one whose arguments name the folder.
+int processes_of(const std::filesystem::path& folder) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string id = entry.path().filename().string();
+    if (id.find_first_not_of("0123456789") != std::string::npos) continue;
+    if (std::stoi(id) == ::getpid()) continue;
+    count += test::slurp(entry.path() / "cmdline").find(folder.string()) != std::string::npos;
+  }
+  return count;
+}
+
+/// Waits up to a minute; false where it did not come true.
+template <class Condition>
+bool soon(const Condition& condition) {
+  for (int k = 0; k < 1200 && !condition(); ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return condition();
+}
+
+// `timeout` leaves the process group of its script, and a shell that runs a program does not look
+// at signals until that ends.
+TEST(ChallengeScript, StoppedItLeavesNothingRunningAndGoesOn) {
+  const test::TemporaryFolder folder;
+  const auto set = folder / "set";
+  const std::string arguments = "--scenarios 2 --seed 3 --jobs 2 --out " + set.string();
+  const std::string command = std::string("exec ") + DCNN_SOURCE_DIR + "/tools/challenge --bin " +
+                              DCNN_BIN_DIR + " " + arguments;
+  const pid_t script = ::fork();
+  if (script == 0) {
+    ::freopen("/dev/null", "w", stdout);
+    ::freopen("/dev/null", "w", stderr);
+    ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    ::_exit(127);
+  }
+  ASSERT_TRUE(soon([&] {
+    return std::filesystem::exists(set / "reports" / ".s0001") &&
+           std::filesystem::exists(set / "reports" / ".s0002");
+  }));
+  ::kill(script, SIGTERM);
+  int status = 0;
+  ::waitpid(script, &status, 0);
+  EXPECT_EQ(WEXITSTATUS(status), 128 + SIGTERM);
+  EXPECT_EQ(processes_of(set), 0);
+  EXPECT_FALSE(std::filesystem::exists(set / "scores.json"));
+  ASSERT_EQ(challenge(arguments), 0);
+  EXPECT_EQ(read_json(set / "scores.json", Exit::kData)["tables"]["all"]["ran"]["k"], 2);
 }
 
 TEST(ChallengeScript, SkipsRealRecordingsThatAreNotThere) {

@@ -49,6 +49,17 @@ TEST(Scenario, TheSameSeedGivesTheSameScenario) {
   EXPECT_THROW(draw("nobody:0.5/mass/1", 3), Error);
 }
 
+// The first draws of these rest where the effect acts: half of a planar motion's axes do.
+TEST(Scenario, WhatChangesNothingOnItsMotionIsDrawnAnew) {
+  for (int k = 0; k < 12; ++k) {
+    const std::string id = "poor:0.5/hysteresis/" + std::to_string(k);
+    const Scenario s = draw(id, 4003);
+    ASSERT_EQ(s.hidden.size(), 1U) << id;
+    EXPECT_NEAR(s.hidden[0].amplitude, 0.5, 0.02) << id;
+    EXPECT_EQ(truth(s)["drawn"], id);
+  }
+}
+
 // Another implementation reads the nominal simulator and the recordings: nothing is left but noise.
 TEST(Scenario, WithNothingHiddenTheSimulatorLeavesTheNoise) {
   const test::TemporaryFolder folder;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "dcnn/core/file.h"
 #include "dcnn/experiment/diagnosis_report.h"
 #include "dcnn/physics/scenario.h"
@@ -187,6 +189,37 @@ TEST(Diagnose, PosesAtRestShowWhatGravityShows) {
   EXPECT_TRUE(untestable);
 }
 
+// A wrist of which only the orientation is logged: gravity alone is simulated, and what needs the
+// acceleration is neither tried nor passed over in silence.
+TEST(Diagnose, WithoutAPositionItTellsWhatItCannotTest) {
+  Json at_rest = configuration(
+      {{{"effect", "bias"},
+        {"axis", nullptr},
+        {"parameters",
+         {{"delta_bias_x_n", 0.1}, {"delta_bias_y_n", -0.2}, {"delta_bias_z_n", 0.15}}}}});
+  at_rest["simulator"]["model"] = {{"inertial", "none"}};
+  const Bench bench(at_rest);
+  for (const char* name : {"fit.csv", "hold.csv"}) {
+    Table table = read_csv(bench / name), without;
+    without.values.resize(table.values.rows(), 0);
+    for (std::size_t k = 0; k < table.columns.size(); ++k) {
+      if (table.columns[k] == "x" || table.columns[k] == "y" || table.columns[k] == "z") continue;
+      without.columns.push_back(table.columns[k]);
+      without.values.conservativeResize(Eigen::NoChange, without.values.cols() + 1);
+      without.values.rightCols(1) = table.values.col(static_cast<Index>(k));
+    }
+    write_csv(bench / name, without);
+  }
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(names(report), std::vector<std::string>{"bias"});
+  std::map<std::string, std::string> why;
+  for (const Json& entry : report["not_testable"]) why[entry["effect"]] = entry["why"];
+  for (const char* effect : {"inertial_terms", "com", "loose_load"}) {
+    EXPECT_EQ(why[effect], "no position or acceleration is logged") << effect;
+  }
+  EXPECT_EQ(why["coulomb_friction"], "no position or velocity is logged");
+}
+
 TEST(Diagnose, RefusesWhatItCannotCompare) {
   const Bench bench(configuration(Json::array()));
   DiagnosisRequest request = bench.request();
@@ -250,6 +283,8 @@ TEST_P(EveryFit, IsNamedWhenHiddenAlone) {
   }
   for (const auto& [name, p] : finding["parameters"].items()) {
     EXPECT_EQ(p["unit"], unit_of_parameter(name));
+    // What is read off the raw values is known to their last digit, not better.
+    EXPECT_LT(p["ci95"][0].get<double>(), p["ci95"][1].get<double>()) << name;
   }
 }
 

@@ -65,7 +65,8 @@ const std::vector<std::string>& unlisted_effects();
 /// effect in another form), `poor:A` (on a motion that hardly excites), `faint:A`, `unlisted:A`,
 /// `mixed:A` (unlisted, and a listed one drawn) with an effect; `double:A`, `triple:A`,
 /// `collinear:A` (two neighbours) with effect `any`; `null:KIND` (a kind of noise, or `pose`) with
-/// effect `none`. Error(kUsage) for another id.
+/// effect `none`. What changes nothing on the motion that was drawn for it (dry friction along an
+/// axis that rests) is drawn anew, motion and all. Error(kUsage) for another id.
 Scenario draw(const std::string& id, std::uint64_t seed);
 
 /// Writes sim.json and one CSV per recording; returns the files to fit on and those held out.
