@@ -69,8 +69,11 @@ int main(int argc, char** argv) {
   tool.option("--system", injection.system, "of a machine of one axis, instead of --sim")
       .needs(what)
       .excludes(sim);
-  tool.option("--amplitude", injection.amplitude, "of --inject, in the log's noise")
+  tool.option("--amplitude", injection.amplitude, "of --inject, in units of --noise")
       .with_default()
+      .positive()
+      .needs(what);
+  tool.option("--noise", injection.noise, "N (default: the log's, from its second differences)")
       .positive()
       .needs(what);
   const ReadFlags read(tool);

@@ -245,7 +245,8 @@ std::string inject(const Injection& request, std::uint64_t seed, const fs::path&
     paths.push_back(subject.path(logs.back()));
     s.recordings.emplace_back();
   }
-  const double sigma = noise_of(logs.front().block(subject.measured));
+  const double sigma =
+      request.noise ? *request.noise : noise_of(logs.front().block(subject.measured));
   require(sigma > 0.0, Exit::kData, logs.front().name, ": its forces have no noise");
   s.noise = {"recorded", sigma, 0.0, 0.0};
   Rng rng({seed, 12});

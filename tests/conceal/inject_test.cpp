@@ -62,6 +62,10 @@ TEST(Inject, ADrawnEffectHasTheAmplitudeAskedFor) {
   const double sigma = answer["noise"]["sigma_n"], fc = answer["hidden"][0]["parameters"]["fc_n"];
   EXPECT_NEAR(fc / sigma, 0.5, 0.02);
   EXPECT_NEAR(added(folder)(2000, 0), -fc, 1e-6);
+
+  request.noise = 0.2;
+  inject(request, 1, folder / "out", folder / "seal.json");
+  EXPECT_NEAR(added(folder)(2000, 0), -0.5 * 0.2, 0.01);
 }
 
 /// What is measured drives the axis: friction asks for more along the motion.
