@@ -20,6 +20,8 @@ class PlanStep {
   virtual void slide(const Real* x, bool /*begins*/, Real* y) noexcept { run(x, y); }
   /// Takes a ReLU of its outputs into itself; false where it cannot.
   virtual bool absorb_relu() { return false; }
+  /// The same of a fully connected layer, weight (outputs, inputs) and bias (outputs).
+  virtual bool absorb_linear(const Tensor& /*weight*/, const Tensor& /*bias*/) { return false; }
 };
 
 /// Made by Network::plan(). Holds copies of the weights.
