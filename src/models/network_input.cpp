@@ -43,6 +43,7 @@ class StreamingWindow final : public StreamingInput {
     }
     return ring_.col(next_ + 1).data();
   }
+  bool slides() const override { return true; }
 
  private:
   Eigen::VectorXd mean_;

@@ -15,9 +15,13 @@ class NetworkPredictor final : public Predictor {
         skip_(std::move(skip)),
         plan_(std::move(plan)),
         scale_(std::move(scale)),
+        slides_(input_->slides()),
         y_(Eigen::VectorXd::Zero(scale_.mean.size())) {}
 
-  void reset() noexcept override { input_->reset(); }
+  void reset() noexcept override {
+    input_->reset();
+    begins_ = true;
+  }
 
   const Eigen::VectorXd& push(const Eigen::VectorXd& x) noexcept override {
     const Real* cells = input_->push(x);
@@ -27,7 +31,8 @@ class NetworkPredictor final : public Predictor {
       y_.setZero();
     }
     if (!plan_) return y_;
-    const Real* network = plan_->run(cells);
+    const Real* network = slides_ ? plan_->slide(cells, begins_) : plan_->run(cells);
+    begins_ = false;
     for (Index j = 0; j < y_.size(); ++j) {
       y_[j] += scale_.mean[j] + scale_.deviation[j] * static_cast<double>(network[j]);
     }
@@ -39,6 +44,7 @@ class NetworkPredictor final : public Predictor {
   std::optional<LinearSkip> skip_;
   std::optional<Plan> plan_;
   TargetScale scale_;
+  bool slides_, begins_ = true;
   Eigen::VectorXd y_;
 };
 

@@ -14,7 +14,10 @@ class Conv2dStep final : public PlanStep {
   Conv2dStep(const ConvShape& shape, const Tensor& weight, const Tensor& bias)
       : plan_(shape, weight, bias) {}
   void run(const Real* x, Real* y) noexcept override { plan_.run(x, relu_, y); }
-  bool absorb_relu() override { return relu_ = true; }
+  bool absorb_relu() override { return !plan_.absorbed() && (relu_ = true); }
+  bool absorb_linear(const Tensor& weight, const Tensor& bias) override {
+    return relu_ && plan_.absorb(weight, bias);
+  }
 
  private:
   ConvolutionPlan plan_;

@@ -40,7 +40,8 @@ class Linear final : public Layer {
     });
   }
 
-  std::unique_ptr<PlanStep> plan(const Shape&, PlanStep*) const override {
+  std::unique_ptr<PlanStep> plan(const Shape&, PlanStep* before) const override {
+    if (before && before->absorb_linear(weight_, bias_)) return nullptr;
     return std::make_unique<LinearStep>(weight_, bias_);
   }
 

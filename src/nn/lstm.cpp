@@ -3,28 +3,12 @@
 #include "dcnn/nn/layer.h"
 #include "nn/init.h"
 #include "nn/kernels/channels.h"
+#include "nn/lstm_plan.h"
 #include "nn/lstm_steps.h"
 #include "nn/pieces.h"
 
 namespace dcnn {
 namespace {
-
-class LstmStep final : public PlanStep {
- public:
-  LstmStep(const LstmShape& shape, Panels weights, const Tensor& bias)
-      : weights_(std::move(weights)),
-        bias_(Tensor::from(bias.shape(), bias.values())),
-        memory_(Tensor({LstmTrace::size(shape, LstmTrace::kept_steps(shape, false))})),
-        trace_(shape, 1, LstmTrace::kept_steps(shape, false), memory_.data()) {}
-  void run(const Real* x, Real* y) noexcept override {
-    run_lstm(trace_, weights_, bias_.data(), x, y);
-  }
-
- private:
-  Panels weights_;
-  Tensor bias_, memory_;
-  LstmTrace trace_;
-};
 
 /// Long short-term memory: (N, T, F) in, h of the newest step (N, H) out, or of all steps (N, T,
 /// H). The state is zero before the first step. input_weight (F, 4H), recurrent_weight (H, 4H), one
@@ -57,7 +41,7 @@ class Lstm final : public Layer {
   }
 
   std::unique_ptr<PlanStep> plan(const Shape&, PlanStep*) const override {
-    return std::make_unique<LstmStep>(shape_, joined_weights(shape_, weights_), weights_.bias);
+    return make_lstm_step(shape_, joined_weights(shape_, weights_), weights_.bias);
   }
 
   std::vector<NamedTensor> state() const override {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "dcnn/nn/network.h"
@@ -36,6 +37,9 @@ std::vector<Case> cases() {
        {3, 2, 4}},
       {"lstm", {{{"kind", "lstm"}, {"units", 37}}, {{"kind", "linear"}, {"outputs", 3}}}, {6, 15}},
       {"lstm of one row", {{{"kind", "lstm"}, {"units", 150}}}, {1, 15}},
+      {"lstm of the paper",
+       {{{"kind", "lstm"}, {"units", 150}}, {{"kind", "linear"}, {"outputs", 3}}},
+       {25, 15}},
       {"lstm of all steps",
        {{{"kind", "lstm"}, {"units", 9}, {"sequence", true}}, {{"kind", "flatten"}}},
        {5, 3}}};
@@ -79,6 +83,49 @@ TEST(Plan, ComputesWhatTheNetworkDoesWhateverTheInstructions) {
           for (Index i = 0; i < wanted.size(); ++i) {
             ASSERT_NEAR(y[i], wanted.data()[i], 1e-5 * largest)
                 << c.name << ", " << hwy::TargetName(target) << ", size " << size;
+          }
+        }
+      }
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
+/// Rows of a stream of which one is not a number, before them one row repeated.
+class SlidingWindow {
+ public:
+  static constexpr Index kInputs = 15;
+  SlidingWindow(Index steps, Index rows) : steps_(steps), x_({steps + rows, kInputs}) {
+    Rng rng(8);
+    for (Real& value : x_.values()) value = static_cast<Real>(3 * rng.normal());
+    for (Index k = 0; k + 1 < steps; ++k) std::copy_n(row(steps - 1), kInputs, row(k));
+    row(steps + 2)[4] = std::nanf("");
+  }
+  const Real* at(Index k) const { return x_.data() + k * kInputs; }
+
+ private:
+  Real* row(Index k) { return x_.data() + k * kInputs; }
+  Index steps_;
+  Tensor x_;
+};
+
+TEST(Plan, AWindowThatSlidesGivesTheBitsOfTheWindowAlone) {
+  for (const Index steps : {1, 2, 6, 25, 60}) {
+    Rng rng(7);
+    const Network network({{{"kind", "lstm"}, {"units", 37}}, {{"kind", "linear"}, {"outputs", 3}}},
+                          {steps, SlidingWindow::kInputs}, rng);
+    const Index rows = 2 * steps + 5;
+    const SlidingWindow window(steps, rows);
+    for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+      hwy::SetSupportedTargetsForTest(target);
+      Plan plan = network.plan(), alone = network.plan();
+      for (int again = 0; again < 2; ++again) {
+        for (Index k = 0; k < rows; ++k) {
+          const Real *wanted = alone.run(window.at(k)), *y = plan.slide(window.at(k), k == 0);
+          if (k >= 3 && k < steps + 3) continue;  // what is not a number is in the window
+          for (Index i = 0; i < 3; ++i) {
+            ASSERT_TRUE(std::isfinite(y[i])) << steps << " steps, row " << k;
+            ASSERT_EQ(y[i], wanted[i]) << steps << " steps, row " << k;
           }
         }
       }

@@ -26,6 +26,8 @@ class StreamingInput {
   /// The input (element_count(shape())) at the row x (F), valid until the next call. Allocates,
   /// locks and throws nothing.
   virtual const Real* push(const Eigen::VectorXd& x) noexcept = 0;
+  /// The input is a window of rows as Plan::slide() takes it.
+  virtual bool slides() const { return false; }
 };
 
 class NetworkInput {

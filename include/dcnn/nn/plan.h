@@ -14,8 +14,14 @@ class PlanStep {
   virtual ~PlanStep() = default;
   /// y (outputs) of x (inputs), which do not overlap. Allocates, locks and throws nothing.
   virtual void run(const Real* x, Real* y) noexcept = 0;
+  /// run() where x is a window (rows, …) that slides over a stream: all rows the same where
+  /// `begins`, else the window of the call before without its oldest row and with a new one. A step
+  /// that keeps what it computed of the others gives the same bits.
+  virtual void slide(const Real* x, bool /*begins*/, Real* y) noexcept { run(x, y); }
   /// Takes a ReLU of its outputs into itself; false where it cannot.
   virtual bool absorb_relu() { return false; }
+  /// The same of a fully connected layer, weight (outputs, inputs) and bias (outputs).
+  virtual bool absorb_linear(const Tensor& /*weight*/, const Tensor& /*bias*/) { return false; }
 };
 
 /// Made by Network::plan(). Holds copies of the weights.
@@ -26,8 +32,13 @@ class Plan {
   Index outputs() const { return outputs_; }
   /// The network's output for one sample, valid until the next call.
   const Real* run(const Real* x) noexcept;
+  /// The same for a window that slides (PlanStep::slide()); run() in between does not disturb it.
+  const Real* slide(const Real* x, bool begins) noexcept;
 
  private:
+  template <class First>
+  const Real* run_after(const Real* x, const First& first) noexcept;
+
   std::vector<std::unique_ptr<PlanStep>> steps_;
   Index outputs_ = 0;
   Tensor from_, to_;  // each as large as the largest output

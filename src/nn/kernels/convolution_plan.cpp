@@ -24,7 +24,21 @@ ConvolutionPlan::ConvolutionPlan(const ConvShape& shape, const Tensor& weights, 
 
 void ConvolutionPlan::run(const Real* x, bool relu, Real* y) const noexcept {
   if (fixed_ < 0 || !relu) return run_stretches(x, relu, y);
-  fixed_convolution(fixed_, {x, weights_.data(), bias_.data(), y, shape_.in_h});
+  FixedConvolution convolution{x, weights_.data(), bias_.data(), y, shape_.in_h, {}};
+  if (absorbed()) {
+    convolution.linear = {linear_weights_.data(), linear_bias_.data(), linear_sums_.data(),
+                          linear_weights_.dim(0), linear_weights_.dim(1)};
+  }
+  fixed_convolution(fixed_, convolution);
+}
+
+bool ConvolutionPlan::absorb(const Tensor& weight, const Tensor& bias) {
+  const Index outputs = weight.dim(0);
+  if (absorbed() || fixed_ < 0 || outputs % FixedLinear::kTogether != 0) return false;
+  linear_weights_ = Tensor::from(weight.shape(), weight.values());
+  linear_bias_ = Tensor::from(bias.shape(), bias.values());
+  linear_sums_ = Tensor({outputs * FixedLinear::kSums});
+  return true;
 }
 
 void ConvolutionPlan::run_stretches(const Real* x, bool relu, Real* y) const noexcept {

@@ -9,12 +9,16 @@
 namespace dcnn {
 
 /// y = bias + weights * x, or its positive part: by a kernel for this very shape where there is
-/// one, else one product for each stretch of output positions of a row that see the same taps. Both
-/// add in the same order.
+/// one, else one product for each stretch of output positions of a row that see the same taps.
 class ConvolutionPlan {
  public:
   ConvolutionPlan(const ConvShape& shape, const Tensor& weights, const Tensor& bias);
   void run(const Real* x, bool relu, Real* y) const noexcept;
+  /// Makes y the outputs of a fully connected layer after the ReLU, where the kernel can. Its
+  /// weights then meet the positive parts in registers, and come from the second cache while others
+  /// multiply.
+  bool absorb(const Tensor& weight, const Tensor& bias);
+  bool absorbed() const { return linear_weights_.defined(); }
 
  private:
   struct Stretch {
@@ -27,6 +31,7 @@ class ConvolutionPlan {
   ConvShape shape_;
   int fixed_;  // which fixed_convolution() this is, -1 for none
   Tensor weights_, bias_;
+  Tensor linear_weights_, linear_bias_, linear_sums_;  // of absorb()
   std::vector<Stretch> stretches_;
 };
 

@@ -23,9 +23,10 @@ void Panels::set(Index first, Index count_of_rows, const Real* from, Index row_s
 }
 
 void Panels::multiply(const Product& product) const {
+  const Index columns = product.padded ? padded_columns() : columns_;
   if (product.rows == 1) {
-    return row_product({product.a, product.depth, values_.data(), rows_ * kWidth, columns_,
-                        product.start, product.out});
+    return row_product({product.a, product.depth, panel(0) + product.first * kWidth, rows_ * kWidth,
+                        columns, product.start, product.out});
   }
   const Run run{0, 0, product.depth};
   for (Index p = 0; p < count(); ++p) {
@@ -33,7 +34,7 @@ void Panels::multiply(const Product& product) const {
     tile_product({.a = product.a,
                   .a_row = product.a_row,
                   .a_step = 1,
-                  .b = panel(p),
+                  .b = panel(p) + product.first * kWidth,
                   .b_step = kWidth,
                   .runs = {&run, 1},
                   .out = product.out + begin,
@@ -41,7 +42,7 @@ void Panels::multiply(const Product& product) const {
                   .start = product.start ? product.start + begin : nullptr,
                   .start_row = product.start_row,
                   .rows = product.rows,
-                  .columns = std::min(kWidth, columns_ - begin)});
+                  .columns = std::min(kWidth, columns - begin)});
   }
 }
 

@@ -20,13 +20,17 @@ class Panels {
   struct Product {
     const Real* a;
     Index a_row, rows;
-    Index depth;  // the first rows of b, and columns of a, that take part
+    Index depth;  // rows of b, and columns of a, that take part
     Real* out;
     Index out_row;
-    const Real* start;  // null: zero; `out` itself: add to it
-    Index start_row;    // 0: one row for all (a bias)
+    const Real* start;    // null: zero; `out` itself: add to it
+    Index start_row;      // 0: one row for all (a bias)
+    Index first = 0;      // of the rows of b that take part
+    bool padded = false;  // `start` and rows of `out` have room for padded_columns()
   };
   void multiply(const Product& product) const;
+  /// Columns of whole panels, the last ones zero.
+  Index padded_columns() const { return count() * kWidth; }
 
  private:
   Index count() const { return (columns_ + kWidth - 1) / kWidth; }

@@ -1,0 +1,139 @@
+#include "nn/lstm_plan.h"
+
+#include <algorithm>
+
+#include "nn/kernels/lstm_online.h"
+
+namespace dcnn {
+namespace {
+
+/// A window of T rows takes T products with all weights, which stream from the second cache each
+/// time. Of a window that slides, all T windows in which the newest row takes part are therefore
+/// held and advanced by it together: as many products, but the weights are read once.
+class LstmStep final : public PlanStep {
+ public:
+  LstmStep(const LstmShape& shape, Panels weights, const Tensor& bias)
+      : shape_(shape),
+        row_(shape.units + LstmOnline::kSlack),
+        weights_(std::move(weights)),
+        bias_({weights_.padded_columns()}),
+        input_({weights_.padded_columns()}),
+        gates_({(slides() ? std::min(kTogether, shape.steps) : 1) * weights_.padded_columns() +
+                LstmOnline::kSlack}),
+        joined_({shape.inputs + row_}),
+        c_({row_}),
+        window_h_({slides() ? shape.steps : 0, row_}),
+        window_c_({slides() ? shape.steps : 0, row_}) {
+    std::ranges::copy(bias.values(), bias_.data());
+  }
+
+  void run(const Real* x, Real* y) noexcept override {
+    begin();
+    for (Index t = 0; t < shape_.steps; ++t) {
+      advance(x + t * shape_.inputs, t > 0);
+      if (shape_.sequence) put_h(y + t * shape_.units);
+    }
+    if (!shape_.sequence) put_h(y);
+  }
+
+  void slide(const Real* x, bool begins, Real* y) noexcept override {
+    if (!slides()) return run(x, y);
+    if (begins) return begin_windows(x, y);
+    advance_windows(x + (shape_.steps - 1) * shape_.inputs);
+    std::copy_n(window_h_.data() + oldest_ * row_, shape_.units, y);
+    clear(oldest_);
+    oldest_ = oldest_ + 1 == shape_.steps ? 0 : oldest_ + 1;
+  }
+
+ private:
+  /// As many windows in one product as fill the tile's registers twice.
+  static constexpr Index kTogether = 26;
+
+  bool slides() const { return shape_.steps > 1 && !shape_.sequence; }
+  Real* h() { return joined_.data() + shape_.inputs; }
+  void put_h(Real* y) { std::copy_n(h(), shape_.units, y); }
+  void begin() { std::fill_n(c_.data(), shape_.units, Real(0)); }
+
+  /// One window by the row x; its h lies beside the row, so that both are one factor.
+  void advance(const Real* x, bool recurs) {
+    std::copy_n(x, shape_.inputs, joined_.data());
+    weights_.multiply({.a = joined_.data(),
+                       .a_row = shape_.joined(),
+                       .rows = 1,
+                       .depth = recurs ? shape_.joined() : shape_.inputs,
+                       .out = gates_.data(),
+                       .out_row = weights_.padded_columns(),
+                       .start = bias_.data(),
+                       .start_row = 0,
+                       .padded = true});
+    lstm_online({1, shape_.units, gates_.data(), weights_.padded_columns(), c_.data(), h(), row_});
+  }
+
+  /// All rows of x are the same: a younger window has seen what an older one had seen earlier.
+  void begin_windows(const Real* x, Real* y) {
+    begin();
+    oldest_ = 0;
+    clear(shape_.steps - 1);
+    for (Index t = 0; t < shape_.steps; ++t) {
+      advance(x, t > 0);
+      const Index window = shape_.steps - 2 - t;
+      if (window < 0) continue;
+      put_h(window_h_.data() + window * row_);
+      std::copy_n(c_.data(), shape_.units, window_c_.data() + window * row_);
+    }
+    put_h(y);
+  }
+
+  /// A window that has seen nothing yet.
+  void clear(Index window) {
+    std::fill_n(window_h_.data() + window * row_, shape_.units, Real(0));
+    std::fill_n(window_c_.data() + window * row_, shape_.units, Real(0));
+  }
+
+  void advance_windows(const Real* x) {
+    const Index units = shape_.units, padded = weights_.padded_columns();
+    weights_.multiply({.a = x,
+                       .a_row = shape_.inputs,
+                       .rows = 1,
+                       .depth = shape_.inputs,
+                       .out = input_.data(),
+                       .out_row = padded,
+                       .start = bias_.data(),
+                       .start_row = 0,
+                       .padded = true});
+    const Index pieces = (shape_.steps + kTogether - 1) / kTogether;
+    for (Index k = 0; k < pieces; ++k) {
+      const Index begin = shape_.steps * k / pieces;
+      const Index count = shape_.steps * (k + 1) / pieces - begin;
+      Real *h = window_h_.data() + begin * row_, *gates = gates_.data();
+      weights_.multiply({.a = h,
+                         .a_row = row_,
+                         .rows = count,
+                         .depth = units,
+                         .out = gates,
+                         .out_row = padded,
+                         .start = input_.data(),
+                         .start_row = 0,
+                         .first = shape_.inputs,
+                         .padded = true});
+      lstm_online({count, units, gates, padded, window_c_.data() + begin * row_, h, row_});
+    }
+  }
+
+  LstmShape shape_;
+  Index row_;  // of h and c
+  Panels weights_;
+  Tensor bias_, input_, gates_;  // bias, its sum with the newest row's products; (rows, gates)
+  Tensor joined_, c_;            // x_t | h_(t-1) and c of one window from its begin
+  Tensor window_h_, window_c_;   // (T, row_) of the windows that slide
+  Index oldest_ = 0;             // the window that the next row completes
+};
+
+}  // namespace
+
+std::unique_ptr<PlanStep> make_lstm_step(const LstmShape& shape, Panels weights,
+                                         const Tensor& bias) {
+  return std::make_unique<LstmStep>(shape, std::move(weights), bias);
+}
+
+}  // namespace dcnn

@@ -1,0 +1,48 @@
+// How many instructions one prediction takes, counted by valgrind: a slow-down is seen without a
+// clock. Valgrind knows no AVX-512, so these are the kernels for AVX2.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "support/process.h"
+#include "support/sanitizer.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kPredictions = 10;
+
+struct Count {
+  const char* network;
+  double instructions;  // of one prediction, GCC 12, -O2
+};
+
+class Instructions : public testing::TestWithParam<Count> {};
+
+TEST_P(Instructions, OfOnePredictionAreNotMoreThanTheyWere) {
+  if (test::kSanitized) GTEST_SKIP() << "sanitizers add instructions";
+  if (std::system("valgrind --version > /dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "valgrind is not installed (tools/install-deps --tests)";
+  }
+  const test::TemporaryFolder folder;
+  const auto counts = folder / "counts";
+  const std::string command =
+      "OMP_NUM_THREADS=1 valgrind --tool=callgrind --toggle-collect=predict "
+      "--callgrind-out-file=" +
+      counts.string() + " " DCNN_PREDICTIONS " " + GetParam().network + " > /dev/null 2>&1";
+  ASSERT_EQ(std::system(command.c_str()), 0) << command;
+  const std::string text = test::slurp(counts);
+  const auto at = text.find("\ntotals: ");
+  ASSERT_NE(at, std::string::npos) << text.substr(0, 500);
+  const double found = std::strtod(text.c_str() + at + 9, nullptr) / kPredictions;
+  EXPECT_LT(found, 1.04 * GetParam().instructions);
+  EXPECT_GT(found, 0.9 * GetParam().instructions) << "faster: set the new count";
+}
+
+INSTANTIATE_TEST_SUITE_P(Networks, Instructions,
+                         testing::Values(Count{"valid", 29670}, Count{"same", 117160},
+                                         Count{"lstm", 709400}),
+                         [](const auto& count) { return std::string(count.param.network); });
+
+}  // namespace
+}  // namespace dcnn
