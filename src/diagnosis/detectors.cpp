@@ -58,15 +58,18 @@ std::vector<Clipping> clipping(const Case& study) {
       low = std::min(low, log.measured.col(j).minCoeff());
     }
     Clipping clip{j, std::max(std::abs(high), std::abs(low)), {}};
-    // Held at a limit means in a row; a value on a coarse lattice repeats without being one.
-    Index longest = 0, total = 0;
+    // Held at a limit means in a row, and longer than anywhere else: on a lattice as coarse as the
+    // noise every value repeats.
+    Index longest = 0, elsewhere = 0, total = 0;
     for (std::size_t k = 0; k < study.logs.size(); ++k) {
       const Eigen::VectorXd x = study.logs[k].measured.col(j);
-      Index run = 0;
+      Index run = 0, equal = 1;
       for (Index i = 0; i < x.size(); ++i) {
         const bool held = std::abs(std::abs(x(i)) - clip.limit) <= 1e-9 * clip.limit;
         run = held ? run + 1 : 0;
         longest = std::max(longest, run);
+        equal = i > 0 && x(i) == x(i - 1) ? equal + 1 : 1;
+        if (!held) elsewhere = std::max(elsewhere, equal);
         if (!held) continue;
         ++total;
         const double t = study.logs[k].motion.t(i);
@@ -76,7 +79,8 @@ std::vector<Clipping> clipping(const Case& study) {
         clip.spans.back().end = t + kNearLimit;
       }
     }
-    if (total >= kFewestClipped && longest >= 5) list.push_back(clip);
+    if (total >= kFewestClipped && longest >= std::max<Index>(5, 2 * elsewhere + 1))
+      list.push_back(clip);
   }
   return list;
 }

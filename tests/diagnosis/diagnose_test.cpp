@@ -174,6 +174,17 @@ TEST(Diagnose, WorksOnSomebodyElsesSimulator) {
   EXPECT_TRUE(report["fit"]["holdout_rmse_parameters"].is_null());
 }
 
+// On a lattice as coarse as the noise the largest reading repeats as every other one does.
+TEST(Diagnose, CoarseReadingsAreNotHeldAtALimit) {
+  const Json coarse{
+      {"effect", "quantisation"}, {"axis", nullptr}, {"parameters", {{"step_n", 0.25}}}};
+  Json slow = configuration(Json::array({coarse}));
+  for (Json& r : slow["recordings"]) r["trajectory"]["hz"] = {0.03, 0.2};
+  const Json report = Bench(slow).diagnose().report;
+  for (const auto& name : names(report))
+    EXPECT_NE(name, "saturation") << report["findings"].dump(1);
+}
+
 TEST(Diagnose, PosesAtRestShowWhatGravityShows) {
   Json configuration_at_rest = configuration(
       {{{"effect", "mass"}, {"axis", nullptr}, {"parameters", {{"delta_mass_kg", 0.08}}}}});
