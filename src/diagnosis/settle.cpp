@@ -84,8 +84,8 @@ void Search::settle(const std::vector<Member>& members) {
   left_ = difference(study_, predict(study_, fit_.members));
   // A machine always leaves something that no effect explains, far above its sensor's noise: there
   // a number counts that takes off a share of what is left.
-  constexpr double kLeastShare = 0.04;
-  if (study_.axis) setting_->price = std::max(10.0, kLeastShare * fit_.chi2);
+  constexpr double kMachineShare = 0.04;
+  if (study_.axis) setting_->price = std::max(10.0, kMachineShare * fit_.chi2);
 }
 
 }  // namespace dcnn

@@ -118,11 +118,11 @@ void Search::judge() {
 /// Of a machine, where laws are never constant to the last digit: a name must help on pieces of
 /// time on which it was not fitted.
 void Search::keep_what_carries_over() {
-  constexpr double kLeastShare = 0.5;
+  constexpr double kMostOfIt = 0.5;
   while (!fit_.members.empty()) {
     const auto shares = left_out_shares(*setting_, fit_);
     const auto worst = std::min_element(shares.begin(), shares.end());
-    if (*worst >= kLeastShare) break;
+    if (*worst >= kMostOfIt) break;
     std::vector<Member> rest = fit_.members;
     rest.erase(rest.begin() + (worst - shares.begin()));
     settle(rest);
