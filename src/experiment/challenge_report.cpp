@@ -55,8 +55,8 @@ Chart holdout_chart(const Json& table) {
               {},
               {},
               true,
-              720,
-              360,
+              1200,
+              420,
               true};
   for (const auto& [key, label] : Columns{{"before_over_oracle", "simulator as given"},
                                           {"after_over_oracle", "with what was found"},
