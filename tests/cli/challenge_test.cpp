@@ -116,7 +116,7 @@ TEST(ChallengeScript, OneScenarioOfAKindTellsItsStory) {
   ASSERT_EQ(challenge("--scenario single:1/viscous_friction/1 --seed 5 --out " + set.string()), 0);
   const Json scores = read_json(set / "scores.json", Exit::kData);
   ASSERT_EQ(scores["scenarios"].size(), 1U);
-  EXPECT_EQ(scores["scenarios"][0]["named"], Json({"viscous_friction"}));
+  EXPECT_EQ(scores["scenarios"][0]["named"], Json::array({"viscous_friction"}));
 }
 
 /// Processes other than this one whose arguments name the folder.
