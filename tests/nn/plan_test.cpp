@@ -95,7 +95,7 @@ TEST(Plan, ComputesWhatTheNetworkDoesWhateverTheInstructions) {
 class SlidingWindow {
  public:
   static constexpr Index kInputs = 15;
-  SlidingWindow(Index steps, Index rows) : steps_(steps), x_({steps + rows, kInputs}) {
+  SlidingWindow(Index steps, Index rows) : x_({steps + rows, kInputs}) {
     Rng rng(8);
     for (Real& value : x_.values()) value = static_cast<Real>(3 * rng.normal());
     for (Index k = 0; k + 1 < steps; ++k) std::copy_n(row(steps - 1), kInputs, row(k));
@@ -105,7 +105,6 @@ class SlidingWindow {
 
  private:
   Real* row(Index k) { return x_.data() + k * kInputs; }
-  Index steps_;
   Tensor x_;
 };
 
