@@ -263,7 +263,7 @@ std::string inject(const Injection& request, std::uint64_t seed, const fs::path&
   }
   write_file(folder / (subject.is_machine() ? "system.json" : "sim.json"),
              read_file(subject.description, 1 << 20, Exit::kData));
-  return write_seal({{"seed", seed}, {"scenarios", {answer}}}, folder, seal);
+  return write_seal({{"seed", seed}, {"scenarios", Json::array({answer})}}, folder, seal);
 }
 
 }  // namespace dcnn::conceal

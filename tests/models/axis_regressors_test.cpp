@@ -39,7 +39,7 @@ TEST(Axes, EveryTargetSeesEveryAxis) {
   samples.y.col(0) = 2.0 * x(0).sin() + 0.7 * x(2) + 3.0 * x(1) - 0.1 * x(3) + 0.2 * x(6) + 0.5;
   samples.y.col(1) = 1.5 * x(4).cos() + 0.3 * x(6) + 0.4 * x(5) + 0.2 * x(2);
   samples.segments = {{0, 500}};
-  problem.configuration = {{"noise", {{"levels_db", {nullptr}}}}};
+  problem.configuration = {{"noise", {{"levels_db", Json::array({nullptr})}}}};
   const auto rigid = test::fitted("rigid", {problem, samples});
   EXPECT_LT(largest_error(*rigid, samples), 1e-9);
   EXPECT_EQ(rigid->parameter_count(), 2 * (2 * 3 + 4 + 1 + 1));

@@ -67,11 +67,11 @@ double rmse(const Model& model, const Samples& samples) {
 }
 
 const char* const kKinds[] = {"dcnn-plus", "dcnn-t"};
-const Json kClean = {{"noise", {{"levels_db", {nullptr}}}}};
+const Json kClean = {{"noise", {{"levels_db", Json::array({nullptr})}}}};
 
 TEST(DcnnPlus, LinearPartIsRidgeRegressionOnTheEntries) {
   const Samples training = draw_samples(900, 1);
-  const Json patch = {{"noise", {{"levels_db", {nullptr}}}}, {"model", {{"body", "none"}}}};
+  const Json patch = {{"noise", {{"levels_db", Json::array({nullptr})}}}, {"model", {{"body", "none"}}}};
   const auto model = trained("dcnn-plus", training, patch);
   // The same entries from their definition, without the shared code.
   const Index n = training.rows();

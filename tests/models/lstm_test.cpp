@@ -31,7 +31,7 @@ std::unique_ptr<Model> make(const std::string& kind, Index features, Index targe
   problem.targets.names.assign(static_cast<std::size_t>(targets), "f");
   problem.targets.units.assign(static_cast<std::size_t>(targets), "N");
   problem.configuration = row.preset("standard", false);
-  problem.configuration["noise"] = {{"levels_db", {nullptr}}};
+  problem.configuration["noise"] = {{"levels_db", Json::array({nullptr})}};
   for (const auto& [section, keys] : patch.items()) problem.configuration[section].update(keys);
   problem.where = "test";
   problem.seed = 1;

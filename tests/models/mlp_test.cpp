@@ -25,7 +25,7 @@ std::unique_ptr<Model> make(const Json& model, Index epochs = 20) {
   problem.targets = {{"fx", "fy", "fz"}, {"N", "N", "N"}};
   problem.configuration = model_kind("mlp", Exit::kUsage).preset("quick", false);
   problem.configuration["training"]["epochs"] = epochs;
-  problem.configuration["noise"] = {{"levels_db", {nullptr}}};
+  problem.configuration["noise"] = {{"levels_db", Json::array({nullptr})}};
   problem.configuration["model"].update(model);
   problem.where = "test.json";
   return model_kind("mlp", Exit::kUsage).make(problem);

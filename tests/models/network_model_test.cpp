@@ -37,7 +37,7 @@ std::unique_ptr<Model> make(const Json& patch = Json::object(), std::uint64_t se
   configuration["training"]["epochs"] = 6;
   configuration["model"]["dropout"] = 0.1;
   configuration["model"]["padding"] = "valid";
-  configuration["noise"] = {{"levels_db", {nullptr}}};
+  configuration["noise"] = {{"levels_db", Json::array({nullptr})}};
   for (const auto& [section, keys] : patch.items()) configuration[section].update(keys);
   return model_kind("dcnn", Exit::kUsage).make(problem(configuration, seed));
 }

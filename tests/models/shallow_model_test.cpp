@@ -34,7 +34,7 @@ Problem problem(const std::string& kind, const Json& patch) {
   result.targets = {{"fx", "fy", "fz"}, {"N", "N", "N"}};
   result.configuration = model_kind(kind, Exit::kUsage).preset("quick", false);
   result.configuration["training"].update({{"epochs", 12}, {"stride", 1}});
-  result.configuration["noise"] = {{"levels_db", {nullptr}}};
+  result.configuration["noise"] = {{"levels_db", Json::array({nullptr})}};
   for (const auto& [section, keys] : patch.items()) result.configuration[section].update(keys);
   result.where = "test.json";
   result.seed = 3;

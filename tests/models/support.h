@@ -96,7 +96,7 @@ inline Task task_of(const std::string& kind, const Recording& recording, const s
   }
   Json& json = task.problem.configuration;
   json = model_kind(kind, Exit::kUsage).preset("quick", false);
-  json["noise"] = {{"levels_db", {nullptr}}};
+  json["noise"] = {{"levels_db", Json::array({nullptr})}};
   for (const auto& [section, keys] : configuration.items()) json[section].update(keys);
   task.problem.where = "test";
   task.problem.seed = 1;

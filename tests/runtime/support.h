@@ -50,7 +50,7 @@ inline Identifier trained(const std::string& kind = "rigid") {
   identifier.layout = make_layout({recording}, spec, {});
   identifier.targets = {{"fx", "fy", "fz"}, {"N", "N", "N"}};
   identifier.configuration = model_kind(kind, Exit::kUsage).preset("quick", false);
-  identifier.configuration["noise"] = {{"levels_db", {nullptr}}};
+  identifier.configuration["noise"] = {{"levels_db", Json::array({nullptr})}};
   identifier.model = model_kind(kind, Exit::kUsage)
                          .make({identifier.layout, identifier.targets, identifier.configuration,
                                 "test", 1, false});
