@@ -101,7 +101,7 @@ TEST(InputMap, RejectsBrokenStatistics) {
   };
   rejected("mean", {1.0, 2.0});
   rejected("deviation", {1.0, -2.0, 3.0});
-  rejected("centre", {1.0});
+  rejected("centre", Json::array({1.0}));
   rejected("mean", {1.0, 2.0, nullptr});
   rejected("mean_square", {1.0, 2.0, std::numeric_limits<double>::infinity()});
   rejected("unknown", 1);

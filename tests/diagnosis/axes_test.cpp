@@ -72,7 +72,7 @@ class Bench {
   test::TemporaryFolder folder_;
 };
 
-Json one_axis(const Json& more = {{"base", {"acceleration"}}}) {
+Json one_axis(const Json& more = {{"base", Json::array({"acceleration"})}}) {
   Json axis{{"name", "wheel"},   {"measured", "torque"}, {"unit", "N*m"},
             {"position", "pos"}, {"velocity", "vel"},    {"acceleration", "acc"}};
   axis.update(more);
@@ -222,7 +222,7 @@ TEST(DiagnoseAxes, RefusesBadDescriptionsInOneLine) {
   says(one_axis({{"base", {"acceleration", "jerk"}}}), "jerk");
   says(one_axis({{"simulated", "nothing"}}), "nothing");
   says(one_axis(Json::object()), "simulator");
-  says(one_axis({{"base", {"acceleration"}}, {"simulated", "simulated"}}), "excludes");
+  says(one_axis({{"base", Json::array({"acceleration"})}, {"simulated", "simulated"}}), "excludes");
   Json arm = one_axis(Json::object());
   arm["arm"] = {{"convention", "modified"}, {"dh", {{0, 0, 0, 0}, {1, 0, 0, 0}}}};
   says(arm, "dh");

@@ -19,7 +19,7 @@ TEST(Axes, EveryTargetSeesEveryAxis) {
                                    {"position", "q_" + n},
                                    {"velocity", "qd_" + n},
                                    {"acceleration", "qdd_" + n},
-                                   {"signals", {"temp"}}});
+                                   {"signals", Json::array({"temp"})}});
   }
   const System system = parse_system(description, "test");
   Problem problem;

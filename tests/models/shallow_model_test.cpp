@@ -255,7 +255,7 @@ TEST(ShallowModel, InputsAreChosenByNameOrByNetworkInput) {
   EXPECT_EQ(count({{"input", {{"kind", "window"}, {"length", 2}}}}), 31 * 20 + 63);
   EXPECT_NE(error_of(Exit::kUsage,
                      [&] {
-                       count({{"inputs", {"gama"}}});
+                       count({{"inputs", Json::array({"gama"})}});
                      })
                 .find("'gamma'"),
             std::string::npos);
@@ -263,9 +263,9 @@ TEST(ShallowModel, InputsAreChosenByNameOrByNetworkInput) {
   error_of(Exit::kUsage, [&] { count({{"inputs", Json::array()}}); });
   error_of(Exit::kUsage, [&] { count({{"inputs", {"gamma", "gamma"}}}); });
   error_of(Exit::kUsage, [&] { count({{"hidden", Json::array()}}); });
-  error_of(Exit::kUsage, [&] { count({{"hidden", {0}}}); });
-  error_of(Exit::kUsage, [&] { count({{"hidden", {900}}}); });
-  error_of(Exit::kUsage, [&] { count({{"hiden", {9}}}); });
+  error_of(Exit::kUsage, [&] { count({{"hidden", Json::array({0})}}); });
+  error_of(Exit::kUsage, [&] { count({{"hidden", Json::array({900})}}); });
+  error_of(Exit::kUsage, [&] { count({{"hiden", Json::array({9})}}); });
 
   Samples training = draw_samples(300, 1), moved = training;
   moved.x.rightCols(12).array() += 1.0;
