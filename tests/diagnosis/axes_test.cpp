@@ -76,7 +76,7 @@ Json one_axis(const Json& more = {{"base", Json::array({"acceleration"})}}) {
   Json axis{{"name", "wheel"},   {"measured", "torque"}, {"unit", "N*m"},
             {"position", "pos"}, {"velocity", "vel"},    {"acceleration", "acc"}};
   axis.update(more);
-  return {{"kind", "axes"}, {"axes", {axis}}};
+  return {{"kind", "axes"}, {"axes", Json::array({axis})}};
 }
 
 const Json* find(const Json& report, const std::string& effect) {

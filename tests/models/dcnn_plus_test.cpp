@@ -195,7 +195,7 @@ TEST(DcnnPlus, QuietLevelsWeighMore) {
   const Samples training = draw_samples(2000, 1);
   Json patch = {{"noise", {{"levels_db", {nullptr, 0.0}}}}, {"model", {{"body", "none"}}}};
   const double mixed = rmse(*trained("dcnn-t", training, patch), training);
-  patch["noise"]["levels_db"] = {nullptr};
+  patch["noise"]["levels_db"] = Json::array({nullptr});
   const double clean = rmse(*trained("dcnn-t", training, patch), training);
   patch["noise"]["levels_db"] = {0.0};
   const double loud = rmse(*trained("dcnn-t", training, patch), training);
