@@ -23,21 +23,26 @@ Json::Json(std::string text) : value_(std::move(text)) {}
 Json::Json(std::string_view text) : value_(std::string(text)) {}
 Json::Json(const char* text) : value_(std::string(text)) {}
 
-Json::Json(std::initializer_list<Json> items) {
-  const bool members = std::all_of(items.begin(), items.end(), [](const Json& item) {
+Json::Json(std::initializer_list<Item> items) : Json(array(items)) {
+  const std::vector<Json>& list = array_items();
+  const bool members = std::all_of(list.begin(), list.end(), [](const Json& item) {
     return item.is_array() && item.size() == 2 && item[0].is_string();
   });
-  if (!members) {
-    value_ = std::vector<Json>(items);
-    return;
-  }
-  value_ = std::vector<Member>();
-  for (const Json& item : items) member(item[0].get<std::string>()) = item[1];
+  if (!members) return;
+  Json all = object();
+  for (const Json& item : list) all.member(item[0].get<std::string>()) = item[1];
+  *this = std::move(all);
 }
 
-Json Json::array(std::initializer_list<Json> items) {
+Json Json::array() {
   Json out;
-  out.value_ = std::vector<Json>(items);
+  out.value_ = std::vector<Json>();
+  return out;
+}
+
+Json Json::array(std::initializer_list<Item> items) {
+  Json out = array();
+  for (const Item& item : items) out.push_back(item.value());
   return out;
 }
 

@@ -18,6 +18,16 @@ TEST(Json, BracesOfPairsAreAnObjectAndOtherBracesAList) {
   EXPECT_EQ(Json::object().dump(), "{}");
 }
 
+TEST(Json, BracesRoundOneElementAreAList) {
+  const Json one = 1;
+  EXPECT_EQ((Json{{"a", {one}}}.dump()), R"({"a":[1]})");
+  EXPECT_EQ((Json{{"a", {"x"}}, {"b", {nullptr}}, {"c", {{{"d", 2}}}}}.dump()),
+            R"({"a":["x"],"b":[null],"c":[{"d":2}]})");
+  EXPECT_EQ((Json{{"a", {std::string("x")}}}.dump()), R"({"a":["x"]})");
+  EXPECT_EQ(Json::array({one}).dump(), "[1]");
+  EXPECT_EQ((Json{1.5}.dump()), "[1.5]");
+}
+
 TEST(Json, KeepsTheOrderAndTheKindOfWhatItParses) {
   const std::string text =
       R"({"z":18446744073709551615,"a":-9223372036854775808,"m":1.0,"e":[],"o":{},"t":"\"é\\","f":false})";

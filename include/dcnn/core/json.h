@@ -49,6 +49,7 @@ concept JsonReadable = json_detail::IsReadable<T>::value;
 class Json {
  public:
   using Member = std::pair<std::string, Json>;
+  class Item;
 
   struct exception : std::runtime_error {
     using std::runtime_error::runtime_error;
@@ -80,11 +81,12 @@ class Json {
     for (const auto& [key, value] : members) (*this)[key] = value;
   }
   /// An object where every item is a pair whose first is a string, {{"a", 1}, {"b", 2}}; else a
-  /// list.
-  Json(std::initializer_list<Json> items);
+  /// list. Only the outermost braces round a single value may be read as the value itself:
+  /// array({value}) is a list of it to every compiler.
+  Json(std::initializer_list<Item> items);
 
-  static Json array() { return array({}); }
-  static Json array(std::initializer_list<Json> items);
+  static Json array();
+  static Json array(std::initializer_list<Item> items);
   static Json object();
 
   bool is_null() const { return holds<std::nullptr_t>(); }
@@ -260,6 +262,21 @@ class Json {
   std::variant<std::nullptr_t, bool, std::int64_t, std::uint64_t, double, std::string,
                std::vector<Json>, std::vector<Member>>
       value_;
+};
+
+/// What stands between the braces of a Json. A type of its own: round one element of Json itself,
+/// {"a", {json}}, compilers differ in whether braces make a list or copy the element.
+class Json::Item {
+ public:
+  template <class T>
+  requires(!std::same_as<std::remove_cvref_t<T>, Item> && std::constructible_from<Json, T>)
+  Item(T&& value) : value_(std::forward<T>(value)) {}
+  Item(std::initializer_list<Item> items) : value_(items) {}
+
+  const Json& value() const { return value_; }
+
+ private:
+  Json value_;
 };
 
 /// Parses one JSON document. Duplicate keys, comments, nesting beyond 64 levels, invalid UTF-8 and
