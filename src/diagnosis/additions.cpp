@@ -18,7 +18,7 @@ bool same_place(const Member& a, const Member& b) {
 
 }  // namespace
 
-std::vector<Trial> Search::additions(const JointFit& fit) const {
+std::vector<Trial> Search::additions(const JointFit& fit, bool events) const {
   const Scan scan(*setting_, fit);
   const Signals left = difference(study_, scan.chain().prediction());
   const std::vector<Member> list = candidates(scan, left, floors_);
@@ -60,7 +60,7 @@ std::vector<Trial> Search::additions(const JointFit& fit) const {
     Trial& trial = chosen[static_cast<std::size_t>(k)];
     trial = scan.refine(scan.evaluate(trial.member, Detail::kFine), Detail::kFine, 14);
   });
-  if (!study_.is_static() && events_allowed_) {
+  if (events && events_allowed_ && !study_.is_static()) {
     if (is_listed(study_, *find_effect("contact"))) chosen.push_back(find_contact(scan));
     chosen.push_back(find_step(scan));
   }

@@ -12,15 +12,18 @@
 namespace dcnn {
 namespace {
 
-/// Every combination of the seeds of a form's shapes.
-std::vector<Eigen::VectorXd> seed_grid(const EffectFit& form) {
+/// Every combination of the seeds of a form's shapes on an axis. Seeds of speeds and lengths are
+/// those of a translation; a rotation has larger numbers (rad instead of m).
+std::vector<Eigen::VectorXd> seed_grid(const EffectFit& form, const std::string& axis) {
+  constexpr double kPerArm = 5.0;  // 1/m
+  const double scale = axis.rfind("w_", 0) == 0 ? kPerArm : 1.0;
   std::vector<Eigen::VectorXd> grid{Eigen::VectorXd(0)};
   for (const ShapeParameter& shape : form.shapes) {
     std::vector<Eigen::VectorXd> longer;
     for (const auto& point : grid) {
       for (const double seed : shape.seeds) {
         Eigen::VectorXd p(point.size() + 1);
-        p << point, seed;
+        p << point, scale * seed;
         longer.push_back(p);
       }
     }
@@ -65,8 +68,12 @@ AngleBins bin_by_angle(const Case& study, const Signals& left, const std::string
   return bins;
 }
 
+/// Turns of a cogging over the angle's range, below which it is hardly told from a spring.
+constexpr double kFewestTurns = 0.7;
+
 double least_order(const AngleBins& bins) {
-  return 2.0 * std::numbers::pi / (bins.width * static_cast<double>(bins.sum.size()));
+  return kFewestTurns * 2.0 * std::numbers::pi /
+         (bins.width * static_cast<double>(bins.sum.size()));
 }
 
 /// The order whose sine and cosine of the angle explain most of the bins, beside a line in it.
@@ -178,7 +185,15 @@ bool is_listed(const Case& study, const EffectKind& kind) {
 
 std::vector<std::string> axes_of(const Case& study, const EffectKind& kind) {
   if (kind.axis == AxisRule::kNone) return {""};
-  if (!study.axis) return admitted_axes(kind.axis);
+  if (!study.axis) {
+    std::vector<std::string> axes = admitted_axes(kind.axis);
+    const bool aligned = study.simulator.model.R_ES().isIdentity(1e-9);
+    // Where the sensor sits straight on the flange, an axis of the tool is one of the sensor.
+    if (kind.axis == AxisRule::kAngle && aligned) {
+      std::erase_if(axes, [](const std::string& a) { return a.find("tool_") != a.npos; });
+    }
+    return axes;
+  }
   return {kind.axis == AxisRule::kLine    ? "base_x"
           : kind.axis == AxisRule::kAngle ? "alpha:base_x"
                                           : "sensor_x"};
@@ -234,7 +249,7 @@ std::vector<Member> candidates(const Scan& scan, const Signals& left,
         continue;
       }
       for (const auto& axis : axes_of(study, *kind)) {
-        for (const auto& shapes : seed_grid(form)) {
+        for (const auto& shapes : seed_grid(form, axis)) {
           list.push_back(make_member(*kind, form, axis, study.has_torque(), shapes));
         }
       }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "diagnosis/detectors.h"
 
@@ -9,9 +10,11 @@ namespace dcnn {
 namespace {
 
 constexpr double kFinestStep = 0.9e-3;  // N
+constexpr std::size_t kFewestGaps = 8;
 
-/// The finest difference between neighbouring values, if all differences are multiples of it.
-double lattice(const Signals& measured, Index channel) {
+/// The finest difference between neighbouring values, if all differences are multiples of it; else
+/// 0. None of too few values to tell.
+std::optional<double> lattice(const Signals& measured, Index channel) {
   std::vector<double> values;
   for (const auto& m : measured) {
     for (Index i = 0; i < m.rows(); ++i) values.push_back(m(i, channel));
@@ -24,7 +27,8 @@ double lattice(const Signals& measured, Index channel) {
     const double gap = values[k] - values[k - 1];
     if (gap > 1e-9 * size) gaps.push_back(gap);
   }
-  if (gaps.size() < 8 || gaps.size() > values.size() / 4) return 0.0;  // hardly a value repeats
+  if (gaps.size() < kFewestGaps) return std::nullopt;
+  if (gaps.size() > values.size() / 4) return 0.0;  // hardly a value repeats
   step = *std::min_element(gaps.begin(), gaps.end());
   double sum = 0.0, count = 0.0;
   for (const double gap : gaps) {
@@ -61,9 +65,10 @@ double rounding_step(const Case& study) {
   double least = 0.0;
   for (Index j = 0; j < study.channel_count(); ++j) {
     if (study.channels[static_cast<std::size_t>(j)] > 2) continue;
-    const double step = lattice(measured, j);
-    if (step < kFinestStep && !study.axis) return 0.0;
-    least = least == 0.0 ? step : std::min(least, step);
+    const std::optional<double> step = lattice(measured, j);
+    if (!step) continue;  // a force that hardly changes has few values on any lattice
+    if (*step < kFinestStep && !study.axis) return 0.0;
+    least = least == 0.0 ? *step : std::min(least, *step);
   }
   return least;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "core/linear_algebra.h"
@@ -69,7 +70,10 @@ Periodograms periodograms(const Case& study, const Signals& signals, Index chann
 /// Median over windows of each bin, as an estimate of the density: the upper middle of n values of
 /// an exponential distribution is on the average sum_{i=0}^{n/2} 1/(n-i) of its mean (ln 2 for
 /// many).
-Eigen::VectorXd density_of(const Periodograms& p) {
+/// `coarse`: readings on a coarse lattice are noisy near the middle between two values and still
+/// elsewhere, so that most windows hold less noise than all do together.
+Eigen::VectorXd density_of(const Periodograms& p, bool coarse = false) {
+  if (coarse && p.power.cols() > 0) return p.power.rowwise().mean();
   Eigen::VectorXd density(p.power.rows());
   double expected = 0.0;
   for (Index i = 0; p.power.cols() > 0 && i <= p.power.cols() / 2; ++i)
@@ -174,7 +178,13 @@ double Floor::density(double hz) const {
 double Floor::pose_density(double hz, double cutoff_hz) const {
   if (cutoff_hz <= 0.0) return 0.0;
   const double w = 2.0 * std::numbers::pi * hz;
-  return (static_part + moving_part * w * w * w * w) / (1.0 + std::pow(hz / cutoff_hz, 8.0));
+  double rung = 1.0;
+  for (const Mode& mode : modes) {
+    const double r = hz / mode.hz;
+    const std::complex<double> below(1.0 - r * r, 2.0 * mode.zeta * r);
+    rung *= std::norm(1.0 + mode.fraction * (1.0 / below - 1.0));
+  }
+  return rung * (static_part + moving_part * w * w * w * w) / (1.0 + std::pow(hz / cutoff_hz, 8.0));
 }
 
 double quiet_band(const Case& study) {
@@ -228,7 +238,7 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual,
   std::vector<Floor> floors;
   for (Index channel = 0; channel < study.channel_count(); ++channel) {
     const Periodograms p = periodograms(study, even, channel);
-    const Eigen::VectorXd density = density_of(p);
+    const Eigen::VectorXd density = density_of(p, study.rounding_step > 0.0);
     std::vector<Index> quiet;
     for (Index i = 0; i < p.hz.size(); ++i) {
       if (p.hz(i) >= from && p.hz(i) <= to) quiet.push_back(i);

@@ -8,6 +8,11 @@
 
 namespace dcnn {
 
+/// A mode of the tool along one channel: its force is 1 + fraction (H - 1) of the rigid one's.
+struct Mode {
+  double hz, zeta, fraction;
+};
+
 /// Noise of one channel: white plus AR(1) or flicker, per sample, in the target's unit squared.
 struct Floor {
   double white = 0.0, coloured = 0.0;  ///< variances
@@ -16,9 +21,10 @@ struct Floor {
   /// Spectral density of what the pose's noise adds through accelerations and gravity:
   /// static_part·|H| + moving_part·w^4·|H|, per sample.
   double static_part = 0.0, moving_part = 0.0;
-  std::string source = {};  ///< in words
-  double lowpass_hz = 0.0;  ///< of the filter that the noise has passed; 0: none
-  double dt = 0.0;          ///< s, between samples
+  std::vector<Mode> modes = {};  ///< in which motion that the pose does not show rings
+  std::string source = {};       ///< in words
+  double lowpass_hz = 0.0;       ///< of the filter that the noise has passed; 0: none
+  double dt = 0.0;               ///< s, between samples
 
   double deviation() const;  ///< of the sensor alone
   /// Density at `hz`, scaled so that white noise of variance s^2 has density s^2.

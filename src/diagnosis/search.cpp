@@ -11,8 +11,12 @@ namespace dcnn {
 namespace {
 
 constexpr double kLeastNetGain = 3.0;    // prices, after one per number, to name an effect
-constexpr double kLeastShare = 0.002;    // of what the model explains already
-constexpr std::size_t kMostMembers = 6;  // more only ever fed what is not in the catalogue
+constexpr double kLeastShare = 5e-4;     // of what the model explains already
+constexpr int kMostRounds = 6;           // of exchanges
+constexpr int kMostSteps = 12;           // of growth: what is added may be left out again
+constexpr double kLinearError = 0.01;    // of a gain that is estimated along a tangent
+constexpr double kRoundedError = 0.4;    // the same where rounding bends every tangent
+constexpr std::size_t kMostMembers = 5;  // more only ever fed what is not in the catalogue
 
 }  // namespace
 
@@ -42,6 +46,21 @@ JointFit Search::without(std::size_t member) const {
   return joint_fit(*setting_, members_without(member));
 }
 
+double Search::explained() const {
+  // What has no number of its own, as the inertial terms, cannot be a little wrong.
+  std::vector<Member> exact = fit_.members;
+  std::erase_if(exact, [](const Member& m) { return m.fixed || m.parameters() > 0; });
+  return std::max(0.0, joint_fit(*setting_, exact).chi2 - fit_.chi2);
+}
+
+bool Search::stays(const Member& member) const {
+  return member.fixed || (ringing_ && member.kind->stage == Stage::kResonance);
+}
+
+double Search::doubt(const Trial& trial) const {
+  return (study_.rounding_step > 0.0 ? kRoundedError : kLinearError) * trial.gain;
+}
+
 /// Adds the effect that gains most, if it gains enough.
 bool Search::grow() {
   if (fit_.members.size() >= kMostMembers) return false;
@@ -49,9 +68,8 @@ bool Search::grow() {
   const auto trials = additions(fit_);
   if (trials.empty()) return false;
   const Trial& best = trials.front();
-  const double explained = std::max(0.0, chi2_before_ - fit_.chi2);
-  if (best.net_gain() < kLeastNetGain * setting_->price || best.gain < kLeastShare * explained)
-    return false;
+  if (best.net_gain() < kLeastNetGain * setting_->price) return false;
+  if (best.gain < kLeastShare * explained()) return false;
   std::vector<Member> members = fit_.members;
   members.push_back(best.member);
   settle(members);
@@ -62,7 +80,7 @@ bool Search::grow() {
 bool Search::simplify() {
   bool changed = false;
   for (std::size_t m = 0; m < fit_.members.size() && fit_.members.size() > 1;) {
-    if (fit_.members[m].fixed) {
+    if (stays(fit_.members[m])) {
       ++m;
       continue;
     }
@@ -82,17 +100,18 @@ bool Search::simplify() {
 /// Exchanges a member for another effect that serves better in its place.
 bool Search::swap() {
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
-    if (fit_.members[m].fixed) continue;
+    if (stays(fit_.members[m])) continue;
     const JointFit rest = without(m);
     const double own = rest.chi2 - fit_.chi2 - setting_->price * fit_.members[m].parameters();
-    for (const Trial& trial : additions(rest)) {
+    // An event repairs any law that is a little wrong: it never takes one's place.
+    const bool event = fit_.members[m].interval_s.has_value();
+    for (const Trial& trial : additions(rest, event)) {
       // The same effect counts where it has better shapes than those that it was found with.
       if (trial.member.kind == fit_.members[m].kind && trial.member.axis == fit_.members[m].axis &&
           trial.net_gain() < own + setting_->price) {
         continue;
       }
-      if (trial.net_gain() < own - 2.0 * setting_->price)
-        break;  // the linear estimate may be a little off
+      if (trial.net_gain() < own - std::max(2.0 * setting_->price, doubt(trial))) break;
       std::vector<Member> members = rest.members;
       members.push_back(trial.member);
       const JointFit other = joint_fit(*setting_, members);
@@ -106,15 +125,19 @@ bool Search::swap() {
   return false;
 }
 
+/// Adds effects as long as one gains, and leaves out those that no longer do.
+void Search::pile_up() {
+  for (int steps = 0; steps < kMostSteps && grow(); ++steps) {
+    while (simplify()) {
+    }
+  }
+}
+
 /// Adds, exchanges and leaves out effects until nothing gains.
 void Search::explore() {
   bool recut = false;
-  for (int round = 0; round < 12; ++round) {
-    if (grow()) {
-      while (simplify()) {
-      }
-      continue;
-    }
+  for (int round = 0; round < kMostRounds; ++round) {
+    pile_up();
     if (fit_.members.empty() || fit_.members.size() == apart_.size()) return;
     say("trying other effects in place of those found");
     if (!study_.without.exchange && (swap() || replace_pairs())) continue;
@@ -124,8 +147,7 @@ void Search::explore() {
                                  [](const Member& m) { return m.kind->stage == Stage::kDynamics; });
     const double before = study_.derivative.cutoff_hz;
     // A long lag fools the first choice; otherwise names do not depend on a small error of it.
-    const double explained = std::max(0.0, chi2_before_ - fit_.chi2);
-    if (!lag && !is_alarming(band_tests(*setting_, fit_.residual), explained)) return;
+    if (!lag && !is_alarming(band_tests(*setting_, fit_.residual), explained())) return;
     choose_cutoff(fit_.members);
     settle(fit_.members);
     if (std::abs(study_.derivative.cutoff_hz / before - 1.0) < 0.1) return;
@@ -137,9 +159,8 @@ void Search::run() {
   settle({});
   detect();
   settle(apart_);
-  chi2_before_ = joint_fit(*setting_, {}).chi2;
   explore();
-  chi2_before_ = joint_fit(*setting_, {}).chi2;
+  let_ring();
   judge();
 }
 

@@ -30,8 +30,6 @@ class Search {
   const Setting& setting() const { return *setting_; }
   const std::vector<Floor>& floors() const { return floors_; }
   const Signals& left() const { return left_; }  ///< measured - predicted, at the log's rate
-  /// chi-square of the simulator as given, in the final whitening.
-  double chi2_before() const { return chi2_before_; }
   /// Something is left that no effect of the catalogue explains.
   bool remains() const { return remains_; }
   const std::optional<Member>& rounding() const { return rounding_; }
@@ -45,19 +43,34 @@ class Search {
   std::vector<Member> members_without(std::size_t member) const;
   /// The model without one member, the others refitted.
   JointFit without(std::size_t member) const;
-  /// The best additions to a model, at most one per effect, refined, best first.
-  std::vector<Trial> additions(const JointFit& fit) const;
+  /// The best additions to a model, at most one per effect, refined, best first; with contacts and
+  /// steps where `events`.
+  std::vector<Trial> additions(const JointFit& fit, bool events = true) const;
 
  private:
+  /// chi-square that fitted numbers took off.
+  double explained() const;
+  /// How far the gain of an addition may be from that of a joint fit.
+  double doubt(const Trial& trial) const;
+  /// Found by a test that a joint fit cannot repeat.
+  bool stays(const Member& member) const;
+  void smooth(double cutoff_hz);
   void choose_cutoff(const std::vector<Member>& members);
+  bool choose_rounding_noise();
   void make_setting(const std::vector<Member>& members);
   bool grow();
   bool simplify();
   bool swap();
   bool replace_pairs();
+  void pile_up();
   void explore();
   void detect();
   void drop_coincidences();
+  void let_ring();
+  bool is_alarming_now();
+  bool loosen();
+  bool admit_flicker();
+  bool begin_otherwise();
   void judge();
   void keep_what_carries_over();
   void say(const std::string& text) const;
@@ -68,12 +81,13 @@ class Search {
   std::unique_ptr<Setting> setting_;
   JointFit fit_;
   Signals left_;
-  double chi2_before_ = 0.0;
   std::vector<Span> held_out_, masked_;
   std::vector<Member> apart_;                  // members found by tests of their own
   std::optional<Member> rounding_, knocking_;  // named, but no part of what is fitted
   std::vector<BandTest> bands_;
+  std::vector<double> flicker_;  // of each channel, admitted beside the floor from above the motion
   bool events_allowed_ = true, remains_ = false;
+  bool ringing_ = false;  // what shakes the motion unseen rings in the modes that were found
 };
 
 /// measured - predicted per recording.

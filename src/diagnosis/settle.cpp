@@ -1,7 +1,11 @@
 // Floor, whitening and nuisance for what a set of members leaves.
+#include <algorithm>
+#include <cmath>
+
 #include "dcnn/data/filter.h"
 #include "diagnosis/axis_case.h"
 #include "diagnosis/search.h"
+#include "physics/effect_law.h"
 
 namespace dcnn {
 namespace {
@@ -34,6 +38,14 @@ void Search::make_setting(const std::vector<Member>& members) {
   const auto levels = noise_level(study_, raw);
   floors_ = noise_floor(study_, raw, levels);
   add_pose_noise(study_, floors_);
+  for (std::size_t j = 0; j < flicker_.size(); ++j) floors_[j].flicker += flicker_[j];
+  for (const Member& m : members) {
+    if (!ringing_ || m.kind->stage != Stage::kResonance) continue;
+    const auto own = std::find(study_.channels.begin(), study_.channels.end(), axis_index(m.axis));
+    if (own == study_.channels.end()) continue;
+    floors_[static_cast<std::size_t>(own - study_.channels.begin())].modes.push_back(
+        {m.shapes(0), m.shapes(1), m.amplitudes(0)});
+  }
   // What a machine leaves in the motion's band has nothing to do with the colour of the noise above
   // it.
   for (Floor& floor : floors_) {
@@ -72,9 +84,32 @@ void Search::make_setting(const std::vector<Member>& members) {
   }
 }
 
+/// What rounding makes of the mean depends on the noise before it, which a coarse lattice hides:
+/// the noise that leaves least. True where that is another one than before.
+bool Search::choose_rounding_noise() {
+  const double q = study_.rounding_step, before = study_.rounding_noise;
+  if (q == 0.0) return false;
+  double best = before, least = fit_.chi2;
+  for (double share = 0.03; share < 0.9; share *= 1.25) {
+    Case trial = study_;
+    trial.rounding_noise = share * q;
+    const Eigen::VectorXd left =
+        setting_->whitened(difference(trial, predict(trial, fit_.members)));
+    const double chi2 =
+        (left - setting_->nuisance * least_squares(setting_->nuisance, left)).squaredNorm();
+    if (chi2 < least) least = chi2, best = trial.rounding_noise;
+  }
+  for (Case* study : {&study_, &softer_, &harder_}) study->rounding_noise = best;
+  return std::abs(best / before - 1.0) > 0.1;
+}
+
 void Search::settle(const std::vector<Member>& members) {
   make_setting(members);
   fit_ = joint_fit(*setting_, members);
+  if (choose_rounding_noise()) {
+    make_setting(fit_.members);
+    fit_ = joint_fit(*setting_, fit_.members);
+  }
   if (fit_.base.size() > 0) {
     // What filters and gains do to the base simulator they do to the fitted one.
     for (Case* study : {&study_, &softer_, &harder_}) set_base(*study, fit_.base);

@@ -95,14 +95,18 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
     const double below = misfit[best - 1] - misfit[best], above = misfit[best + 1] - misfit[best];
     cutoff *= std::pow(1.4, 0.5 * (below - above) / (below + above));
   }
+  smooth(cutoff);
+}
+
+void Search::smooth(double cutoff_hz) {
   const auto smoothed = [&](double hz) {
     Case other = study_;
     set_derivative(other, {.kind = DerivativeSpec::Kind::kSpectral, .cutoff_hz = hz});
     return other;
   };
-  softer_ = smoothed(0.75 * cutoff);
-  harder_ = smoothed(1.4 * cutoff);
-  study_ = smoothed(cutoff);
+  softer_ = smoothed(0.75 * cutoff_hz);
+  harder_ = smoothed(1.4 * cutoff_hz);
+  study_ = smoothed(cutoff_hz);
 }
 
 }  // namespace dcnn

@@ -35,10 +35,7 @@ void Search::detect() {
     rounding_ = member;
     for (Case* study : {&study_, &softer_, &harder_}) {
       study->rounding_step = step;
-      // The floor holds the rounding's own variance too.
-      const double all = floors_.front().deviation();
-      study->rounding_noise =
-          std::sqrt(std::max(all * all - step * step / 12.0, 1e-4 * step * step));
+      study->rounding_noise = 0.3 * step;  // choose_rounding_noise()
     }
   }
   if (study_.is_static()) return;
@@ -69,7 +66,7 @@ void Search::drop_coincidences() {
     double most = kMostLikely;
     std::optional<std::size_t> worst;
     for (std::size_t m = 0; m < fit_.members.size(); ++m) {
-      if (fit_.members[m].fixed || fit_.members[m].interval_s) continue;
+      if (stays(fit_.members[m]) || fit_.members[m].interval_s) continue;
       const double p = flip_p_value(*setting_, fit_, m);
       if (p > most) most = p, worst = m;
     }
@@ -78,14 +75,18 @@ void Search::drop_coincidences() {
   }
 }
 
+bool Search::is_alarming_now() {
+  bands_ = band_tests(*setting_, fit_.residual);
+  return !study_.without.omnibus && is_alarming(bands_, explained());
+}
+
 /// Takes back what a remainder nobody can name makes doubtful: events, and members that fit in some
 /// places and not in others.
 void Search::judge() {
   drop_coincidences();
   if (study_.axis) keep_what_carries_over();
-  bands_ = band_tests(*setting_, fit_.residual);
-  const double explained = std::max(0.0, chi2_before_ - fit_.chi2);
-  remains_ = !study_.without.omnibus && is_alarming(bands_, explained);
+  remains_ = is_alarming_now();
+  if (remains_ && (loosen() || admit_flicker() || begin_otherwise())) remains_ = false;
   if (!remains_) return;
   say("something is left that no effect explains: names are tested again");
   if (events_allowed_) {
@@ -138,8 +139,11 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
     if (own.fixed) continue;
     const JointFit rest = without(m);
     const double net = rest.chi2 - fit_.chi2 - price * own.parameters();
-    for (const Trial& trial : additions(rest)) {
-      if (trial.member.kind == own.kind || trial.net_gain() < net - 0.2 * kNear * price) continue;
+    for (const Trial& trial : additions(rest, own.interval_s.has_value())) {
+      if (trial.member.kind == own.kind ||
+          trial.net_gain() < net - std::max(0.2 * kNear * price, doubt(trial))) {
+        continue;
+      }
       std::vector<Member> members = rest.members;
       members.push_back(trial.member);
       const JointFit other = joint_fit(*setting_, members);

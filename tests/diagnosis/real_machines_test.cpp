@@ -27,8 +27,7 @@ bool names(const Json& report, const std::vector<std::string>& any_of) {
 
 TEST(RealMachines, ASlideShowsItsDryFriction) {
   if (!std::filesystem::exists(kData / "emps")) GTEST_SKIP() << "no " << kData;
-  const Json report =
-      report_of("emps.json", {"emps/emps_train.csv"}, "emps/emps_test_pulses.csv");
+  const Json report = report_of("emps.json", {"emps/emps_train.csv"}, "emps/emps_test_pulses.csv");
   EXPECT_TRUE(names(report, {"coulomb_friction"})) << report["findings"].dump(1);
   EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 2.0);
   EXPECT_GT(report["fit"]["holdout_rmse_before"][0].get<double>(), 9.0);

@@ -1,0 +1,129 @@
+#include "diagnosis/flicker.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "dcnn/data/fourier.h"
+#include "diagnosis/chain.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kSlow = 10.0;       // Hz, below which flicker noise is looked for
+constexpr double kLargest = 0.7;     // of the floor's deviation: more is no sensor's slow part
+constexpr double kDependence = 6.0;  // deviations of the gain of polynomials that mean nothing
+
+struct Bin {
+  double hz, power;
+};
+
+/// Periodograms of whole segments below kSlow, scaled so that white noise of variance s^2 has mean
+/// s^2.
+std::vector<Bin> slow_bins(const Case& study, const Signals& left, Index channel) {
+  std::vector<Bin> bins;
+  for (std::size_t k = 0; k < study.logs.size(); ++k) {
+    for (const Segment& s : study.logs[k].motion.segments) {
+      const Index n = s.size();
+      if (static_cast<double>(n) * study.dt() < 4.0) continue;
+      const Eigen::ArrayXd phase = Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5) *
+                                   2.0 * std::numbers::pi / double(n);
+      Eigen::VectorXd x = left[k].col(channel).segment(s.begin, n);
+      x = (x.array() - x.mean()) * (1.0 - phase.cos());
+      const Eigen::VectorXd power = fourier(x).cwiseAbs2() / (1.5 * static_cast<double>(n));
+      for (Index i = 2; i < power.size(); ++i) {  // the window leaks the mean into the first
+        const double hz = static_cast<double>(i) / (static_cast<double>(n) * study.dt());
+        if (hz > kSlow) break;
+        bins.push_back({hz, power(i)});
+      }
+    }
+  }
+  return bins;
+}
+
+}  // namespace
+
+std::optional<std::vector<double>> flicker_below(const Case& study, const Signals& left,
+                                                 const std::vector<Floor>& floors) {
+  std::vector<double> result;
+  for (Index j = 0; j < study.channel_count(); ++j) {
+    const Floor& floor = floors[static_cast<std::size_t>(j)];
+    const std::vector<Bin> bins = slow_bins(study, left, j);
+    if (bins.size() < 16) return std::nullopt;
+    const double level = floor.density(kSlow);
+    double best = 0.0, most = -1e300;
+    for (double flicker = 0.0; flicker < 30.0 * level;
+         flicker = std::max(1e-3 * level, 1.15 * flicker)) {
+      double likelihood = 0.0;
+      for (const Bin& bin : bins) {
+        const double density = floor.density(bin.hz) + flicker / bin.hz;
+        likelihood -= std::log(density) + bin.power / density;
+      }
+      if (likelihood > most) most = likelihood, best = flicker;
+    }
+    Floor slow;
+    slow.flicker = best;
+    slow.dt = study.dt();
+    if (slow.deviation() > kLargest * floor.deviation()) return std::nullopt;
+    result.push_back(best);
+  }
+  return result;
+}
+
+bool follows_motion(const Setting& setting, const JointFit& fit) {
+  const Case& study = setting.study;
+  const Signals prediction = predict(study, fit.members);
+  std::vector<Signals> quantities;  // (T,1) each
+  const auto add = [&](const auto& of_log) {
+    Signals first, second;
+    for (std::size_t k = 0; k < study.logs.size(); ++k) {
+      const Eigen::MatrixXd value = of_log(k);
+      first.push_back(value);
+      second.push_back(value.cwiseAbs2());
+    }
+    quantities.push_back(first);
+    quantities.push_back(second);
+  };
+  const auto add_columns = [&](Index count, const auto& matrix_of) {
+    for (Index c = 0; c < count; ++c) {
+      add([&](std::size_t k) { return Eigen::MatrixXd(matrix_of(k).col(c)); });
+    }
+  };
+  const auto motion = [&](std::size_t k) -> const Motion& { return study.logs[k].motion; };
+  add_columns(
+      study.channel_count(), [&](std::size_t k) -> const auto& { return prediction[k]; });
+  add_columns(
+      3, [&](std::size_t k) -> const auto& { return motion(k).euler; });
+  add_columns(
+      3, [&](std::size_t k) -> const auto& { return motion(k).w_S; });
+  add_columns(
+      1, [&](std::size_t k) -> const auto& { return motion(k).t; });
+  if (motion(0).v_B.rows() == motion(0).samples()) {
+    add_columns(
+        3, [&](std::size_t k) -> const auto& { return motion(k).v_B; });
+  }
+  for (const char* name : {"x", "y", "z"}) {
+    if (!study.logs.front().recording.has(name)) continue;
+    add([&](std::size_t k) {
+      return Eigen::MatrixXd(study.logs[k].recording.column(name).matrix());
+    });
+  }
+  double gain = 0.0, dof = 0.0;
+  for (Index j = 0; j < study.channel_count(); ++j) {
+    Eigen::MatrixXd columns(fit.residual.size(), 0);
+    for (const Signals& quantity : quantities) {
+      Signals shown;
+      for (const auto& q : quantity) {
+        shown.push_back(Eigen::MatrixXd::Zero(q.rows(), study.channel_count()));
+        shown.back().col(j) = q.col(0);
+      }
+      columns = appended(columns, setting.whitened(shown));
+    }
+    const Eigen::MatrixXd known = orthonormal(fit.tangent);
+    const Eigen::MatrixXd basis = orthonormal(columns - known * (known.transpose() * columns));
+    gain += (basis.transpose() * fit.residual).squaredNorm();
+    dof += static_cast<double>(basis.cols());
+  }
+  return gain - dof > kDependence * std::sqrt(2.0 * dof);
+}
+
+}  // namespace dcnn

@@ -1,0 +1,114 @@
+// Before a remainder is called unexplained: what could make it without any effect being missing,
+// and whether another beginning of the search leads to a model that leaves nothing.
+#include <algorithm>
+#include <set>
+
+#include "diagnosis/flicker.h"
+#include "diagnosis/search.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kLooser = 1.2;             // of the smoother's cut-off
+constexpr std::size_t kMostBeginnings = 3;  // besides the best
+constexpr double kBeginningShare = 0.1;     // of the best first gain
+constexpr double kPromising = 0.8;          // of the chi-square that is to be improved
+
+}  // namespace
+
+/// Motion too fast for the smoother, or too small for the pose to show it, shakes the modes that
+/// were found. It is noise like the pose's own; once it counts as such, what had only served to
+/// explain it goes.
+void Search::let_ring() {
+  const bool rings = std::any_of(fit_.members.begin(), fit_.members.end(), [](const Member& m) {
+    return !m.fixed && m.kind->stage == Stage::kResonance;
+  });
+  if (!rings || study_.axis) return;
+  ringing_ = true;
+  settle(fit_.members);
+  while (simplify()) {
+  }
+  explore();
+}
+
+/// Whether a smoother that lets a little more of the motion through leaves nothing: the pose's
+/// noise and the motion may meet between two cut-offs, and a mode makes much of little motion.
+bool Search::loosen() {
+  if (study_.is_static() || study_.axis) return false;
+  const double below = study_.derivative.cutoff_hz / 2.0;
+  const bool slow = std::any_of(bands_.begin(), bands_.end(), [&](const BandTest& band) {
+    return band.z > 5.0 && band.from_hz < below;
+  });
+  if (slow) return false;
+  const double cutoff = study_.derivative.cutoff_hz;
+  const std::vector<Member> members = fit_.members;
+  double looser = cutoff;
+  for (int step = 0; step < (ringing_ ? 3 : 1); ++step) {
+    smooth(looser *= kLooser);
+    settle(members);
+    if (!is_alarming_now()) return true;
+  }
+  smooth(cutoff);
+  settle(members);
+  is_alarming_now();
+  return false;
+}
+
+/// Whether slow noise, rising as 1/f towards low frequencies, is all that is left. The floor is
+/// read above the motion, where the noise's flat part hides it.
+bool Search::admit_flicker() {
+  if (study_.is_static() || study_.axis || study_.without.coloured_floor) return false;
+  const auto flicker = flicker_below(study_, left_, floors_);
+  if (!flicker) return false;
+  const std::vector<Member> members = fit_.members;
+  flicker_ = *flicker;
+  settle(apart_);
+  explore();
+  drop_coincidences();
+  if (!is_alarming_now() && !follows_motion(*setting_, fit_)) return true;
+  flicker_.clear();
+  settle(members);
+  is_alarming_now();
+  return false;
+}
+
+/// A search that adds one effect after the other may begin with a wrong one that nothing replaces
+/// later: it begins with others, and keeps the model that leaves nothing.
+bool Search::begin_otherwise() {
+  if (study_.axis || study_.without.exchange) return false;
+  const std::vector<Member> members = fit_.members;
+  const bool rang = ringing_;
+  const double least = fit_.chi2;
+  std::set<std::string> tried;
+  for (const Member& m : members) tried.insert(m.name());
+  ringing_ = false;
+  settle(apart_);
+  const std::vector<Trial> beginnings = additions(fit_);
+  std::size_t count = 0;
+  for (const Trial& trial : beginnings) {
+    if (count == kMostBeginnings || trial.gain < kBeginningShare * beginnings.front().gain) break;
+    if (!tried.insert(trial.member.name()).second) continue;
+    ++count;
+    say("beginning with another effect");
+    ringing_ = false;
+    std::vector<Member> first = apart_;
+    first.push_back(trial.member);
+    settle(first);
+    pile_up();
+    if (fit_.chi2 > kPromising * least) continue;
+    explore();
+    let_ring();
+    drop_coincidences();
+    // What takes more names than before, or fits here and not there, repairs rather than explains.
+    const auto tests = constancy(*setting_, fit_);
+    const bool holds = std::none_of(tests.begin(), tests.end(),
+                                    [](const Constancy& test) { return test.refutes(); });
+    if (holds && fit_.members.size() <= members.size() && !is_alarming_now()) return true;
+  }
+  ringing_ = rang;
+  settle(members);
+  is_alarming_now();
+  return false;
+}
+
+}  // namespace dcnn

@@ -1,0 +1,74 @@
+// Simulated recordings in which effects are hidden, and their diagnosis.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dcnn/core/file.h"
+#include "dcnn/diagnosis/diagnose.h"
+#include "dcnn/physics/scenario.h"
+#include "support/process.h"
+
+namespace dcnn::test {
+
+/// Samples of a recording, at 500 Hz.
+constexpr int kSamples = 10000;
+
+inline Json recording(const char* name, double t0) {
+  return {{"name", name},
+          {"samples", kSamples},
+          {"t0_s", t0},
+          {"trajectory",
+           {{"kind", "multisine"},
+            {"tones", 6},
+            {"hz", {0.05, 1.0}},
+            {"position_m", {0.12, 0.12, 0.12}},
+            {"angle_rad", {1.05, 0.61, 0.7}},
+            {"angle_center_rad", {0.0, 0.0, 3.14159}}}}};
+}
+
+/// Two recordings of a tool with these effects hidden, 0.04 N of noise.
+inline Json configuration(const Json& hidden) {
+  return {{"seed", 5},
+          {"simulator",
+           {{"tool", {{"mass_kg", 0.75}, {"com_m", {0.004, -0.006, 0.16}}}},
+            {"sensor", {{"bias_n", {0.1, -0.2, 0.3}}}}}},
+          {"pose_noise", {{"m", 5e-6}, {"rad", 5e-6}}},
+          {"force_noise", {{"n", 0.04}}},
+          {"recordings", {recording("fit", 0.0), recording("hold", 25.0)}},
+          {"hidden", hidden}};
+}
+
+/// Recordings and the nominal simulator in a folder of their own.
+class Bench {
+ public:
+  explicit Bench(const Json& configuration) {
+    const Scenario scenario = simulate_config(configuration, "test");
+    for (const auto& r : scenario.recordings) write_csv(folder_ / (r.name + ".csv"), r.noisy.table);
+    write_file(folder_ / "sim.json", scenario.simulator.dump());
+  }
+  DiagnosisRequest request(bool holdout = true) const {
+    DiagnosisRequest request;
+    request.simulator = folder_ / "sim.json";
+    request.fit = {folder_ / "fit.csv"};
+    if (holdout) request.holdout = {folder_ / "hold.csv"};
+    return request;
+  }
+  Diagnosis diagnose(bool holdout = true) const {
+    return dcnn::diagnose(request(holdout), nullptr);
+  }
+  std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+/// The effects that were found, in the order of the report.
+inline std::vector<std::string> names(const Json& report) {
+  std::vector<std::string> list;
+  for (const Json& f : report["findings"]) list.push_back(f["effect"].get<std::string>());
+  return list;
+}
+
+}  // namespace dcnn::test

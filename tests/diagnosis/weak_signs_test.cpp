@@ -1,0 +1,111 @@
+// Effects whose signs are weak, bent or hidden behind a stronger one, and noise that looks like
+// one.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "dcnn/core/random.h"
+#include "diagnosis/noise_floor.h"
+#include "diagnosis/support.h"
+
+namespace dcnn {
+namespace {
+
+using test::Bench;
+using test::configuration;
+using test::names;
+
+std::set<std::string> found(const Json& report) {
+  const auto list = names(report);
+  return {list.begin(), list.end()};
+}
+
+Json hidden(const char* effect, const Json& axis, const Json& parameters) {
+  return {{"effect", effect}, {"axis", axis}, {"parameters", parameters}};
+}
+
+// A sum of first-order processes, one an octave, has a density that falls as 1/f.
+TEST(WeakSigns, SlowNoiseAloneIsNothingMissing) {
+  const Bench bench(configuration(Json::array()));
+  Rng rng({7u});
+  for (const char* name : {"fit.csv", "hold.csv"}) {
+    Table table = read_csv(bench / name);
+    for (const char* channel : {"fx", "fy", "fz"}) {
+      const auto column =
+          std::find(table.columns.begin(), table.columns.end(), channel) - table.columns.begin();
+      for (double seconds = 0.01; seconds < 20.0; seconds *= 2.0) {
+        const double keep = std::exp(-0.002 / seconds);
+        double x = rng.normal();
+        for (Index i = 0; i < table.values.rows(); ++i) {
+          table.values(i, column) += 0.004 * x;
+          x = keep * x + std::sqrt(1.0 - keep * keep) * rng.normal();
+        }
+      }
+    }
+    write_csv(bench / name, table);
+  }
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(report["verdict"], "consistent") << report["unnamed"].dump();
+  EXPECT_TRUE(report["findings"].empty()) << report["findings"].dump(1);
+}
+
+TEST(WeakSigns, ALagOfAMillisecondIsALag) {
+  const Json report =
+      Bench(configuration(Json::array({hidden("lowpass", nullptr, {{"tau_s", 0.0011}})})))
+          .diagnose()
+          .report;
+  ASSERT_EQ(report["findings"].size(), 1U) << report["findings"].dump(1);
+  const auto name = report["findings"][0]["effect"].get<std::string>();
+  EXPECT_TRUE(name == "lowpass" || name == "time_delay") << name;
+}
+
+TEST(WeakSigns, ACoggingNeedsNoWholeTurnInTheRange) {
+  // The angle covers about 2 rad: 0.85 of a turn.
+  const Json report = Bench(configuration(Json::array(
+                                {hidden("cogging", "alpha:sensor_x",
+                                        {{"amp_n", 0.08}, {"order", 2.7}, {"phase_rad", 0.4}})})))
+                          .diagnose()
+                          .report;
+  EXPECT_EQ(names(report), std::vector<std::string>{"cogging"}) << report["findings"].dump(1);
+}
+
+TEST(WeakSigns, FrictionOfARotationFallsWithItsOwnSpeeds) {
+  const Json report =
+      Bench(configuration(Json::array(
+                {hidden("stribeck_friction", "w_sensor_x",
+                        {{"fc_n", 0.04}, {"fs_n", 0.09}, {"vs_mps", 0.5}, {"v0_mps", 0.06}})})))
+          .diagnose()
+          .report;
+  EXPECT_EQ(names(report), std::vector<std::string>{"stribeck_friction"})
+      << report["findings"].dump(1);
+}
+
+// Inertial terms explain a hundred times what the others do, without a number that could be wrong.
+TEST(WeakSigns, NothingHidesBehindTheInertialTerms) {
+  Json config =
+      configuration({hidden("inertial_terms", nullptr, Json::object()),
+                     hidden("linear_drift", nullptr,
+                            {{"rate_x_nps", 0.001}, {"rate_y_nps", 0.0}, {"rate_z_nps", 0.002}})});
+  config["simulator"]["model"] = {{"inertial", "none"}};
+  config["hidden"].push_back(
+      hidden("step_bias", nullptr, {{"step_x_n", 0.02}, {"step_y_n", 0.03}, {"step_z_n", -0.03}}));
+  config["hidden"].back()["interval_s"] = {9.0, 45.0};
+  const Json report = Bench(config).diagnose().report;
+  EXPECT_EQ(found(report), (std::set<std::string>{"inertial_terms", "linear_drift", "step_bias"}))
+      << report["findings"].dump(1);
+}
+
+// |1 + fraction (H - 1)|^2 at the mode, where H = 1/(2 zeta i).
+TEST(WeakSigns, UnseenMotionRingsInAMode) {
+  Floor floor;
+  floor.static_part = 2e-6;
+  const double plain = floor.pose_density(7.0, 5.0);
+  floor.modes = {{7.0, 0.02, 0.8}};
+  const double real = 0.2, imaginary = 0.8 / 0.04;
+  EXPECT_NEAR(floor.pose_density(7.0, 5.0) / plain, real * real + imaginary * imaginary, 1e-9);
+  EXPECT_NEAR(floor.pose_density(0.01, 5.0) / floor.static_part, 1.0, 1e-4);
+}
+
+}  // namespace
+}  // namespace dcnn
