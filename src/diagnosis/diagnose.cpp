@@ -5,6 +5,7 @@
 
 #include "diagnosis/axes.h"
 #include "diagnosis/candidates.h"
+#include "diagnosis/formula.h"
 #include "diagnosis/holdout.h"
 #include "diagnosis/locate.h"
 #include "diagnosis/portrait.h"
@@ -192,6 +193,11 @@ Json unnamed_part(const Search& search) {
   }
   part["words"] = "something that no effect of the catalogue explains, mostly between " +
                   brief(most->from_hz) + " and " + brief(most->to_hz) + " Hz";
+  if (const auto formula = formula_of(search.setting(), search.fit())) {
+    part["formula"] = formula->text;
+    part["words"] = part["words"].get<std::string>() + "; " + brief(100.0 * formula->share) +
+                    " % of it is like " + formula->text;
+  }
   return part;
 }
 

@@ -68,6 +68,7 @@ class Search {
   void drop_coincidences();
   void let_ring();
   bool is_alarming_now();
+  bool are_constant() const;
   bool loosen();
   bool admit_flicker();
   bool begin_otherwise();

@@ -54,6 +54,12 @@ bool Search::loosen() {
   return false;
 }
 
+bool Search::are_constant() const {
+  const auto tests = constancy(*setting_, fit_);
+  return std::none_of(tests.begin(), tests.end(),
+                      [](const Constancy& test) { return test.refutes(); });
+}
+
 /// Whether slow noise, rising as 1/f towards low frequencies, is all that is left. The floor is
 /// read above the motion, where the noise's flat part hides it.
 bool Search::admit_flicker() {
@@ -62,10 +68,13 @@ bool Search::admit_flicker() {
   if (!flicker) return false;
   const std::vector<Member> members = fit_.members;
   flicker_ = *flicker;
+  const auto suffices = [&] {
+    return !grow() && !is_alarming_now() && !follows_motion(*setting_, fit_);
+  };
   settle(apart_);
-  explore();
-  drop_coincidences();
-  if (!is_alarming_now() && !follows_motion(*setting_, fit_)) return true;
+  if (suffices()) return true;
+  settle(members);  // names that the slow noise leaves as they are
+  if (members.size() > apart_.size() && are_constant() && !simplify() && suffices()) return true;
   flicker_.clear();
   settle(members);
   is_alarming_now();
@@ -100,10 +109,7 @@ bool Search::begin_otherwise() {
     let_ring();
     drop_coincidences();
     // What takes more names than before, or fits here and not there, repairs rather than explains.
-    const auto tests = constancy(*setting_, fit_);
-    const bool holds = std::none_of(tests.begin(), tests.end(),
-                                    [](const Constancy& test) { return test.refutes(); });
-    if (holds && fit_.members.size() <= members.size() && !is_alarming_now()) return true;
+    if (are_constant() && fit_.members.size() <= members.size() && !is_alarming_now()) return true;
   }
   ringing_ = rang;
   settle(members);
