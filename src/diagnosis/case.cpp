@@ -50,6 +50,11 @@ Case thinned(const Case& study, Index stride) {
     for (const Segment& s : log.motion.segments) {
       for (Index k = s.begin + stride / 2; k < s.end; k += stride) rows.push_back(k);
     }
+    coarse.recording.name = log.recording.name;
+    coarse.recording.table.values.resize(static_cast<Index>(rows.size()), 0);
+    for (const char* name : {"x", "y", "z"}) {
+      if (log.recording.has(name)) coarse.recording.set(name, log.recording.column(name)(rows));
+    }
     coarse.base = {rows_of(log.base.force, rows), rows_of(log.base.torque, rows)};
     thin.logs.push_back(std::move(coarse));
   }

@@ -64,7 +64,8 @@ double span_seconds(const Case& study);
 /// The columns of a wrench that the case measures, (T, channels).
 Eigen::MatrixXd measured_part(const Case& study, const Wrench& wrench);
 
-/// The same case seen at every stride-th sample, for searches: motions, and no measurements.
+/// The same case seen at every stride-th sample, for searches: motions and positions, and no
+/// measurements.
 Case thinned(const Case& study, Index stride);
 
 /// Motions of all logs by this estimator, which becomes the case's.

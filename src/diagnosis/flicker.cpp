@@ -4,14 +4,12 @@
 #include <numbers>
 
 #include "dcnn/data/fourier.h"
-#include "diagnosis/chain.h"
 
 namespace dcnn {
 namespace {
 
-constexpr double kSlow = 10.0;       // Hz, below which flicker noise is looked for
-constexpr double kLargest = 0.7;     // of the floor's deviation: more is no sensor's slow part
-constexpr double kDependence = 6.0;  // deviations of the gain of polynomials that mean nothing
+constexpr double kSlow = 10.0;    // Hz, below which flicker noise is looked for
+constexpr double kLargest = 0.7;  // of the floor's deviation: more is no sensor's slow part
 
 struct Bin {
   double hz, power;
@@ -67,63 +65,6 @@ std::optional<std::vector<double>> flicker_below(const Case& study, const Signal
     result.push_back(best);
   }
   return result;
-}
-
-bool follows_motion(const Setting& setting, const JointFit& fit) {
-  const Case& study = setting.study;
-  const Signals prediction = predict(study, fit.members);
-  std::vector<Signals> quantities;  // (T,1) each
-  const auto add = [&](const auto& of_log) {
-    Signals first, second;
-    for (std::size_t k = 0; k < study.logs.size(); ++k) {
-      const Eigen::MatrixXd value = of_log(k);
-      first.push_back(value);
-      second.push_back(value.cwiseAbs2());
-    }
-    quantities.push_back(first);
-    quantities.push_back(second);
-  };
-  const auto add_columns = [&](Index count, const auto& matrix_of) {
-    for (Index c = 0; c < count; ++c) {
-      add([&](std::size_t k) { return Eigen::MatrixXd(matrix_of(k).col(c)); });
-    }
-  };
-  const auto motion = [&](std::size_t k) -> const Motion& { return study.logs[k].motion; };
-  add_columns(
-      study.channel_count(), [&](std::size_t k) -> const auto& { return prediction[k]; });
-  add_columns(
-      3, [&](std::size_t k) -> const auto& { return motion(k).euler; });
-  add_columns(
-      3, [&](std::size_t k) -> const auto& { return motion(k).w_S; });
-  add_columns(
-      1, [&](std::size_t k) -> const auto& { return motion(k).t; });
-  if (motion(0).v_B.rows() == motion(0).samples()) {
-    add_columns(
-        3, [&](std::size_t k) -> const auto& { return motion(k).v_B; });
-  }
-  for (const char* name : {"x", "y", "z"}) {
-    if (!study.logs.front().recording.has(name)) continue;
-    add([&](std::size_t k) {
-      return Eigen::MatrixXd(study.logs[k].recording.column(name).matrix());
-    });
-  }
-  double gain = 0.0, dof = 0.0;
-  for (Index j = 0; j < study.channel_count(); ++j) {
-    Eigen::MatrixXd columns(fit.residual.size(), 0);
-    for (const Signals& quantity : quantities) {
-      Signals shown;
-      for (const auto& q : quantity) {
-        shown.push_back(Eigen::MatrixXd::Zero(q.rows(), study.channel_count()));
-        shown.back().col(j) = q.col(0);
-      }
-      columns = appended(columns, setting.whitened(shown));
-    }
-    const Eigen::MatrixXd known = orthonormal(fit.tangent);
-    const Eigen::MatrixXd basis = orthonormal(columns - known * (known.transpose() * columns));
-    gain += (basis.transpose() * fit.residual).squaredNorm();
-    dof += static_cast<double>(basis.cols());
-  }
-  return gain - dof > kDependence * std::sqrt(2.0 * dof);
 }
 
 }  // namespace dcnn

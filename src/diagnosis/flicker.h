@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "diagnosis/joint_fit.h"
 #include "diagnosis/noise_floor.h"
 
 namespace dcnn {
@@ -13,9 +12,5 @@ namespace dcnn {
 /// for what is left below 10 Hz. None where that would be more than a slow part of a sensor's noise.
 std::optional<std::vector<double>> flicker_below(const Case& study, const Signals& left,
                                                  const std::vector<Floor>& floors);
-
-/// Whether what a fit leaves depends on the pose, its rates, the predicted force or the time: on
-/// the first and second powers of each, beyond what noise would.
-bool follows_motion(const Setting& setting, const JointFit& fit);
 
 }  // namespace dcnn

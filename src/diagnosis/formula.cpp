@@ -178,44 +178,68 @@ double taken_off(const Setting& setting, const Eigen::MatrixXd& columns,
   return taken;
 }
 
+/// Terms as whitened columns along one direction, beside what the fit knows.
+std::vector<Eigen::VectorXd> columns_along(const Setting& setting, const Eigen::MatrixXd& known,
+                                           const std::vector<Term>& terms,
+                                           const Direction& direction) {
+  std::vector<Eigen::VectorXd> columns(terms.size());
+  for_each_piece(static_cast<Index>(terms.size()), [&](Index t) {
+    const auto at = static_cast<std::size_t>(t);
+    Signals signals;
+    for (std::size_t k = 0; k < direction.n.size(); ++k) {
+      signals.push_back(terms[at].values[k].matrix().asDiagonal() * direction.n[k]);
+    }
+    const Eigen::VectorXd c = setting.coarse_whitener(signals).cwiseProduct(setting.mask);
+    columns[at] = c - known * (known.transpose() * c);
+  });
+  return columns;
+}
+
+/// The column that takes most off `left` beside a basis of others, and how much.
+std::pair<std::size_t, double> best_of(const std::vector<Eigen::VectorXd>& columns,
+                                       const Eigen::MatrixXd& basis, const Eigen::VectorXd& left) {
+  std::pair<std::size_t, double> best{0, 0.0};
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const Eigen::VectorXd c = columns[k] - basis * (basis.transpose() * columns[k]);
+    const double energy = c.squaredNorm();
+    if (!(energy > 1e-4 * columns[k].squaredNorm())) continue;
+    const double gain = std::pow(c.dot(left), 2) / energy;
+    if (gain > best.second) best = {k, gain};
+  }
+  return best;
+}
+
 }  // namespace
+
+double most_of_a_term(const Setting& setting, const JointFit& fit) {
+  const Case& study = setting.coarse;
+  const auto terms = terms_of(quantities(study, predict(study, fit.members)));
+  const Eigen::MatrixXd known = orthonormal(fit.tangent), none(fit.residual.size(), 0);
+  double most = 0.0;
+  for (const Direction& direction : directions(study)) {
+    const auto columns = columns_along(setting, known, terms, direction);
+    most = std::max(most, best_of(columns, none, fit.residual).second);
+  }
+  return most;
+}
 
 std::optional<Formula> formula_of(const Setting& setting, const JointFit& fit) {
   const Case& study = setting.coarse;
   if (study.is_static() || study.axis) return std::nullopt;
-  const auto all = terms_of(quantities(study, predict(study, fit.members)));
-  const Eigen::MatrixXd known = orthonormal(fit.tangent);
-  const auto column_of = [&](const Term& term, const Direction& direction) {
-    Signals signals;
-    for (std::size_t k = 0; k < study.logs.size(); ++k) {
-      signals.push_back(term.values[k].matrix().asDiagonal() * direction.n[k]);
-    }
-    const Eigen::VectorXd c = setting.coarse_whitener(signals).cwiseProduct(setting.mask);
-    return Eigen::VectorXd(c - known * (known.transpose() * c));
-  };
   const double excess = fit.chi2 - (setting.mask.sum() - static_cast<double>(fit.tangent.cols()));
   if (!(excess > 0.0)) return std::nullopt;
+  const auto terms = terms_of(quantities(study, predict(study, fit.members)));
+  const Eigen::MatrixXd known = orthonormal(fit.tangent);
   std::optional<Formula> best;
   for (const Direction& direction : directions(study)) {
-    std::vector<Eigen::VectorXd> columns(all.size());
-    for_each_piece(static_cast<Index>(all.size()), [&](Index k) {
-      columns[static_cast<std::size_t>(k)] = column_of(all[static_cast<std::size_t>(k)], direction);
-    });
+    const auto columns = columns_along(setting, known, terms, direction);
     std::vector<const Term*> chosen;
-    Eigen::MatrixXd basis(fit.residual.size(), 0), own(fit.residual.size(), 0);
+    Eigen::MatrixXd basis(fit.residual.size(), 0), own = basis;
     Eigen::VectorXd left = fit.residual;
     while (chosen.size() < kMostTerms) {
-      double most = 0.0;
-      std::size_t next = 0;
-      for (std::size_t k = 0; k < all.size(); ++k) {
-        const Eigen::VectorXd c = columns[k] - basis * (basis.transpose() * columns[k]);
-        const double energy = c.squaredNorm();
-        if (!(energy > 1e-4 * columns[k].squaredNorm())) continue;
-        const double gain = std::pow(c.dot(left), 2) / energy;
-        if (gain > most) most = gain, next = k;
-      }
-      if (most < kWorthATerm * excess) break;
-      chosen.push_back(&all[next]);
+      const auto [next, gain] = best_of(columns, basis, left);
+      if (gain < kWorthATerm * excess) break;
+      chosen.push_back(&terms[next]);
       own = appended(own, columns[next]);
       basis = orthonormal(own);
       left = fit.residual - basis * (basis.transpose() * fit.residual);

@@ -19,4 +19,7 @@ struct Formula {
 /// stand as deviations from the middle of their ranges.
 std::optional<Formula> formula_of(const Setting& setting, const JointFit& fit);
 
+/// The largest gain of one such term: some 15 where only noise is left, for the best of thousands.
+double most_of_a_term(const Setting& setting, const JointFit& fit);
+
 }  // namespace dcnn

@@ -125,19 +125,14 @@ bool Search::swap() {
   return false;
 }
 
-/// Adds effects as long as one gains, and leaves out those that no longer do.
-void Search::pile_up() {
-  for (int steps = 0; steps < kMostSteps && grow(); ++steps) {
-    while (simplify()) {
-    }
-  }
-}
-
 /// Adds, exchanges and leaves out effects until nothing gains.
 void Search::explore() {
   bool recut = false;
   for (int round = 0; round < kMostRounds; ++round) {
-    pile_up();
+    for (int steps = 0; steps < kMostSteps && grow(); ++steps) {
+      while (simplify()) {
+      }
+    }
     if (fit_.members.empty() || fit_.members.size() == apart_.size()) return;
     say("trying other effects in place of those found");
     if (!study_.without.exchange && (swap() || replace_pairs())) continue;

@@ -62,7 +62,6 @@ class Search {
   bool simplify();
   bool swap();
   bool replace_pairs();
-  void pile_up();
   void explore();
   void detect();
   void drop_coincidences();
@@ -71,7 +70,6 @@ class Search {
   bool are_constant() const;
   bool loosen();
   bool admit_flicker();
-  bool begin_otherwise();
   void judge();
   void keep_what_carries_over();
   void say(const std::string& text) const;

@@ -1,18 +1,15 @@
-// Before a remainder is called unexplained: what could make it without any effect being missing,
-// and whether another beginning of the search leads to a model that leaves nothing.
+// Before a remainder is called unexplained: what could make it without any effect being missing.
 #include <algorithm>
-#include <set>
 
 #include "diagnosis/flicker.h"
+#include "diagnosis/formula.h"
 #include "diagnosis/search.h"
 
 namespace dcnn {
 namespace {
 
-constexpr double kLooser = 1.2;             // of the smoother's cut-off
-constexpr std::size_t kMostBeginnings = 3;  // besides the best
-constexpr double kBeginningShare = 0.1;     // of the best first gain
-constexpr double kPromising = 0.8;          // of the chi-square that is to be improved
+constexpr double kLooser = 1.2;       // of the smoother's cut-off
+constexpr double kDependence = 40.0;  // of chi-square: a term of pose, rates, force or time
 
 }  // namespace
 
@@ -69,49 +66,13 @@ bool Search::admit_flicker() {
   const std::vector<Member> members = fit_.members;
   flicker_ = *flicker;
   const auto suffices = [&] {
-    return !grow() && !is_alarming_now() && !follows_motion(*setting_, fit_);
+    return !grow() && !is_alarming_now() && most_of_a_term(*setting_, fit_) < kDependence;
   };
   settle(apart_);
   if (suffices()) return true;
   settle(members);  // names that the slow noise leaves as they are
   if (members.size() > apart_.size() && are_constant() && !simplify() && suffices()) return true;
   flicker_.clear();
-  settle(members);
-  is_alarming_now();
-  return false;
-}
-
-/// A search that adds one effect after the other may begin with a wrong one that nothing replaces
-/// later: it begins with others, and keeps the model that leaves nothing.
-bool Search::begin_otherwise() {
-  if (study_.axis || study_.without.exchange) return false;
-  const std::vector<Member> members = fit_.members;
-  const bool rang = ringing_;
-  const double least = fit_.chi2;
-  std::set<std::string> tried;
-  for (const Member& m : members) tried.insert(m.name());
-  ringing_ = false;
-  settle(apart_);
-  const std::vector<Trial> beginnings = additions(fit_);
-  std::size_t count = 0;
-  for (const Trial& trial : beginnings) {
-    if (count == kMostBeginnings || trial.gain < kBeginningShare * beginnings.front().gain) break;
-    if (!tried.insert(trial.member.name()).second) continue;
-    ++count;
-    say("beginning with another effect");
-    ringing_ = false;
-    std::vector<Member> first = apart_;
-    first.push_back(trial.member);
-    settle(first);
-    pile_up();
-    if (fit_.chi2 > kPromising * least) continue;
-    explore();
-    let_ring();
-    drop_coincidences();
-    // What takes more names than before, or fits here and not there, repairs rather than explains.
-    if (are_constant() && fit_.members.size() <= members.size() && !is_alarming_now()) return true;
-  }
-  ringing_ = rang;
   settle(members);
   is_alarming_now();
   return false;

@@ -86,7 +86,7 @@ void Search::judge() {
   drop_coincidences();
   if (study_.axis) keep_what_carries_over();
   remains_ = is_alarming_now();
-  if (remains_ && (loosen() || admit_flicker() || begin_otherwise())) remains_ = false;
+  if (remains_ && (loosen() || admit_flicker())) remains_ = false;
   if (!remains_) return;
   say("something is left that no effect explains: names are tested again");
   if (events_allowed_) {

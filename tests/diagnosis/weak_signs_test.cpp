@@ -96,6 +96,29 @@ TEST(WeakSigns, NothingHidesBehindTheInertialTerms) {
       << report["findings"].dump(1);
 }
 
+// A force that grows with the product of a position and an angle stands in no catalogue.
+TEST(WeakSigns, WhatHasNoNameGetsAFormula) {
+  const Bench bench(configuration(Json::array()));
+  for (const char* name : {"fit.csv", "hold.csv"}) {
+    Table table = read_csv(bench / name);
+    const auto column = [&](const char* title) {
+      return std::find(table.columns.begin(), table.columns.end(), title) - table.columns.begin();
+    };
+    const Eigen::VectorXd x = table.values.col(column("x")),
+                          beta = table.values.col(column("beta"));
+    table.values.col(column("fz")) += 2.0 * (x.array() * beta.array()).matrix();
+    write_csv(bench / name, table);
+  }
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(report["verdict"], "unexplained") << report["findings"].dump(1);
+  ASSERT_TRUE(report["unnamed"]["formula"].is_string()) << report["unnamed"].dump();
+  const auto formula = report["unnamed"]["formula"].get<std::string>();
+  EXPECT_NE(formula.find("N/(m*rad)"), std::string::npos) << formula;
+  EXPECT_NE(formula.find("beta"), std::string::npos) << formula;
+  EXPECT_NE(formula.find("along the sensor's z axis"), std::string::npos) << formula;
+  EXPECT_NE(report["unnamed"]["words"].get<std::string>().find(formula), std::string::npos);
+}
+
 // |1 + fraction (H - 1)|^2 at the mode, where H = 1/(2 zeta i).
 TEST(WeakSigns, UnseenMotionRingsInAMode) {
   Floor floor;
