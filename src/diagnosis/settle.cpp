@@ -38,7 +38,10 @@ void Search::make_setting(const std::vector<Member>& members) {
   const auto levels = noise_level(study_, raw);
   floors_ = noise_floor(study_, raw, levels);
   add_pose_noise(study_, floors_);
-  for (std::size_t j = 0; j < flicker_.size(); ++j) floors_[j].flicker += flicker_[j];
+  for (std::size_t j = 0; j < flicker_.size(); ++j) {
+    floors_[j].flicker += flicker_[j];
+    floors_[j].source += "; below, noise that rises as 1/f and depends on nothing";
+  }
   for (const Member& m : members) {
     if (!ringing_ || m.kind->stage != Stage::kResonance) continue;
     const auto own = std::find(study_.channels.begin(), study_.channels.end(), axis_index(m.axis));
