@@ -11,7 +11,7 @@ namespace dcnn {
 namespace {
 
 constexpr double kLeastNetGain = 3.0;    // prices, after one per number, to name an effect
-constexpr double kLeastShare = 5e-4;     // of what the model explains already
+constexpr double kLeastShare = 0.001;    // of what the model explains already
 constexpr int kMostRounds = 6;           // of exchanges
 constexpr int kMostSteps = 12;           // of growth: what is added may be left out again
 constexpr double kLinearError = 0.01;    // of a gain that is estimated along a tangent
