@@ -16,12 +16,29 @@ bool same_place(const Member& a, const Member& b) {
   return a.kind == b.kind && a.axis == b.axis && !a.interval_s && !b.interval_s;
 }
 
+/// A spring and less than a turn of cogging in one angle bend as any curved spring does, and are
+/// neither: beside the one the other needs a whole turn.
+bool joins(Member& candidate, const Member& member) {
+  const auto angle = [](const Member& m) { return m.axis.substr(0, m.axis.find(':')); };
+  if (angle(candidate) != angle(member)) return true;
+  if (candidate.name() == "cogging" && member.name() == "cable_spring") {
+    candidate.least_shapes /= kFewestTurns;
+    candidate.shapes = candidate.shapes.cwiseMax(candidate.least_shapes);
+  }
+  if (candidate.name() != "cable_spring" || member.name() != "cogging") return true;
+  return member.shapes(0) >= member.least_shapes(0) / kFewestTurns;
+}
+
 }  // namespace
 
 std::vector<Trial> Search::additions(const JointFit& fit, bool events) const {
   const Scan scan(*setting_, fit);
   const Signals left = difference(study_, scan.chain().prediction());
-  const std::vector<Member> list = candidates(scan, left, floors_);
+  std::vector<Member> list = candidates(scan, left, floors_);
+  std::erase_if(list, [&](Member& candidate) {
+    return !std::all_of(fit.members.begin(), fit.members.end(),
+                        [&](const Member& m) { return joins(candidate, m); });
+  });
   std::vector<Trial> trials(list.size());
   for_each_piece(static_cast<Index>(list.size()), [&](Index k) {
     const Member& member = list[static_cast<std::size_t>(k)];

@@ -68,9 +68,6 @@ AngleBins bin_by_angle(const Case& study, const Signals& left, const std::string
   return bins;
 }
 
-/// Turns of a cogging over the angle's range, below which it is hardly told from a spring.
-constexpr double kFewestTurns = 0.7;
-
 double least_order(const AngleBins& bins) {
   return kFewestTurns * 2.0 * std::numbers::pi /
          (bins.width * static_cast<double>(bins.sum.size()));

@@ -7,6 +7,9 @@
 
 namespace dcnn {
 
+/// Turns of a cogging over the angle's range, below which it is hardly told from a spring.
+constexpr double kFewestTurns = 0.7;
+
 /// Members to try next to the model of a scan: every fit of the catalogue, every axis it admits,
 /// every seed of its shapes; seeds of orders and frequencies come from what the model leaves. What
 /// needs a test of its own (events, knocks, rounding, clipping) and what the log lacks the signals

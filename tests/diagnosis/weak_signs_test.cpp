@@ -8,6 +8,7 @@
 #include "dcnn/core/random.h"
 #include "diagnosis/noise_floor.h"
 #include "diagnosis/support.h"
+#include "support/sanitizer.h"
 
 namespace dcnn {
 namespace {
@@ -51,6 +52,7 @@ TEST(WeakSigns, SlowNoiseAloneIsNothingMissing) {
 }
 
 TEST(WeakSigns, ALagOfAMillisecondIsALag) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
   const Json report =
       Bench(configuration(Json::array({hidden("lowpass", nullptr, {{"tau_s", 0.0011}})})))
           .diagnose()
@@ -61,6 +63,7 @@ TEST(WeakSigns, ALagOfAMillisecondIsALag) {
 }
 
 TEST(WeakSigns, ACoggingNeedsNoWholeTurnInTheRange) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
   // The angle covers about 2 rad: 0.85 of a turn.
   const Json report = Bench(configuration(Json::array(
                                 {hidden("cogging", "alpha:sensor_x",
@@ -71,6 +74,7 @@ TEST(WeakSigns, ACoggingNeedsNoWholeTurnInTheRange) {
 }
 
 TEST(WeakSigns, FrictionOfARotationFallsWithItsOwnSpeeds) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
   const Json report =
       Bench(configuration(Json::array(
                 {hidden("stribeck_friction", "w_sensor_x",
@@ -83,6 +87,7 @@ TEST(WeakSigns, FrictionOfARotationFallsWithItsOwnSpeeds) {
 
 // Inertial terms explain a hundred times what the others do, without a number that could be wrong.
 TEST(WeakSigns, NothingHidesBehindTheInertialTerms) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
   Json config =
       configuration({hidden("inertial_terms", nullptr, Json::object()),
                      hidden("linear_drift", nullptr,
@@ -93,6 +98,25 @@ TEST(WeakSigns, NothingHidesBehindTheInertialTerms) {
   config["hidden"].back()["interval_s"] = {9.0, 45.0};
   const Json report = Bench(config).diagnose().report;
   EXPECT_EQ(found(report), (std::set<std::string>{"inertial_terms", "linear_drift", "step_bias"}))
+      << report["findings"].dump(1);
+}
+
+// A spring that stiffens is no spring with a slow cogging beside it.
+TEST(WeakSigns, ACurvedSpringIsNoSpringAndCogging) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Bench bench(configuration(Json::array()));
+  for (const char* name : {"fit.csv", "hold.csv"}) {
+    Table table = read_csv(bench / name);
+    const auto column = [&](const char* title) {
+      return std::find(table.columns.begin(), table.columns.end(), title) - table.columns.begin();
+    };
+    const Eigen::ArrayXd beta = table.values.col(column("beta")).array();
+    table.values.col(column("fz")) -= (2.0 * beta.cube()).matrix();
+    write_csv(bench / name, table);
+  }
+  const Json report = bench.diagnose().report;
+  EXPECT_NE(report["verdict"], "explained") << report["findings"].dump(1);
+  EXPECT_FALSE(found(report).count("cogging") && found(report).count("cable_spring"))
       << report["findings"].dump(1);
 }
 
