@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "dcnn/diagnosis/diagnose.h"
+#include "support/process.h"
+#include "support/sanitizer.h"
 
 namespace dcnn {
 namespace {
@@ -44,6 +46,30 @@ TEST(RealMachines, ASurgicalToolShowsItsFrictionAndItsCable) {
       << report["findings"].dump(1);
   EXPECT_TRUE(names(report, {"cable_spring"})) << report["findings"].dump(1);
   EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 0.0130);
+}
+
+// Silverbox: an electronic mass on a spring that stiffens. Candidates that do nothing there end a
+// fit, not the program.
+TEST(RealMachines, AnOscillatorShowsItsCubicSpring) {
+  const auto file = kData / "silverbox/silverbox_SNLS80mV.csv";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run it";
+  const test::TemporaryFolder folder;
+  const Table whole = read_csv(file);
+  const auto cut = [&](const char* name, Index first, Index rows) {
+    Table part = whole;
+    part.values = whole.values.middleRows(first, rows);
+    write_csv(folder / name, part);
+    return folder / name;
+  };
+  DiagnosisRequest request;
+  request.system = std::filesystem::path(DCNN_SOURCE_DIR) / "configs/systems/silverbox.json";
+  request.fit = {cut("fit.csv", 40000, 12000)};
+  request.holdout = {cut("hold.csv", 52000, 8000)};
+  const Json report = diagnose(request, nullptr).report;
+  EXPECT_TRUE(names(report, {"cubic_spring"})) << report["findings"].dump(1);
+  EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(),
+            0.6 * report["fit"]["holdout_rmse_before"][0].get<double>());
 }
 
 }  // namespace
