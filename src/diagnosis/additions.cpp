@@ -16,17 +16,31 @@ bool same_place(const Member& a, const Member& b) {
   return a.kind == b.kind && a.axis == b.axis && !a.interval_s && !b.interval_s;
 }
 
+bool same_angle(const Member& a, const Member& b) {
+  const auto angle = [](const Member& m) { return m.axis.substr(0, m.axis.find(':')); };
+  return angle(a) == angle(b);
+}
+
 /// A spring and less than a turn of cogging in one angle bend as any curved spring does, and are
 /// neither: beside the one the other needs a whole turn.
-bool joins(Member& candidate, const Member& member) {
-  const auto angle = [](const Member& m) { return m.axis.substr(0, m.axis.find(':')); };
-  if (angle(candidate) != angle(member)) return true;
-  if (candidate.name() == "cogging" && member.name() == "cable_spring") {
+void keep_apart(std::vector<Member>& list, const std::vector<Member>& members) {
+  const auto beside = [&](const Member& candidate, const char* effect, const auto& condition) {
+    return std::any_of(members.begin(), members.end(), [&](const Member& m) {
+      return m.name() == effect && same_angle(m, candidate) && condition(m);
+    });
+  };
+  const auto any = [](const Member&) { return true; };
+  const auto slow = [](const Member& cogging) {
+    return cogging.shapes(0) < cogging.least_shapes(0) / kFewestTurns;
+  };
+  for (Member& candidate : list) {
+    if (candidate.name() != "cogging" || !beside(candidate, "cable_spring", any)) continue;
     candidate.least_shapes /= kFewestTurns;
     candidate.shapes = candidate.shapes.cwiseMax(candidate.least_shapes);
   }
-  if (candidate.name() != "cable_spring" || member.name() != "cogging") return true;
-  return member.shapes(0) >= member.least_shapes(0) / kFewestTurns;
+  std::erase_if(list, [&](const Member& candidate) {
+    return candidate.name() == "cable_spring" && beside(candidate, "cogging", slow);
+  });
 }
 
 }  // namespace
@@ -35,10 +49,7 @@ std::vector<Trial> Search::additions(const JointFit& fit, bool events) const {
   const Scan scan(*setting_, fit);
   const Signals left = difference(study_, scan.chain().prediction());
   std::vector<Member> list = candidates(scan, left, floors_);
-  std::erase_if(list, [&](Member& candidate) {
-    return !std::all_of(fit.members.begin(), fit.members.end(),
-                        [&](const Member& m) { return joins(candidate, m); });
-  });
+  keep_apart(list, fit.members);
   std::vector<Trial> trials(list.size());
   for_each_piece(static_cast<Index>(list.size()), [&](Index k) {
     const Member& member = list[static_cast<std::size_t>(k)];

@@ -1,9 +1,8 @@
 #include "diagnosis/flicker.h"
 
 #include <cmath>
-#include <numbers>
 
-#include "dcnn/data/fourier.h"
+#include "diagnosis/spectral_lines.h"
 
 namespace dcnn {
 namespace {
@@ -15,19 +14,14 @@ struct Bin {
   double hz, power;
 };
 
-/// Periodograms of whole segments below kSlow, scaled so that white noise of variance s^2 has mean
-/// s^2.
+/// Periodograms of whole segments below kSlow.
 std::vector<Bin> slow_bins(const Case& study, const Signals& left, Index channel) {
   std::vector<Bin> bins;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     for (const Segment& s : study.logs[k].motion.segments) {
       const Index n = s.size();
       if (static_cast<double>(n) * study.dt() < 4.0) continue;
-      const Eigen::ArrayXd phase = Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5) *
-                                   2.0 * std::numbers::pi / double(n);
-      Eigen::VectorXd x = left[k].col(channel).segment(s.begin, n);
-      x = (x.array() - x.mean()) * (1.0 - phase.cos());
-      const Eigen::VectorXd power = fourier(x).cwiseAbs2() / (1.5 * static_cast<double>(n));
+      const Eigen::VectorXd power = hann_power(left[k].col(channel).segment(s.begin, n), n);
       for (Index i = 2; i < power.size(); ++i) {  // the window leaks the mean into the first
         const double hz = static_cast<double>(i) / (static_cast<double>(n) * study.dt());
         if (hz > kSlow) break;

@@ -147,12 +147,12 @@ std::vector<Direction> directions(const Case& study) {
 }
 
 std::string written(const std::vector<const Term*>& terms, const Eigen::VectorXd& size,
-                    const std::string& unit, const std::string& direction) {
+                    const std::string& direction) {
   std::string text;
   for (std::size_t k = 0; k < terms.size(); ++k) {
     const double c = size(static_cast<Index>(k));
     text += k == 0 ? (c < 0.0 ? "-" : "") : (c < 0.0 ? " - " : " + ");
-    text += brief(std::abs(c)) + " " + unit;
+    text += brief(std::abs(c)) + " N";
     if (!terms[k]->unit.empty()) text += "/(" + terms[k]->unit + ")";
     text += " " + terms[k]->text;
   }
@@ -247,7 +247,7 @@ std::optional<Formula> formula_of(const Setting& setting, const JointFit& fit) {
     if (chosen.empty()) continue;
     const double share = taken_off(setting, own, fit.residual) / excess;
     if (share < std::max(kLeastShare, best ? best->share : 0.0)) continue;
-    best = Formula{written(chosen, least_squares(own, fit.residual), "N", direction.words), share};
+    best = Formula{written(chosen, least_squares(own, fit.residual), direction.words), share};
   }
   return best;
 }

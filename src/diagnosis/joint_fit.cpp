@@ -157,7 +157,7 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
     if (free == 0) break;
     const Eigen::VectorXd change = best_change(members, coordinates, fit.tangent, wanted - here,
                                                setting.study.without.refinement);
-    if (!change.allFinite()) break;  // a member that does nothing has no direction to move in
+    if (!change.allFinite()) break;  // whitened by a floor next to nothing, columns overflow
     const double before = fit.chi2;
     bool better = false;
     for (double length = 1.0; length > 0.02 && !better; length *= 0.4) {

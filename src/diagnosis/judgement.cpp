@@ -90,7 +90,7 @@ bool is_alarming(const std::vector<BandTest>& bands, double explained) {
   return std::any_of(bands.begin(), bands.end(), [&](const BandTest& band) {
     const bool much = band.excess > 0.004 * explained ||
                       (band.excess > 2000.0 && band.excess > 0.002 * explained);
-    return band.z > 5.0 && much;
+    return band.stands_out() && much;
   });
 }
 

@@ -14,6 +14,8 @@ struct BandTest {
   double from_hz, to_hz;
   double z;       ///< (sum - dof)/sqrt(2 dof) of the whitened periodogram
   double excess;  ///< sum - dof
+
+  bool stands_out() const { return z > 5.0; }
 };
 /// The floor comes from another band, so nothing has to be simulated for it.
 std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& residual);

@@ -34,7 +34,7 @@ bool Search::loosen() {
   if (study_.is_static() || study_.axis) return false;
   const double below = study_.derivative.cutoff_hz / 2.0;
   const bool slow = std::any_of(bands_.begin(), bands_.end(), [&](const BandTest& band) {
-    return band.z > 5.0 && band.from_hz < below;
+    return band.stands_out() && band.from_hz < below;
   });
   if (slow) return false;
   const double cutoff = study_.derivative.cutoff_hz;

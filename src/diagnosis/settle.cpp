@@ -93,8 +93,8 @@ bool Search::choose_rounding_noise() {
   const double q = study_.rounding_step, before = study_.rounding_noise;
   if (q == 0.0) return false;
   double best = before, least = fit_.chi2;
+  Case trial = study_;
   for (double share = 0.03; share < 0.9; share *= 1.25) {
-    Case trial = study_;
     trial.rounding_noise = share * q;
     const Eigen::VectorXd left =
         setting_->whitened(difference(trial, predict(trial, fit_.members)));

@@ -8,6 +8,15 @@
 
 namespace dcnn {
 
+Eigen::VectorXd hann_power(const Eigen::VectorXd& x, Index length) {
+  const Index n = x.size();
+  const Eigen::ArrayXd phase = Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5) *
+                               2.0 * std::numbers::pi / double(n);
+  Eigen::VectorXd tapered = Eigen::VectorXd::Zero(length);
+  tapered.head(n) = (x.array() - x.mean()) * (1.0 - phase.cos());
+  return fourier(tapered).cwiseAbs2() / (1.5 * static_cast<double>(n));
+}
+
 std::vector<Peak> spectral_lines(const Case& study, const Signals& left,
                                  const std::vector<Floor>& floors, double from_hz, double to_hz,
                                  Index channel, int most) {
@@ -18,15 +27,10 @@ std::vector<Peak> spectral_lines(const Case& study, const Signals& left,
   }
   const Floor& floor = floors[static_cast<std::size_t>(channel)];
   const double dt = study.dt();
-  const Index n = left[longest].rows();
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(fast_length(n));
-  const Eigen::ArrayXd phase = Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5) *
-                               2.0 * std::numbers::pi / double(n);
-  x.head(n) = (left[longest].col(channel).array() - left[longest].col(channel).mean()) *
-              (1.0 - phase.cos());
-  const Eigen::VectorXd power = fourier(x).cwiseAbs2() / (1.5 * static_cast<double>(n));
+  const Index length = fast_length(left[longest].rows());
+  const Eigen::VectorXd power = hann_power(left[longest].col(channel), length);
   // A line stands out of what is beside it, whatever the floor may be there.
-  const auto around = static_cast<Index>(1.5 * static_cast<double>(x.size()) * dt);
+  const auto around = static_cast<Index>(1.5 * static_cast<double>(length) * dt);
   const auto level_beside = [&](Index k) {
     std::vector<double> beside;
     for (Index i = std::max<Index>(1, k - around); i < std::min(power.size(), k + around); ++i) {
@@ -38,7 +42,7 @@ std::vector<Peak> spectral_lines(const Case& study, const Signals& left,
   };
   std::vector<Peak> peaks;
   for (Index k = 2; k + 2 < power.size(); ++k) {
-    const double hz = static_cast<double>(k) / (static_cast<double>(x.size()) * dt);
+    const double hz = static_cast<double>(k) / (static_cast<double>(length) * dt);
     if (hz < from_hz || hz > to_hz || power(k) < power(k - 1) || power(k) < power(k + 1)) continue;
     peaks.push_back({hz, power(k) / std::max(1e-300, floor.density(hz)), 0.0});
   }
@@ -52,7 +56,7 @@ std::vector<Peak> spectral_lines(const Case& study, const Signals& left,
     if (static_cast<int>(apart.size()) == most) break;
   }
   for (Peak& peak : apart) {
-    const auto k = std::llround(peak.hz * static_cast<double>(x.size()) * dt);
+    const auto k = std::llround(peak.hz * static_cast<double>(length) * dt);
     peak.prominence = power(k) / std::max(1e-300, level_beside(k));
   }
   return apart;

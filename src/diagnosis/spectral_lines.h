@@ -8,6 +8,10 @@
 
 namespace dcnn {
 
+/// The periodogram of x less its mean under a Hann window, scaled so that white noise of variance
+/// s^2 has mean s^2; zeros behind x fill it up to `length`.
+Eigen::VectorXd hann_power(const Eigen::VectorXd& x, Index length);
+
 /// The strongest lines of what is left, in the whole band of the log: frequency [Hz] and how often
 /// its power is the floor's, strongest first.
 struct Peak {

@@ -48,8 +48,8 @@ TEST(RealMachines, ASurgicalToolShowsItsFrictionAndItsCable) {
   EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 0.0130);
 }
 
-// Silverbox: an electronic mass on a spring that stiffens. Candidates that do nothing there end a
-// fit, not the program.
+// Silverbox: an electronic mass on a spring that stiffens. Whitened columns that overflow there end
+// a fit, not the program.
 TEST(RealMachines, AnOscillatorShowsItsCubicSpring) {
   const auto file = kData / "silverbox/silverbox_SNLS80mV.csv";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;

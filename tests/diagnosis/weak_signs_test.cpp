@@ -26,26 +26,34 @@ Json hidden(const char* effect, const Json& axis, const Json& parameters) {
   return {{"effect", effect}, {"axis", axis}, {"parameters", parameters}};
 }
 
+/// Changes the recordings of a bench by hand.
+template <class Change>
+void change(const Bench& bench, const Change& by) {
+  for (const char* name : {"fit.csv", "hold.csv"}) {
+    Recording log = read_recording(bench / name, ReadOptions(), System());
+    by(log);
+    write_csv(bench / name, log.table);
+  }
+}
+
 // A sum of first-order processes, one an octave, has a density that falls as 1/f.
 TEST(WeakSigns, SlowNoiseAloneIsNothingMissing) {
-  const Bench bench(configuration(Json::array()));
   Rng rng({7u});
-  for (const char* name : {"fit.csv", "hold.csv"}) {
-    Table table = read_csv(bench / name);
+  const Bench bench(configuration(Json::array()));
+  change(bench, [&](Recording& log) {
     for (const char* channel : {"fx", "fy", "fz"}) {
-      const auto column =
-          std::find(table.columns.begin(), table.columns.end(), channel) - table.columns.begin();
+      Eigen::VectorXd force = log.column(channel);
       for (double seconds = 0.01; seconds < 20.0; seconds *= 2.0) {
         const double keep = std::exp(-0.002 / seconds);
         double x = rng.normal();
-        for (Index i = 0; i < table.values.rows(); ++i) {
-          table.values(i, column) += 0.004 * x;
+        for (Index i = 0; i < force.size(); ++i) {
+          force(i) += 0.004 * x;
           x = keep * x + std::sqrt(1.0 - keep * keep) * rng.normal();
         }
       }
+      log.set(channel, force);
     }
-    write_csv(bench / name, table);
-  }
+  });
   const Json report = bench.diagnose().report;
   EXPECT_EQ(report["verdict"], "consistent") << report["unnamed"].dump();
   EXPECT_TRUE(report["findings"].empty()) << report["findings"].dump(1);
@@ -105,15 +113,9 @@ TEST(WeakSigns, NothingHidesBehindTheInertialTerms) {
 TEST(WeakSigns, ACurvedSpringIsNoSpringAndCogging) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
   const Bench bench(configuration(Json::array()));
-  for (const char* name : {"fit.csv", "hold.csv"}) {
-    Table table = read_csv(bench / name);
-    const auto column = [&](const char* title) {
-      return std::find(table.columns.begin(), table.columns.end(), title) - table.columns.begin();
-    };
-    const Eigen::ArrayXd beta = table.values.col(column("beta")).array();
-    table.values.col(column("fz")) -= (2.0 * beta.cube()).matrix();
-    write_csv(bench / name, table);
-  }
+  change(bench, [](Recording& log) {
+    log.set("fz", log.column("fz") - (2.0 * log.column("beta").array().cube()).matrix());
+  });
   const Json report = bench.diagnose().report;
   EXPECT_NE(report["verdict"], "explained") << report["findings"].dump(1);
   EXPECT_FALSE(found(report).count("cogging") && found(report).count("cable_spring"))
@@ -123,16 +125,9 @@ TEST(WeakSigns, ACurvedSpringIsNoSpringAndCogging) {
 // A force that grows with the product of a position and an angle stands in no catalogue.
 TEST(WeakSigns, WhatHasNoNameGetsAFormula) {
   const Bench bench(configuration(Json::array()));
-  for (const char* name : {"fit.csv", "hold.csv"}) {
-    Table table = read_csv(bench / name);
-    const auto column = [&](const char* title) {
-      return std::find(table.columns.begin(), table.columns.end(), title) - table.columns.begin();
-    };
-    const Eigen::VectorXd x = table.values.col(column("x")),
-                          beta = table.values.col(column("beta"));
-    table.values.col(column("fz")) += 2.0 * (x.array() * beta.array()).matrix();
-    write_csv(bench / name, table);
-  }
+  change(bench, [](Recording& log) {
+    log.set("fz", log.column("fz") + 2.0 * log.column("x").cwiseProduct(log.column("beta")));
+  });
   const Json report = bench.diagnose().report;
   EXPECT_EQ(report["verdict"], "unexplained") << report["findings"].dump(1);
   ASSERT_TRUE(report["unnamed"]["formula"].is_string()) << report["unnamed"].dump();
