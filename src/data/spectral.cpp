@@ -30,21 +30,20 @@ double bend(const Eigen::VectorXd& x, double dt) {
 /// none there; without them the smoothed acceleration would begin and end at zero.
 struct Ends {
   double first = 0.0, last = 0.0;  // second derivatives, 1/s^2
-  Index samples = 0;
-  double dt = 0.0;
+  Eigen::VectorXd decay;           // exp(-t/T) of the time from the first sample
 
-  Ends(const Eigen::Ref<const Eigen::VectorXd>& x, double step, double cutoff_hz)
-      : samples(x.size()), dt(step) {
+  Ends(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, double cutoff_hz) : decay(x.size()) {
     const Index window = std::min<Index>(x.size() / 3, std::llround(2.5 / (cutoff_hz * dt)));
     first = bend(x.head(window), dt);
     last = bend(x.tail(window).reverse(), dt);
+    for (Index i = 0; i < decay.size(); ++i) {
+      decay(i) = std::exp(-dt * static_cast<double>(i) / kEndSeconds);
+    }
   }
-  /// Their k-th derivative at sample i.
-  double derivative(int k, Index i) const {
-    const double before = dt * static_cast<double>(i), after = dt * double(samples - 1 - i);
-    const double T = kEndSeconds, scale = std::pow(T, 2 - k);
-    return scale *
-           ((k % 2 ? -1.0 : 1.0) * first * std::exp(-before / T) + last * std::exp(-after / T));
+  /// Their k-th derivative.
+  Eigen::VectorXd derivative(int k) const {
+    const double scale = std::pow(kEndSeconds, 2 - k);
+    return scale * ((k % 2 ? -first : first) * decay + last * decay.reverse());
   }
 };
 
@@ -81,15 +80,14 @@ Padded pad_oddly(const Eigen::Ref<const Eigen::VectorXd>& x, double dt) {
 Smoothed smooth(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, double cutoff_hz) {
   const Index n = x.size();
   const Ends ends(x, dt, cutoff_hz);
-  Eigen::VectorXd inner(n);
-  for (Index k = 0; k < n; ++k) inner(k) = x(k) - ends.derivative(0, k);
-  const Padded padded = pad_oddly(inner, dt);
+  const Padded padded = pad_oddly(x - ends.derivative(0), dt);
   const Index length = padded.values.size();
   const Eigen::VectorXcd spectrum = fourier(padded.values);
   Eigen::VectorXcd value(spectrum.size()), first(spectrum.size()), second(spectrum.size());
   for (Index k = 0; k < spectrum.size(); ++k) {
     const double hz = static_cast<double>(k) / (static_cast<double>(length) * dt);
-    const double gain = 1.0 / (1.0 + std::pow(hz / cutoff_hz, 8.0));
+    const double square = (hz / cutoff_hz) * (hz / cutoff_hz), fourth = square * square;
+    const double gain = 1.0 / (1.0 + fourth * fourth);
     const std::complex<double> s(0.0, 2.0 * std::numbers::pi * hz);
     value(k) = gain * spectrum(k);
     first(k) = s * value(k);
@@ -99,11 +97,13 @@ Smoothed smooth(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, double cu
   Smoothed out{inverse_fourier(value, length).segment(padded.pad, n),
                inverse_fourier(first, length).segment(padded.pad, n),
                inverse_fourier(second, length).segment(padded.pad, n)};
+  out.value += ends.derivative(0);
   for (Index k = 0; k < n; ++k) {
-    out.value(k) += padded.level + padded.slope * static_cast<double>(k) + ends.derivative(0, k);
-    out.first(k) += padded.slope / dt + ends.derivative(1, k);
-    out.second(k) += ends.derivative(2, k);
+    out.value(k) += padded.level + padded.slope * static_cast<double>(k);
   }
+  out.first += ends.derivative(1);
+  out.first.array() += padded.slope / dt;
+  out.second += ends.derivative(2);
   return out;
 }
 

@@ -11,6 +11,9 @@ namespace {
 
 constexpr Index kFine = 6;            // of these, looked at in full detail
 constexpr std::size_t kRefined = 10;  // candidates whose shapes are refined before a decision
+constexpr double kPromising = 0.4;    // of the gain needed, after a first refinement
+constexpr double kNear = 0.8;         // of the gain needed, after a second one
+constexpr double kNearRounded = 0.4;  // the same where rounding bends every tangent
 
 bool same_place(const Member& a, const Member& b) {
   return a.kind == b.kind && a.axis == b.axis && !a.interval_s && !b.interval_s;
@@ -45,7 +48,10 @@ void keep_apart(std::vector<Member>& list, const std::vector<Member>& members) {
 
 }  // namespace
 
-std::vector<Trial> Search::additions(const JointFit& fit, bool events) const {
+std::vector<Trial> Search::additions() const { return additions(fit_, true, std::nullopt); }
+
+std::vector<Trial> Search::additions(const JointFit& fit, bool events,
+                                     std::optional<double> needed) const {
   const Scan scan(*setting_, fit);
   const Signals left = difference(study_, scan.chain().prediction());
   std::vector<Member> list = candidates(scan, left, floors_);
@@ -79,12 +85,24 @@ std::vector<Trial> Search::additions(const JointFit& fit, bool events) const {
   const auto by_net_gain = [](const Trial& a, const Trial& b) {
     return a.net_gain() > b.net_gain();
   };
+  /// How many come near what is needed, best first.
+  const auto near = [&](double share) {
+    std::stable_sort(chosen.begin(), chosen.end(), by_net_gain);
+    const double least = share * needed.value_or(chosen.empty() ? 0.0 : chosen[0].net_gain());
+    return static_cast<Index>(std::count_if(chosen.begin(), chosen.end(), [&](const Trial& trial) {
+      return trial.net_gain() >= least;
+    }));
+  };
   for_each_piece(static_cast<Index>(chosen.size()), [&](Index k) {
+    Trial& trial = chosen[static_cast<std::size_t>(k)];
+    trial = scan.approach(trial);
+  });
+  for_each_piece(near(kPromising), [&](Index k) {
     Trial& trial = chosen[static_cast<std::size_t>(k)];
     trial = scan.refine(trial, Detail::kCoarse, 40);
   });
-  std::stable_sort(chosen.begin(), chosen.end(), by_net_gain);
-  for_each_piece(std::min<Index>(kFine, static_cast<Index>(chosen.size())), [&](Index k) {
+  const Index fine = near(study_.rounding_step > 0.0 ? kNearRounded : kNear);
+  for_each_piece(std::min(kFine, fine), [&](Index k) {
     Trial& trial = chosen[static_cast<std::size_t>(k)];
     trial = scan.refine(scan.evaluate(trial.member, Detail::kFine), Detail::kFine, 14);
   });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <set>
 
@@ -41,26 +42,27 @@ struct AngleBins {
 AngleBins bin_by_angle(const Case& study, const Signals& left, const std::string& axis) {
   AngleBins bins;
   double low = 1e300, high = -1e300;
-  std::vector<AngleLine> lines;
+  const AngleAxis at = angle_axis(axis);
   for (const Log& log : study.logs) {
-    lines.push_back(angle_line_of(axis, log.motion));
-    low = std::min(low, lines.back().angle.minCoeff());
-    high = std::max(high, lines.back().angle.maxCoeff());
+    low = std::min(low, log.motion.euler.col(at.angle).minCoeff());
+    high = std::max(high, log.motion.euler.col(at.angle).maxCoeff());
   }
   bins.low = low;
   bins.width = std::max(0.02, (high - low) / 4000.0);
   const auto size = static_cast<Index>((high - low) / bins.width) + 1;
   bins.sum = bins.count = Eigen::VectorXd::Zero(size);
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    for (Index i = 0; i < lines[k].angle.size(); i += 5) {
+  for (std::size_t k = 0; k < study.logs.size(); ++k) {
+    const Motion& motion = study.logs[k].motion;
+    const Eigen::MatrixXd n_S = direction_of(at.axis, motion);
+    for (Index i = 0; i < motion.samples(); i += 5) {
       double along = 0.0, norm = 0.0;
       for (std::size_t j = 0; j < study.channels.size(); ++j) {
         if (study.channels[j] > 2) continue;
-        const double n = lines[k].n_S(i, study.channels[j]);
+        const double n = n_S(i, study.channels[j]);
         along += n * left[k](i, static_cast<Index>(j));
         norm += n * n;
       }
-      const auto bin = static_cast<Index>((lines[k].angle(i) - low) / bins.width);
+      const auto bin = static_cast<Index>((motion.euler(i, at.angle) - low) / bins.width);
       bins.sum(bin) += along;
       bins.count(bin) += norm;
     }
@@ -76,18 +78,21 @@ double least_order(const AngleBins& bins) {
 /// The order whose sine and cosine of the angle explain most of the bins, beside a line in it.
 double best_order(const AngleBins& bins) {
   const Index n = bins.sum.size();
-  const Eigen::ArrayXd q =
-      bins.low + bins.width * (Eigen::ArrayXd::LinSpaced(n, 0.0, static_cast<double>(n - 1)) + 0.5);
-  const double range = bins.width * static_cast<double>(n), middle = bins.low + 0.5 * range;
+  const double range = bins.width * static_cast<double>(n), first = 0.5 * (bins.width - range);
   double best = 0.0, most = -1.0;
   const double step = std::max(0.1, 0.4 / range);
   for (double order = least_order(bins); order < std::min(120.0, 0.5 / bins.width); order += step) {
-    Eigen::MatrixXd A(n, 4);
-    A << Eigen::VectorXd::Ones(n), (q - middle).matrix(), (order * q).sin().matrix(),
-        (order * q).cos().matrix();
-    Eigen::Matrix4d gram = A.transpose() * bins.count.asDiagonal() * A;
+    Eigen::Matrix4d gram = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d b = Eigen::Vector4d::Zero();
+    std::complex<double> wave = std::polar(1.0, order * first);
+    const std::complex<double> turn = std::polar(1.0, order * bins.width);  // from bin to bin
+    for (Index k = 0; k < n; ++k, wave *= turn) {
+      const Eigen::Vector4d row(1.0, first + bins.width * static_cast<double>(k), wave.imag(),
+                                wave.real());
+      gram += bins.count(k) * row * row.transpose();
+      b += bins.sum(k) * row;
+    }
     gram.diagonal().array() += 1e-9 * gram.diagonal().maxCoeff();
-    const Eigen::Vector4d b = A.transpose() * bins.sum;
     const double gain = b.dot(solve_symmetric(gram, b).col(0));
     if (gain > most) most = gain, best = order;
   }

@@ -52,6 +52,12 @@ void linear_lags(const std::vector<EffectSpec>& effects, const Motion& motion,
   pass_on(late, Stage::kOffset, motion, model, wrench);
 }
 
+/// Adds a part, or takes it off.
+void add(const Wrench& part, double sign, Wrench& wrench) {
+  if (part.force.rows() > 0) wrench.force += sign * part.force;
+  if (part.torque.rows() > 0) wrench.torque += sign * part.torque;
+}
+
 }  // namespace
 
 Chain::Chain(const Case& study, std::vector<Member> members)
@@ -64,7 +70,7 @@ Chain::Chain(const Case& study, std::vector<Member> members)
 
 /// Rigid part and forces on the tool.
 Chain::Stages Chain::prepare(const Log& log, const std::vector<EffectSpec>& effects) const {
-  Stages stages{changed_tool(study_.simulator.model, effects), {}};
+  Stages stages{changed_tool(study_.simulator.model, effects), {}, {}};
   ToolModel without_bias = stages.model;
   without_bias.bias.setZero();
   without_bias.bias_torque.setZero();
@@ -72,9 +78,8 @@ Chain::Stages Chain::prepare(const Log& log, const std::vector<EffectSpec>& effe
   if (log.base.force.rows() > 0) stages.forced.force += log.base.force;
   if (log.base.torque.rows() > 0) stages.forced.torque += log.base.torque;
   for (const EffectSpec& effect : effects) {
-    if (find_effect(effect.effect)->stage == Stage::kForce) {
-      apply_effect(effect, log.motion, stages.model, stages.forced);
-    }
+    stages.pushes.push_back(push_of(effect, log, stages));
+    add(stages.pushes.back(), 1.0, stages.forced);
   }
   return stages;
 }
@@ -94,20 +99,34 @@ Eigen::MatrixXd Chain::finish(const Log& log, const Stages& stages, Wrench wrenc
   return mean;
 }
 
-Signals Chain::with(const Member& extra) const {
-  const EffectSpec spec = spec_of(extra);
+Wrench Chain::push_of(const EffectSpec& effect, const Log& log, const Stages& stages) const {
+  if (find_effect(effect.effect)->stage != Stage::kForce) return {};
+  const Wrench& like = stages.forced;
+  Wrench push{Eigen::MatrixXd::Zero(like.force.rows(), like.force.cols()),
+              Eigen::MatrixXd::Zero(like.torque.rows(), like.torque.cols())};
+  apply_effect(effect, log.motion, stages.model, push);
+  return push;
+}
+
+Signals Chain::with(const Member& effect, std::optional<std::size_t> instead_of) const {
+  const EffectSpec spec = spec_of(effect);
   std::vector<EffectSpec> effects = specs_;
-  effects.push_back(spec);
+  if (instead_of) {
+    effects[*instead_of] = spec;
+  } else {
+    effects.push_back(spec);
+  }
   Signals result;
   for (std::size_t k = 0; k < study_.logs.size(); ++k) {
     const Log& log = study_.logs[k];
-    if (extra.kind->stage == Stage::kTool) {
+    if (effect.kind->stage == Stage::kTool) {
       const Stages stages = prepare(log, effects);
       result.push_back(finish(log, stages, stages.forced, effects));
       continue;
     }
     Wrench wrench = stages_[k].forced;
-    if (extra.kind->stage == Stage::kForce) {
+    if (effect.kind->stage == Stage::kForce) {
+      if (instead_of) add(stages_[k].pushes[*instead_of], -1.0, wrench);
       apply_effect(spec, log.motion, stages_[k].model, wrench);
     }
     result.push_back(finish(log, stages_[k], std::move(wrench), effects));

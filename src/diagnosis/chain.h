@@ -1,6 +1,7 @@
 // Predictions of a case's recordings under a set of effects, with what effects do not touch cached.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "diagnosis/case.h"
@@ -17,17 +18,20 @@ class Chain {
 
   const std::vector<Member>& members() const { return members_; }
   const Signals& prediction() const { return prediction_; }
-  /// The prediction with one effect more.
-  Signals with(const Member& extra) const;
+  /// The prediction with one effect more, or with other numbers of one of the members: then
+  /// `effect` is the same effect in the same place.
+  Signals with(const Member& effect, std::optional<std::size_t> instead_of = {}) const;
 
  private:
   struct Stages {
-    ToolModel model;  // as the members change it
-    Wrench forced;    // after the forces on the tool
+    ToolModel model;             // as the members change it
+    Wrench forced;               // after the forces on the tool
+    std::vector<Wrench> pushes;  // what each member adds there; no rows where it acts elsewhere
   };
   Eigen::MatrixXd finish(const Log& log, const Stages& stages, Wrench wrench,
                          const std::vector<EffectSpec>& effects) const;
   Stages prepare(const Log& log, const std::vector<EffectSpec>& effects) const;
+  Wrench push_of(const EffectSpec& effect, const Log& log, const Stages& stages) const;
 
   const Case& study_;
   std::vector<Member> members_;

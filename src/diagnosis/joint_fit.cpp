@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 #include "core/linear_algebra.h"
@@ -12,7 +13,8 @@ namespace {
 
 constexpr int kMostSteps = 12;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kSettled = 0.02;  // of chi-square: far below what decides anything
+constexpr double kSettled = 0.02;   // of chi-square: far below what decides anything
+constexpr double kStraight = 1e-4;  // of chi-square: how far a step may end from its tangent
 
 /// One number of one member, on the scale it is searched on.
 struct Coordinate {
@@ -31,8 +33,7 @@ std::vector<Coordinate> coordinates_of(const std::vector<Member>& members) {
   return list;
 }
 
-void move(std::vector<Member>& members, const Coordinate& c, double step) {
-  Member& member = members[c.member];
+void move(Member& member, const Coordinate& c, double step) {
   if (!c.is_shape) {
     double& amplitude = member.amplitudes(c.index);
     amplitude += step;
@@ -57,16 +58,16 @@ double difference_step(const Case& study, const std::vector<Member>& members, co
   return member.shapes(c.index) > 0.995 * high ? -1e-3 : 1e-3;
 }
 
-Eigen::MatrixXd derivatives(const Setting& setting, const std::vector<Member>& members,
+Eigen::MatrixXd derivatives(const Setting& setting, const Chain& chain,
                             const std::vector<Coordinate>& coordinates,
                             const Eigen::VectorXd& here) {
   Eigen::MatrixXd columns(here.size(), static_cast<Index>(coordinates.size()));
   for_each_piece(columns.cols(), [&](Index k) {
     const Coordinate& c = coordinates[static_cast<std::size_t>(k)];
-    std::vector<Member> moved = members;
-    const double step = difference_step(setting.study, members, c);
+    const double step = difference_step(setting.study, chain.members(), c);
+    Member moved = chain.members()[c.member];
     move(moved, c, step);
-    columns.col(k) = (setting.whitened(predict(setting.study, moved)) - here) / step;
+    columns.col(k) = (setting.whitened(chain.with(moved, c.member)) - here) / step;
   });
   return columns;
 }
@@ -145,7 +146,8 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   const Eigen::VectorXd wanted = setting.whitened(setting.measured);
   const auto coordinates = coordinates_of(members);
   const Index free = static_cast<Index>(coordinates.size()), extra = setting.nuisance.cols();
-  Eigen::VectorXd here = setting.whitened(predict(setting.study, members));
+  auto chain = std::make_unique<Chain>(setting.study, std::move(members));
+  Eigen::VectorXd here = setting.whitened(chain->prediction());
   JointFit fit;
   fit.nuisance = least_squares(setting.nuisance, wanted - here);
   Eigen::VectorXd residual = wanted - here - setting.nuisance * fit.nuisance;
@@ -153,36 +155,42 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   fit.tangent.resize(here.size(), free + extra);
   fit.tangent.rightCols(extra) = setting.nuisance;
   for (int step = 0; step < kMostSteps; ++step) {
-    fit.tangent.leftCols(free) = derivatives(setting, members, coordinates, here);
+    fit.tangent.leftCols(free) = derivatives(setting, *chain, coordinates, here);
     if (free == 0) break;
-    const Eigen::VectorXd change = best_change(members, coordinates, fit.tangent, wanted - here,
-                                               setting.study.without.refinement);
+    const Eigen::VectorXd change = best_change(chain->members(), coordinates, fit.tangent,
+                                               wanted - here, setting.study.without.refinement);
     if (!change.allFinite()) break;  // whitened by a floor next to nothing, columns overflow
     const double before = fit.chi2;
-    bool better = false;
+    bool better = false, straight = false;
     for (double length = 1.0; length > 0.02 && !better; length *= 0.4) {
-      std::vector<Member> moved = members;
+      std::vector<Member> moved = chain->members();
+      bool whole = length == 1.0;
       for (Index k = 0; k < free; ++k) {
         const Coordinate& c = coordinates[static_cast<std::size_t>(k)];
         // A shape may not leap out of the region its derivative tells of.
         const double most = c.is_shape ? 1.0 : kInfinite;
-        move(moved, c, length * std::clamp(change(k), -most, most));
+        whole = whole && std::abs(change(k)) <= most;
+        move(moved[c.member], c, length * std::clamp(change(k), -most, most));
       }
-      const Eigen::VectorXd there = setting.whitened(predict(setting.study, moved));
+      auto next = std::make_unique<Chain>(setting.study, std::move(moved));
+      const Eigen::VectorXd there = setting.whitened(next->prediction());
       const Eigen::VectorXd nuisance = least_squares(setting.nuisance, wanted - there);
       const Eigen::VectorXd left = wanted - there - setting.nuisance * nuisance;
       const double chi2 = left.squaredNorm();
       if (!(chi2 < fit.chi2)) continue;
       better = true;
-      members = std::move(moved);
+      // Where the prediction went along its tangent, that is the one here as well, and the next
+      // step would be none.
+      straight = whole && (wanted - here - fit.tangent * change - left).squaredNorm() < kStraight;
+      chain = std::move(next);
       here = there;
       residual = left;
       fit.chi2 = chi2;
       fit.nuisance = nuisance;
     }
-    if (!better || before - fit.chi2 < kSettled) break;
+    if (!better || straight || before - fit.chi2 < kSettled) break;
   }
-  fit.members = std::move(members);
+  fit.members = chain->members();
   fit.residual = std::move(residual);
   const Index linear = setting.study.base_coefficients.size();
   fit.base = setting.study.base_coefficients + fit.nuisance.head(linear);

@@ -20,14 +20,13 @@ struct Abscissa {
 std::optional<Abscissa> coordinate_of(const Member& member, const Motion& motion) {
   if (motion.is_static()) return std::nullopt;
   if (member.kind->axis == AxisRule::kLine) {
-    const Line line = line_of(member.axis, motion);
     const bool turns = member.axis.starts_with("w_");
-    return Abscissa{line.velocity, line.n_S,
+    return Abscissa{velocity_of(member.axis, motion), direction_of(member.axis, motion),
                     turns ? "angular velocity [rad/s]" : "velocity along the axis [m/s]"};
   }
   if (member.kind->axis == AxisRule::kAngle) {
-    const AngleLine line = angle_line_of(member.axis, motion);
-    return Abscissa{line.angle, line.n_S,
+    const AngleAxis at = angle_axis(member.axis);
+    return Abscissa{motion.euler.col(at.angle), direction_of(at.axis, motion),
                     "angle " + member.axis.substr(0, member.axis.find(':')) + " [rad]"};
   }
   if (member.kind->stage == Stage::kOffset || member.interval_s) {

@@ -7,7 +7,8 @@ namespace dcnn {
 namespace {
 
 constexpr double kUnit =
-    1e-3;  // amplitude of a column: small enough for angles, large for rounding
+    1e-3;                      // amplitude of a column: small enough for angles, large for rounding
+constexpr int kApproach = 12;  // evaluations of a first refinement
 
 /// Amplitudes an effect cannot have without being another one.
 bool is_itself(const Case& study, const Member& member) {
@@ -175,20 +176,25 @@ std::vector<Member> Scan::as_likely(const Member& mode, double within) const {
   return likely;
 }
 
-Trial Scan::refine(const Trial& seed, Detail detail, int evaluations) const {
-  if (seed.member.shapes.size() == 0 || setting_.study.without.refinement) return seed;
+Trial Scan::approach(const Trial& seed) const {
   const std::string name = seed.member.name();
-  const bool coarse = detail == Detail::kCoarse;
-  if (coarse && name == "hum") return improved(tuned(seed, detail), detail, evaluations);
-  if (!coarse || name != "flexible_resonance" || seed.gain < 2.0 * seed.price) {
-    return improved(seed, detail, evaluations);
-  }
-  Trial best = improved(seed, detail, evaluations);
-  for (const Trial& start : hollows(seed.member, detail, 4)) {
-    const Trial trial = improved(start, detail, evaluations);
+  const auto a_little = [&](const Trial& start) {
+    return refine(start, Detail::kCoarse, kApproach);
+  };
+  if (setting_.study.without.refinement) return seed;
+  if (name == "hum") return a_little(tuned(seed, Detail::kCoarse));
+  Trial best = a_little(seed);
+  if (name != "flexible_resonance" || seed.gain < 2.0 * seed.price) return best;
+  for (const Trial& start : hollows(seed.member, Detail::kCoarse, 4)) {
+    const Trial trial = a_little(start);
     if (trial.gain > best.gain) best = trial;
   }
   return best;
+}
+
+Trial Scan::refine(const Trial& start, Detail detail, int evaluations) const {
+  if (start.member.shapes.size() == 0 || setting_.study.without.refinement) return start;
+  return improved(start, detail, evaluations);
 }
 
 Trial Scan::improved(const Trial& start, Detail detail, int evaluations,

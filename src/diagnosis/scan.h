@@ -30,6 +30,9 @@ class Scan {
 
   /// Best amplitudes of the member at its shapes, linear in the prediction of the model at hand.
   Trial evaluate(const Member& member, Detail detail = Detail::kFine) const;
+  /// A first, short search for better shapes, at samples for a search; over a comb of frequencies
+  /// where a seed may be far from the best.
+  Trial approach(const Trial& seed) const;
   /// Shapes improved from where they are (Nelder and Mead 1965 on their search scales).
   Trial refine(const Trial& start, Detail detail = Detail::kFine, int evaluations = 40) const;
   /// Modes of its axis, among those that a search meets, whose gain is at most `within` below the

@@ -42,8 +42,29 @@ std::vector<Member> Search::members_without(std::size_t member) const {
   return rest;
 }
 
-JointFit Search::without(std::size_t member) const {
-  return joint_fit(*setting_, members_without(member));
+const JointFit& Search::without(std::size_t member) const {
+  Place& place = places_[member];
+  if (!place.rest) place.rest = joint_fit(*setting_, members_without(member));
+  return *place.rest;
+}
+
+double Search::net_gain(std::size_t member) const {
+  return without(member).chi2 - fit_.chi2 - setting_->price * fit_.members[member].parameters();
+}
+
+const std::vector<Trial>& Search::others(std::size_t member) const {
+  Place& place = places_[member];
+  if (!place.others) {
+    // An event repairs any law that is a little wrong: it never takes one's place.
+    const bool events = fit_.members[member].interval_s.has_value();
+    place.others = additions(without(member), events, net_gain(member));
+  }
+  return *place.others;
+}
+
+void Search::forget_places() {
+  places_.clear();
+  places_.resize(fit_.members.size());
 }
 
 double Search::explained() const {
@@ -65,7 +86,7 @@ double Search::doubt(const Trial& trial) const {
 bool Search::grow() {
   if (fit_.members.size() >= kMostMembers) return false;
   say("looking for what is missing beside " + std::to_string(fit_.members.size()) + " effects");
-  const auto trials = additions(fit_);
+  const auto trials = additions();
   if (trials.empty()) return false;
   const Trial& best = trials.front();
   if (best.net_gain() < kLeastNetGain * setting_->price) return false;
@@ -84,13 +105,11 @@ bool Search::simplify() {
       ++m;
       continue;
     }
-    const JointFit rest = without(m);
-    const double rise = rest.chi2 - fit_.chi2;
-    if (rise >= setting_->price * (fit_.members[m].parameters() + kLeastNetGain)) {
+    if (net_gain(m) >= setting_->price * kLeastNetGain) {
       ++m;
       continue;
     }
-    settle(rest.members);
+    settle(std::vector<Member>(without(m).members));
     changed = true;
     m = 0;
   }
@@ -101,11 +120,9 @@ bool Search::simplify() {
 bool Search::swap() {
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     if (stays(fit_.members[m])) continue;
-    const JointFit rest = without(m);
-    const double own = rest.chi2 - fit_.chi2 - setting_->price * fit_.members[m].parameters();
-    // An event repairs any law that is a little wrong: it never takes one's place.
-    const bool event = fit_.members[m].interval_s.has_value();
-    for (const Trial& trial : additions(rest, event)) {
+    const JointFit& rest = without(m);
+    const double own = net_gain(m);
+    for (const Trial& trial : others(m)) {
       // The same effect counts where it has better shapes than those that it was found with.
       if (trial.member.kind == fit_.members[m].kind && trial.member.axis == fit_.members[m].axis &&
           trial.net_gain() < own + setting_->price) {

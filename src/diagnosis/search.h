@@ -42,12 +42,25 @@ class Search {
   void settle(const std::vector<Member>& members);
   std::vector<Member> members_without(std::size_t member) const;
   /// The model without one member, the others refitted.
-  JointFit without(std::size_t member) const;
-  /// The best additions to a model, at most one per effect, refined, best first; with contacts and
-  /// steps where `events`.
-  std::vector<Trial> additions(const JointFit& fit, bool events = true) const;
+  const JointFit& without(std::size_t member) const;
+  /// The best additions to the model at hand, at most one per effect, refined, best first.
+  std::vector<Trial> additions() const;
 
  private:
+  /// What is known of the model without one member: computed when it is first asked for.
+  struct Place {
+    std::optional<JointFit> rest;
+    std::optional<std::vector<Trial>> others;
+  };
+  /// The best additions to a model; contacts and steps among them where `events`. What is far below
+  /// `needed`, a net gain, is not refined; where there is none, far below the best.
+  std::vector<Trial> additions(const JointFit& fit, bool events,
+                               std::optional<double> needed) const;
+  /// The best effects in place of a member, its own among them.
+  const std::vector<Trial>& others(std::size_t member) const;
+  /// What a member gains beyond the price of its numbers.
+  double net_gain(std::size_t member) const;
+  void forget_places();
   /// chi-square that fitted numbers took off.
   double explained() const;
   /// How far the gain of an addition may be from that of a joint fit.
@@ -79,6 +92,7 @@ class Search {
   std::vector<Floor> floors_;
   std::unique_ptr<Setting> setting_;
   JointFit fit_;
+  mutable std::vector<Place> places_;  // one a member, of fit_
   Signals left_;
   std::vector<Span> held_out_, masked_;
   std::vector<Member> apart_;                  // members found by tests of their own

@@ -124,6 +124,7 @@ void Search::settle(const std::vector<Member>& members) {
   // a number counts that takes off a share of what is left.
   constexpr double kMachineShare = 0.04;
   if (study_.axis) setting_->price = std::max(10.0, kMachineShare * fit_.chi2);
+  forget_places();
 }
 
 }  // namespace dcnn

@@ -91,6 +91,7 @@ void Search::judge() {
   say("something is left that no effect explains: names are tested again");
   if (events_allowed_) {
     events_allowed_ = false;
+    forget_places();
     std::vector<Member> rest;
     for (const Member& m : fit_.members) {
       if (!m.interval_s) rest.push_back(m);
@@ -137,9 +138,9 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     const Member& own = fit_.members[m];
     if (own.fixed) continue;
-    const JointFit rest = without(m);
-    const double net = rest.chi2 - fit_.chi2 - price * own.parameters();
-    for (const Trial& trial : additions(rest, own.interval_s.has_value())) {
+    const JointFit& rest = without(m);
+    const double net = net_gain(m);
+    for (const Trial& trial : others(m)) {
       if (trial.member.kind == own.kind ||
           trial.net_gain() < net - std::max(0.2 * kNear * price, doubt(trial))) {
         continue;

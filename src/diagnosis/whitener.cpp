@@ -136,23 +136,29 @@ Eigen::VectorXd Whitener::operator()(const Signals& signals) const {
     const Eigen::MatrixXd& signal = signals[run.log];
     means.resize(run.count);
     for (Index j = 0; j < channels_; ++j) {
-      const double* x = signal.col(j).data() + run.first;
-      for (Index b = 0; b < run.count; ++b, x += block_) {
-        double sum = 0.0;
-        for (Index i = 0; i < block_; ++i) sum += x[i];
-        means(b) = sum / static_cast<double>(block_);
-      }
+      means = signal.col(j)
+                  .segment(run.first, run.count * block_)
+                  .reshaped(block_, run.count)
+                  .colwise()
+                  .mean();
       const Filter& filter = filters_[static_cast<std::size_t>(j)];
-      const Index most = static_cast<Index>(filter.coefficients.size()) - 1;
-      for (Index b = 0; b < run.count; ++b, ++row) {
-        const auto order = static_cast<std::size_t>(std::min(b, most));
-        const std::vector<double>& a = filter.coefficients[order];
-        double value = means(b);
-        for (std::size_t i = 0; i < a.size(); ++i) {
-          value -= a[i] * means(b - 1 - static_cast<Index>(i));
-        }
-        out(row) = value / filter.deviation[order] * inverse_level_(row);
+      const Index most = std::min(run.count, static_cast<Index>(filter.coefficients.size()) - 1);
+      auto white = out.segment(row, run.count);
+      white = means;
+      for (Index b = 0; b < most; ++b) {  // shorter predictors where less is remembered
+        const auto order = static_cast<std::size_t>(b);
+        for (Index i = 0; i < b; ++i)
+          white(b) -= filter.coefficients[order][std::size_t(i)] * means(b - 1 - i);
+        white(b) /= filter.deviation[order];
       }
+      const Index rest = run.count - most;
+      for (Index i = 0; i < most && rest > 0; ++i) {
+        white.tail(rest) -= filter.coefficients.back()[static_cast<std::size_t>(i)] *
+                            means.segment(most - 1 - i, rest);
+      }
+      if (rest > 0) white.tail(rest) /= filter.deviation.back();
+      white.array() *= inverse_level_.segment(row, run.count).array();
+      row += run.count;
     }
   }
   return out;

@@ -3,22 +3,6 @@
 #include <cmath>
 
 namespace dcnn {
-namespace {
-
-/// A unit axis of B, S or the tool, as seen in S.
-Eigen::MatrixXd direction(const std::string& axis, const Motion& motion) {
-  const Index i = axis_index(axis);
-  Eigen::MatrixXd n = Eigen::MatrixXd::Zero(motion.samples(), 3);
-  if (!axis.starts_with("base_")) {
-    n.col(i).setOnes();
-    return n;
-  }
-  for (Index k = 0; k < n.rows(); ++k) n.row(k) = motion.R_BS[static_cast<std::size_t>(k)].row(i);
-  return n;
-}
-
-}  // namespace
-
 double parameter(Options& parameters, const std::string& key, double low, double high) {
   const auto value = parameters.get<double>(key);
   if (!std::isfinite(value)) parameters.reject(key, "must be finite");
@@ -56,30 +40,53 @@ Json offset_parameters(const Eigen::VectorXd& amplitudes, const std::string& ste
 }
 
 void add(Wrench& wrench, const Offset& offset, const Eigen::VectorXd& factor) {
-  wrench.force += factor * offset.force.transpose();
-  if (wrench.torque.rows() > 0) wrench.torque += factor * offset.torque.transpose();
+  for (Index c = 0; c < 3; ++c) {
+    if (offset.force(c) != 0.0) wrench.force.col(c) += offset.force(c) * factor;
+    if (wrench.torque.rows() > 0 && offset.torque(c) != 0.0) {
+      wrench.torque.col(c) += offset.torque(c) * factor;
+    }
+  }
 }
 
-Line line_of(const std::string& axis, const Motion& motion) {
-  if (axis.starts_with("w_sensor_")) {
-    return {direction(axis, motion), motion.w_S.col(axis_index(axis))};
+Eigen::MatrixXd direction_of(const std::string& axis, const Motion& motion) {
+  Wrench unit{Eigen::MatrixXd::Zero(motion.samples(), 3), {}};
+  push_along(axis, motion, Eigen::VectorXd::Ones(motion.samples()), unit);
+  return unit.force;
+}
+
+void push_along(const std::string& axis, const Motion& motion, const Eigen::VectorXd& force,
+                Wrench& wrench) {
+  const Index i = axis_index(axis);
+  if (!axis.starts_with("base_")) {
+    wrench.force.col(i) += force;
+    return;
   }
+  for (Index k = 0; k < force.size(); ++k) {
+    const Eigen::Matrix3d& R_BS = motion.R_BS[static_cast<std::size_t>(k)];
+    for (Index c = 0; c < 3; ++c) wrench.force(k, c) += force(k) * R_BS(i, c);
+  }
+}
+
+Eigen::VectorXd velocity_of(const std::string& axis, const Motion& motion) {
+  const Index i = axis_index(axis);
+  if (axis.starts_with("w_sensor_")) return motion.w_S.col(i);
   require(motion.v_B.rows() == motion.samples(), Exit::kData, motion.recording,
           ": a force against the velocity along ", axis, " needs columns x,y,z or vx,vy,vz");
-  Line line{direction(axis, motion), Eigen::VectorXd(motion.samples())};
-  for (Index k = 0; k < motion.samples(); ++k) {
-    const Eigen::RowVector3d n_B =
-        line.n_S.row(k) * motion.R_BS[static_cast<std::size_t>(k)].transpose();
-    line.velocity(k) = n_B.dot(motion.v_B.row(k));
+  if (axis.starts_with("base_")) return motion.v_B.col(i);
+  Eigen::VectorXd velocity(motion.samples());
+  for (Index k = 0; k < velocity.size(); ++k) {
+    const Eigen::Matrix3d& R_BS = motion.R_BS[static_cast<std::size_t>(k)];
+    velocity(k) = motion.v_B(k, 0) * R_BS(0, i) + motion.v_B(k, 1) * R_BS(1, i) +
+                  motion.v_B(k, 2) * R_BS(2, i);
   }
-  return line;
+  return velocity;
 }
 
-AngleLine angle_line_of(const std::string& axis, const Motion& motion) {
-  const auto colon = axis.find(':');
-  const std::string angle = axis.substr(0, colon);
-  const Index column = angle == "alpha" ? 0 : angle == "beta" ? 1 : 2;
-  return {motion.euler.col(column), direction(axis.substr(colon + 1), motion)};
+AngleAxis angle_axis(const std::string& axis) {
+  return {axis.starts_with("alpha")  ? 0
+          : axis.starts_with("beta") ? 1
+                                     : 2,
+          axis.substr(axis.find(':') + 1)};
 }
 
 Index axis_index(const std::string& axis) { return axis.back() - 'x'; }

@@ -40,20 +40,22 @@ Json offset_parameters(const Eigen::VectorXd& amplitudes, const std::string& ste
 /// Adds factor_k·offset to each row k.
 void add(Wrench& wrench, const Offset& offset, const Eigen::VectorXd& factor);
 
-/// A unit axis n as seen in S at each sample, and what moves along or about it.
-struct Line {
-  Eigen::MatrixXd n_S;       ///< (T,3)
-  Eigen::VectorXd velocity;  ///< of the sensor's origin along n, m/s; about n for w_sensor_*, rad/s
-};
-/// For tool_z, base_* and w_sensor_*; Error(kData) where the motion lacks the velocity.
-Line line_of(const std::string& axis, const Motion& motion);
+/// A unit axis n of B, S or the tool, as seen in S at each sample, (T,3).
+Eigen::MatrixXd direction_of(const std::string& axis, const Motion& motion);
+/// Adds force_k n to the force of each sample k.
+void push_along(const std::string& axis, const Motion& motion, const Eigen::VectorXd& force,
+                Wrench& wrench);
 
-/// For <angle>:<axis>: the angle (T) and the axis it pushes along (T,3).
-struct AngleLine {
-  Eigen::VectorXd angle;
-  Eigen::MatrixXd n_S;
+/// For tool_z, base_* and w_sensor_*: of the sensor's origin along n, m/s; about n for w_sensor_*,
+/// rad/s. Error(kData) where the motion lacks it.
+Eigen::VectorXd velocity_of(const std::string& axis, const Motion& motion);
+
+/// Of <angle>:<axis>: which angle, and along what it pushes.
+struct AngleAxis {
+  Index angle;  ///< column of Motion::euler
+  std::string axis;
 };
-AngleLine angle_line_of(const std::string& axis, const Motion& motion);
+AngleAxis angle_axis(const std::string& axis);
 
 /// 0, 1, 2 for an axis that ends in x, y, z.
 Index axis_index(const std::string& axis);
@@ -87,10 +89,7 @@ class LineNow {
 /// <angle>:<axis> at one sample.
 struct AngleNow {
   explicit AngleNow(const std::string& axis)
-      : angle(axis.starts_with("alpha")  ? 0
-              : axis.starts_with("beta") ? 1
-                                         : 2),
-        line(axis.substr(axis.find(':') + 1)) {}
+      : angle(angle_axis(axis).angle), line(angle_axis(axis).axis) {}
   Index angle;
   LineNow line;
 };
@@ -99,11 +98,8 @@ struct AngleNow {
 template <auto law>
 void pushed(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
             Options& parameters) {
-  const auto law_of_q = law(parameters);
-  const AngleLine line = angle_line_of(spec.axis, motion);
-  for (Index k = 0; k < line.angle.size(); ++k) {
-    wrench.force.row(k) += law_of_q(line.angle(k)) * line.n_S.row(k);
-  }
+  const AngleAxis at = angle_axis(spec.axis);
+  push_along(at.axis, motion, motion.euler.col(at.angle).unaryExpr(law(parameters)), wrench);
 }
 template <auto law>
 EffectStream pushing(const EffectSpec& spec, Options& parameters) {

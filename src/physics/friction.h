@@ -5,12 +5,13 @@
 
 namespace dcnn {
 
-/// Subtracts law(v, k)·n from the force of each sample k, in order of time.
+/// Subtracts law(v, k)·n from the force of each sample k, called in order of time.
 template <class Law>
-void resist(Wrench& wrench, const Line& line, Law law) {
-  for (Index k = 0; k < line.velocity.size(); ++k) {
-    wrench.force.row(k) -= law(line.velocity(k), k) * line.n_S.row(k);
-  }
+void resist(Wrench& wrench, const std::string& axis, const Motion& motion,
+            const Eigen::VectorXd& velocity, Law law) {
+  Eigen::VectorXd force(velocity.size());
+  for (Index k = 0; k < force.size(); ++k) force(k) = -law(velocity(k), k);
+  push_along(axis, motion, force, wrench);
 }
 
 /// EffectKind::apply and ::stream of a law without memory; `law(parameters)` gives the force
@@ -18,7 +19,7 @@ void resist(Wrench& wrench, const Line& line, Law law) {
 template <auto law>
 void resisted(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
               Options& parameters) {
-  resist(wrench, line_of(spec.axis, motion),
+  resist(wrench, spec.axis, motion, velocity_of(spec.axis, motion),
          [law_of_v = law(parameters)](double v, Index) { return law_of_v(v); });
 }
 template <auto law>

@@ -34,12 +34,15 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const T
   const double force = parameter(parameters, "force_n");
   const double width = parameter(parameters, "width_rad", kTiny);
   const double asym = parameter(parameters, "asym", 0.0, 1.0);
-  const AngleLine line = angle_line_of(spec.axis, motion);
+  const AngleAxis at = angle_axis(spec.axis);
+  const auto angle = motion.euler.col(at.angle);
+  Eigen::VectorXd pull = Eigen::VectorXd::Zero(motion.samples());
   double z = 0.0;
   for (Index k = 1; k < motion.samples(); ++k) {
-    z = turn(z, line.angle(k) - line.angle(k - 1), width, asym);
-    wrench.force.row(k) -= force * z * line.n_S.row(k);
+    z = turn(z, angle(k) - angle(k - 1), width, asym);
+    pull(k) = -force * z;
   }
+  push_along(at.axis, motion, pull, wrench);
 }
 
 EffectStream stream(const EffectSpec& spec, Options& parameters) {

@@ -9,13 +9,12 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const T
   const bool turns = spec.axis.starts_with("w_");
   require(turns || motion.a_B.rows() == motion.samples(), Exit::kData, motion.recording,
           ": inertia needs an acceleration; log x,y,z or ax,ay,az");
-  const Line line = line_of(spec.axis, motion);
+  const Eigen::MatrixXd n = direction_of(spec.axis, motion);
   for (Index k = 0; k < motion.samples(); ++k) {
-    const Eigen::RowVector3d n = line.n_S.row(k);
-    const double along =
-        turns ? n.dot(motion.dw_S.row(k))
-              : (n * motion.R_BS[static_cast<std::size_t>(k)].transpose()).dot(motion.a_B.row(k));
-    wrench.force.row(k) -= inertia * along * n;
+    const double along = turns ? n.row(k).dot(motion.dw_S.row(k))
+                               : (n.row(k) * motion.R_BS[static_cast<std::size_t>(k)].transpose())
+                                     .dot(motion.a_B.row(k));
+    wrench.force.row(k) -= inertia * along * n.row(k);
   }
 }
 

@@ -32,10 +32,10 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const T
   const double sigma1 = parameter(parameters, "sigma1_nspm", 0.0);
   if (fc == 0.0) return;  // bristles without strength never deflect
   const double reach = fc / sigma0;
-  const Line line = line_of(spec.axis, motion);
+  const Eigen::VectorXd velocity = velocity_of(spec.axis, motion);
   double z = 0.0;
-  resist(wrench, line, [&](double v, Index k) {
-    if (k > 0) z = advance(z, line.velocity(k - 1), v, step(motion, k), reach);
+  resist(wrench, spec.axis, motion, velocity, [&](double v, Index k) {
+    if (k > 0) z = advance(z, velocity(k - 1), v, step(motion, k), reach);
     return sigma0 * z + sigma1 * (v - std::abs(v) * z / reach);
   });
 }
