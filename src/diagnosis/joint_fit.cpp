@@ -46,6 +46,14 @@ void move(Member& member, const Coordinate& c, double step) {
       from_search_scale(member, c.index, search_scale(shape, member.shapes(c.index)) + step);
 }
 
+/// A shape may not leap out of the region its derivative tells of: a factor of e, or a part of its
+/// range.
+double longest_step(const std::vector<Member>& members, const Coordinate& c) {
+  if (!c.is_shape) return kInfinite;
+  const ShapeParameter& shape = members[c.member].form->shapes[static_cast<std::size_t>(c.index)];
+  return shape.low > 0.0 ? 1.0 : std::max(1.0, 0.15 * (shape.high - shape.low));
+}
+
 /// A difference step: upwards, but for a shape at its upper bound.
 double difference_step(const Case& study, const std::vector<Member>& members, const Coordinate& c) {
   const Member& member = members[c.member];
@@ -167,8 +175,7 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
       bool whole = length == 1.0;
       for (Index k = 0; k < free; ++k) {
         const Coordinate& c = coordinates[static_cast<std::size_t>(k)];
-        // A shape may not leap out of the region its derivative tells of.
-        const double most = c.is_shape ? 1.0 : kInfinite;
+        const double most = longest_step(chain->members(), c);
         whole = whole && std::abs(change(k)) <= most;
         move(moved[c.member], c, length * std::clamp(change(k), -most, most));
       }

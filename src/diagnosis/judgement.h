@@ -24,11 +24,13 @@ std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& 
 /// remainder of what was explained.
 bool is_alarming(const std::vector<BandTest>& bands, double explained);
 
+constexpr double kInconstant = 9.0;  ///< standard deviations of Constancy::z
+
 /// Whether a member explains the recordings throughout: its score over blocks of 8 s, per degree of
 /// freedom. A surrogate of something else fits some blocks and not others.
 struct Constancy {
   double ratio = 1.0, z = 0.0;
-  bool refutes() const { return ratio > 2.5 && z > 8.0; }
+  bool refutes() const { return ratio > 2.5 && z > kInconstant; }
 };
 std::vector<Constancy> constancy(const Setting& setting, const JointFit& fit);
 

@@ -67,10 +67,9 @@ void Search::forget_places() {
   places_.resize(fit_.members.size());
 }
 
-double Search::explained() const {
-  // What has no number of its own, as the inertial terms, cannot be a little wrong.
+double Search::explained(bool all) const {
   std::vector<Member> exact = fit_.members;
-  std::erase_if(exact, [](const Member& m) { return m.fixed || m.parameters() > 0; });
+  std::erase_if(exact, [&](const Member& m) { return m.fixed || all || m.parameters() > 0; });
   return std::max(0.0, joint_fit(*setting_, exact).chi2 - fit_.chi2);
 }
 
@@ -90,7 +89,7 @@ bool Search::grow() {
   if (trials.empty()) return false;
   const Trial& best = trials.front();
   if (best.net_gain() < kLeastNetGain * setting_->price) return false;
-  if (best.gain < kLeastShare * explained()) return false;
+  if (best.gain < kLeastShare * explained(false)) return false;
   std::vector<Member> members = fit_.members;
   members.push_back(best.member);
   settle(members);
@@ -159,7 +158,7 @@ void Search::explore() {
                                  [](const Member& m) { return m.kind->stage == Stage::kDynamics; });
     const double before = study_.derivative.cutoff_hz;
     // A long lag fools the first choice; otherwise names do not depend on a small error of it.
-    if (!lag && !is_alarming(band_tests(*setting_, fit_.residual), explained())) return;
+    if (!lag && !is_alarming(band_tests(*setting_, fit_.residual), explained(true))) return;
     choose_cutoff(fit_.members);
     settle(fit_.members);
     if (std::abs(study_.derivative.cutoff_hz / before - 1.0) < 0.1) return;

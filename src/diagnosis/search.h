@@ -61,8 +61,10 @@ class Search {
   /// What a member gains beyond the price of its numbers.
   double net_gain(std::size_t member) const;
   void forget_places();
-  /// chi-square that fitted numbers took off.
-  double explained() const;
+  /// Chi-square that the members took off: all, for what an error of the motion makes of their
+  /// forces; or those with numbers, for what an error of a law may hide (what has no number of its
+  /// own, as the inertial terms, cannot be a little wrong).
+  double explained(bool all) const;
   /// How far the gain of an addition may be from that of a joint fit.
   double doubt(const Trial& trial) const;
   /// Found by a test that a joint fit cannot repeat.
@@ -85,6 +87,7 @@ class Search {
   bool admit_flicker();
   void judge();
   void keep_what_carries_over();
+  bool take_back_relatives();
   void say(const std::string& text) const;
 
   Case study_, softer_, harder_;  // the two others smooth more and less: what smoothing alone does

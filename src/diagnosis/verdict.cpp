@@ -5,9 +5,16 @@
 #include "diagnosis/candidates.h"
 #include "diagnosis/detectors.h"
 #include "diagnosis/left_out.h"
+#include "diagnosis/modulation.h"
 #include "diagnosis/search.h"
+#include "physics/effect_law.h"
 
 namespace dcnn {
+namespace {
+
+constexpr double kSlowestMode = 2.0;  // Hz
+
+}  // namespace
 
 /// What tests of their own find in the raw force and at the log's rate.
 void Search::detect() {
@@ -77,7 +84,30 @@ void Search::drop_coincidences() {
 
 bool Search::is_alarming_now() {
   bands_ = band_tests(*setting_, fit_.residual);
-  return !study_.without.omnibus && is_alarming(bands_, explained());
+  return !study_.without.omnibus && is_alarming(bands_, explained(true));
+}
+
+/// Takes back the member that is least the law it is named after: one that fits in some places and
+/// not in others, or whose strength depends on what its law does not know of.
+bool Search::take_back_relatives() {
+  if (study_.axis || study_.is_static() || study_.without.omnibus) return false;
+  bands_ = band_tests(*setting_, fit_.residual);
+  const auto tests = constancy(*setting_, fit_);
+  const auto strengths = modulations(*setting_, fit_);
+  const bool swings = std::any_of(bands_.begin(), bands_.end(), [](const BandTest& band) {
+    return band.stands_out() && band.from_hz >= kSlowestMode;
+  });
+  double most = 1.0;
+  std::optional<std::size_t> worst;
+  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+    const bool inconstant = tests[m].refutes();
+    double apart = std::max(inconstant ? tests[m].z / kInconstant : 0.0, strengths[m] / kModulated);
+    // A mode that leaves something where modes are is one of several.
+    if (swings && fit_.members[m].kind->stage == Stage::kResonance) apart = kInfinity;
+    if (apart > most) most = apart, worst = m;
+  }
+  if (worst) settle(members_without(*worst));
+  return worst.has_value();
 }
 
 /// Takes back what a remainder nobody can name makes doubtful: events, and members that fit in some
@@ -87,7 +117,8 @@ void Search::judge() {
   if (study_.axis) keep_what_carries_over();
   remains_ = is_alarming_now();
   if (remains_ && (loosen() || admit_flicker())) remains_ = false;
-  if (!remains_) return;
+  if (!remains_ && !take_back_relatives()) return;
+  remains_ = true;
   say("something is left that no effect explains: names are tested again");
   if (events_allowed_) {
     events_allowed_ = false;
@@ -106,12 +137,7 @@ void Search::judge() {
     bands_ = band_tests(*setting_, fit_.residual);
     return;
   }
-  while (!fit_.members.empty()) {
-    const auto tests = constancy(*setting_, fit_);
-    const auto worst = std::max_element(tests.begin(), tests.end(),
-                                        [](const auto& a, const auto& b) { return a.z < b.z; });
-    if (!worst->refutes()) break;
-    settle(members_without(static_cast<std::size_t>(worst - tests.begin())));
+  while (take_back_relatives()) {
   }
   drop_coincidences();
   bands_ = band_tests(*setting_, fit_.residual);
