@@ -25,13 +25,13 @@ struct Clipping {
 std::vector<Clipping> clipping(const Case& study);
 
 /// A load that slides between stops: knocks in the sense of the acceleration field they come with,
-/// at least three, 85 % of them of the right sign. Its gap follows from when each comes after the
-/// field has turned, the slug from the momentum it hands over.
+/// at least three, 85 % of them of the right sign or more than chance makes. Its gap follows from
+/// when each comes after the field has turned, the slug from the momentum it hands over.
 struct Knocks {
   std::optional<Member> member;
   std::vector<Span> spans;
 };
-Knocks find_knocks(const Case& study, const Signals& left, const std::vector<Floor>& floors);
+Knocks find_knocks(const Case& study, const Signals& left);
 
 /// The strongest line above what block means can show, fitted at the log's rate.
 std::optional<Member> find_fast_hum(const Case& study, const Signals& left,

@@ -171,6 +171,12 @@ void Search::run() {
   detect();
   settle(apart_);
   explore();
+  if (hear_knocks()) {  // other forces hid them
+    settle(fit_.members);
+    while (simplify()) {
+    }
+    explore();
+  }
   let_ring();
   judge();
 }

@@ -79,6 +79,7 @@ class Search {
   bool replace_pairs();
   void explore();
   void detect();
+  bool hear_knocks();
   void drop_coincidences();
   void let_ring();
   bool is_alarming_now();

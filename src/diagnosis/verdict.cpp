@@ -56,12 +56,17 @@ void Search::detect() {
     const bool counts = !study_.axis || 0.5 * hum->amplitudes.squaredNorm() * rows > 0.002 * power;
     if (counts) apart_.push_back(*hum);
   }
-  if (!is_listed(study_, *find_effect("loose_load"))) return;
-  const Knocks knocks = find_knocks(study_, left_, floors_);
-  if (knocks.member) {
-    knocking_ = knocks.member;
-    masked_.insert(masked_.end(), knocks.spans.begin(), knocks.spans.end());
-  }
+  hear_knocks();
+}
+
+bool Search::hear_knocks() {
+  if (knocking_ || study_.is_static() || !is_listed(study_, *find_effect("loose_load")))
+    return false;
+  const Knocks knocks = find_knocks(study_, left_);
+  if (!knocks.member) return false;
+  knocking_ = knocks.member;
+  masked_.insert(masked_.end(), knocks.spans.begin(), knocks.spans.end());
+  return true;
 }
 
 /// Takes back, the most doubtful first, what signs drawn at random for each second explain as
