@@ -50,13 +50,18 @@ int main(int argc, char** argv) {
             "nothing of them, and seals the answers: their SHA-256 is printed and stored before "
             "anybody looks. --score opens the seal.",
             kExamples);
-  int scenarios = 0;
+  int scenarios = 0, rounds = 0;
   bool score = false;
   std::vector<std::string> ids;
   std::filesystem::path out, seal;
   conceal::Injection injection;
   auto many = tool.option("--scenarios", scenarios, "how many, of every group its share");
   tool.option("--scenario", ids, "these, as a sealed file names them under `drawn`").excludes(many);
+  tool.option(
+          "--rates", rounds,
+          "rounds of a table of rates: of each 75 nulls, every effect alone at 1, 0.3 and 0.1 or "
+          "0.05 of the noise, and some of every other group (8: 1,600 scenarios)")
+      .excludes(many);
   tool.flag("--score", score, "score OUT/reports/*/report.json against the seal").excludes(many);
   tool.option("--out", out, "folder of the scenarios").required();
   tool.option("--seal", seal, "file of the answers, outside that folder").required();
@@ -87,8 +92,9 @@ int main(int argc, char** argv) {
       injection.read = read.options();
       return print(tool, 1, seed, conceal::inject(injection, seed, out, seal), seal);
     }
-    require(scenarios > 0 || !ids.empty(), Exit::kUsage,
-            "give --scenarios, --scenario, --inject or --score");
+    require(scenarios > 0 || rounds > 0 || !ids.empty(), Exit::kUsage,
+            "give --scenarios, --rates, --scenario, --inject or --score");
+    if (rounds > 0) ids = conceal::rates_plan(rounds, seed);
     if (ids.empty()) ids = conceal::plan(scenarios, seed);
     Progress bar(tool.common().quiet);
     const std::string digest =

@@ -88,4 +88,46 @@ std::vector<std::string> plan(int scenarios, std::uint64_t seed) {
   return shuffled(ids, rng);
 }
 
+std::vector<std::string> rates_plan(int rounds, std::uint64_t seed) {
+  require(rounds > 0 && rounds <= 50, Exit::kUsage, "a table of rates has 1 to 50 rounds, not ",
+          rounds);
+  Rng rng({seed, 3});
+  std::vector<std::string> ids;
+  const auto add = [&](const std::string& group, const std::string& value,
+                       const std::string& effect, int number) {
+    ids.push_back(group + ":" + value + "/" + effect + "/" + std::to_string(number));
+  };
+  for (int round = 0; round < rounds; ++round) {
+    for (const Share& share : shares()) {
+      const auto turn = static_cast<std::size_t>(round);
+      const std::vector<std::string>& values = share.values;
+      if (share.group == "null") {
+        constexpr int kNulls = 75;
+        for (int k = 0; k < kNulls; ++k) {
+          const int number = round * kNulls + k;
+          add("null", values[static_cast<std::size_t>(number) % values.size()], "none", number);
+        }
+      } else if (share.group == "single") {
+        for (const std::string& effect : share.effects) {
+          for (const char* amplitude : {"1", "0.3", turn % 2 == 0 ? "0.1" : "0.05"}) {
+            add("single", amplitude, effect, round);
+          }
+        }
+      } else {
+        constexpr std::size_t kOthers = 8;
+        const std::size_t several = share.effects.size() > 1 ? share.effects.size() : kOthers;
+        const std::size_t count = std::min(kOthers, several);
+        for (std::size_t k = 0; k < count; ++k) {
+          const std::string& effect = share.effects[(turn * count + k) % share.effects.size()];
+          if (!impossible(share, effect)) {
+            add(share.group, values[(turn + k) % values.size()], effect,
+                round * static_cast<int>(count) + static_cast<int>(k));
+          }
+        }
+      }
+    }
+  }
+  return shuffled(ids, rng);
+}
+
 }  // namespace dcnn::conceal

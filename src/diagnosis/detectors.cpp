@@ -12,7 +12,9 @@
 namespace dcnn {
 namespace {
 
-constexpr double kKnock = 5.5;        // deviations
+constexpr double kKnock = 5.5;  // deviations
+constexpr double kLoud = 10.0;  // deviations
+constexpr double kMany = 9.0;
 constexpr double kAlike = 0.2;        // of the highest
 constexpr double kMostWrong = 0.15;   // of the knocks, against the field
 constexpr double kSignificant = 5.0;  // deviations of a fair coin, where more are wrong
@@ -46,18 +48,19 @@ struct Spike {
 
 /// Where a channel knocks, strongest of each 60 ms: means over the some 6 ms of a knock, so that
 /// wild samples do not count, above what is around them, so that other forces do not.
-std::vector<Spike> spikes(const Eigen::VectorXd& r, double dt) {
+std::vector<Spike> spikes(const Eigen::VectorXd& r, const Eigen::VectorXd& level, double dt) {
   const Index half = std::max<Index>(2, std::llround(0.025 / dt));
   const Index apart = std::max<Index>(1, std::llround(0.06 / dt));
   if (r.size() < 4 * half) return {};
-  const Eigen::VectorXd x = running_mean(r, static_cast<Index>(0.003 / dt));
-  const Eigen::VectorXd away = x - running_mean(r, half);
+  const Eigen::VectorXd even = r.cwiseQuotient(level);
+  const Eigen::VectorXd x = running_mean(even, static_cast<Index>(0.003 / dt));
+  const Eigen::VectorXd away = x - running_mean(even, half);
   const double sigma = 1.4826 * median_size(away);
   std::vector<Spike> found;
   for (Index i = half; i + half < r.size(); ++i) {
     if (std::abs(away(i)) < 0.8 * kKnock * sigma) continue;
     const double base = median({x.data() + i - half, x.data() + i + half + 1});
-    const Spike spike{i, base, (x(i) - base) / sigma};
+    const Spike spike{i, base * level(i), (x(i) - base) / sigma};
     if (std::abs(spike.height) < kKnock) continue;
     if (found.empty() || i - found.back().at >= apart) {
       found.push_back(spike);
@@ -69,11 +72,13 @@ std::vector<Spike> spikes(const Eigen::VectorXd& r, double dt) {
 }
 
 /// Of each recording; knocks differ by how fast the field turns, and wild samples are far below.
-std::vector<std::vector<Spike>> alike_spikes(const Signals& left, Index channel, double dt) {
+std::vector<std::vector<Spike>> alike_spikes(const Signals& left,
+                                             const std::vector<Eigen::VectorXd>& levels,
+                                             Index channel, double dt) {
   std::vector<std::vector<Spike>> all;
   double highest = 0.0;
-  for (const auto& log : left) {
-    all.push_back(spikes(log.col(channel), dt));
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    all.push_back(spikes(left[k].col(channel), levels[k], dt));
     for (const Spike& s : all.back()) highest = std::max(highest, std::abs(s.height));
   }
   for (auto& log : all) {
@@ -133,6 +138,7 @@ Knocks find_knocks(const Case& study, const Signals& left) {
   const EffectKind& kind = *find_effect("loose_load");
   ToolModel moving = study.simulator.model;
   moving.inertial = ToolModel::Inertial::kLinear;
+  const auto levels = noise_level(study, left);
   Knocks best;
   double most = 0.0;
   for (std::size_t j = 0; j < study.channels.size(); ++j) {
@@ -142,7 +148,7 @@ Knocks find_knocks(const Case& study, const Signals& left) {
     double strength = 0.0;
     std::vector<double> gaps, slugs;
     std::vector<Span> spans;
-    const auto heard = alike_spikes(left, static_cast<Index>(j), study.dt());
+    const auto heard = alike_spikes(left, levels, static_cast<Index>(j), study.dt());
     for (std::size_t k = 0; k < study.logs.size(); ++k) {
       const Motion& motion = study.logs[k].motion;
       if (motion.a_B.rows() != motion.samples()) return {};
@@ -169,10 +175,11 @@ Knocks find_knocks(const Case& study, const Signals& left) {
         if (std::abs(speed) > 1e-6) slugs.push_back(momentum / speed);
       }
     }
-    const double knocks = right + wrong;
-    const bool lawful =
-        wrong <= kMostWrong * knocks || right - wrong >= kSignificant * std::sqrt(knocks);
-    if (right < 3 || !lawful || strength < most || slugs.size() < 2) continue;
+    // Few may be chance unless they are loud; of many some may be noise.
+    const double knocks = right + wrong, loudness = std::sqrt(strength / std::max(1.0, knocks));
+    const bool lawful = wrong <= kMostWrong * knocks && (knocks >= kMany || loudness >= kLoud);
+    const bool certain = right - wrong >= kSignificant * std::sqrt(knocks);
+    if (right < 3 || !(lawful || certain) || strength < most || slugs.size() < 2) continue;
     most = strength;
     Member member = make_member(kind, kind.fits[0],
                                 admitted_axes(AxisRule::kSensor)[static_cast<std::size_t>(axis)],

@@ -39,6 +39,10 @@ void move(Member& member, const Coordinate& c, double step) {
     amplitude += step;
     // A law that only resists ends where it vanishes.
     if (member.form->non_negative) amplitude = std::max(0.0, amplitude);
+    // Friction that would rise with speed instead of falling is another law.
+    if (member.name() == "stribeck_friction") {
+      member.amplitudes(1) = std::max(member.amplitudes(0), member.amplitudes(1));
+    }
     return;
   }
   const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(c.index)];

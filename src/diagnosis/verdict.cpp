@@ -72,13 +72,14 @@ bool Search::hear_knocks() {
 /// Takes back, the most doubtful first, what signs drawn at random for each second explain as
 /// often: a coincidence of a few moments, not a law. (An event has too few seconds for this test.)
 void Search::drop_coincidences() {
-  constexpr double kMostLikely = 0.05;
+  constexpr double kMostLikely = 0.05, kCertain = 50.0;
   if (study_.is_static() || study_.without.flips) return;
   while (true) {
     double most = kMostLikely;
     std::optional<std::size_t> worst;
     for (std::size_t m = 0; m < fit_.members.size(); ++m) {
       if (stays(fit_.members[m]) || fit_.members[m].interval_s) continue;
+      if (net_gain(m) > kCertain * setting_->price) continue;  // nor do a few moves have enough
       const double p = flip_p_value(*setting_, fit_, m);
       if (p > most) most = p, worst = m;
     }

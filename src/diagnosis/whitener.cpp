@@ -13,17 +13,16 @@ constexpr int kOrder = 8;
 constexpr int kLongOrder = 48;  // flicker noise remembers long
 constexpr int kFrequencies = 4096;
 
-/// Autocovariance at lags 0 … order of means over blocks of `block` samples.
-Eigen::VectorXd block_covariance(const Floor& floor, double cutoff_hz, Index block, double dt,
-                                 int order) {
+/// Autocovariance at lags 0 … order of means over blocks of `block` samples of a noise.
+template <class Density>
+Eigen::VectorXd block_covariance(const Density& density, Index block, double dt, int order) {
   Eigen::VectorXd covariance = Eigen::VectorXd::Zero(order + 1);
   const auto b = static_cast<double>(block);
   for (int i = 0; i < kFrequencies; ++i) {
     const double hz = (i + 0.5) / kFrequencies * 0.5 / dt, x = std::numbers::pi * hz * dt;
     const double mean = std::sin(b * x) / (b * std::sin(x));
-    const double density =
-        (floor.density(hz) + floor.pose_density(hz, cutoff_hz)) * mean * mean / kFrequencies;
-    for (int lag = 0; lag <= order; ++lag) covariance(lag) += density * std::cos(2.0 * x * b * lag);
+    const double power = density(hz) * mean * mean / kFrequencies;
+    for (int lag = 0; lag <= order; ++lag) covariance(lag) += power * std::cos(2.0 * x * b * lag);
   }
   return covariance;
 }
@@ -42,12 +41,18 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
                             ? study.derivative.cutoff_hz
                             : 0.0;
   block_deviation_.resize(channels_);
+  Eigen::VectorXd pose_share = Eigen::VectorXd::Zero(channels_);  // of a block's variance
   for (Index j = 0; j < channels_; ++j) {
     const Floor& floor = floors[static_cast<std::size_t>(j)];
     const int longest = !moving ? 0 : floor.flicker > 0.0 ? kLongOrder : kOrder;
-    Eigen::VectorXd c = block_covariance(floor, cutoff, block_, dt, longest);
-    if (!moving) {
-      c.setZero();
+    Eigen::VectorXd c = Eigen::VectorXd::Zero(longest + 1);
+    if (moving) {
+      const Eigen::VectorXd pose = block_covariance(
+          [&](double hz) { return floor.pose_density(hz, cutoff); }, block_, dt, longest);
+      c = pose +
+          block_covariance([&](double hz) { return floor.density(hz); }, block_, dt, longest);
+      pose_share(j) = c(0) > 0.0 ? pose(0) / c(0) : 0.0;
+    } else {
       c(0) = floor.white + floor.coloured;
     }
     c(0) = std::max(c(0) * (1.0 + 1e-6), 1e-300);
@@ -92,7 +97,9 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
         const Index middle = run.first + b * block_ + block_ / 2;
         info_.push_back({static_cast<std::uint32_t>(run.log), static_cast<std::uint32_t>(j),
                          study.logs[run.log].motion.t(middle)});
-        inverse_level_(row) = 1.0 / levels[run.log](middle);
+        const double level = levels[run.log](middle);  // of the sensor's noise, not of the pose's
+        inverse_level_(row) =
+            1.0 / std::sqrt(pose_share(j) + (1.0 - pose_share(j)) * level * level);
       }
     }
   }

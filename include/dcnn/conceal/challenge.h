@@ -15,6 +15,10 @@ namespace dcnn::conceal {
 /// every group has its share, and effects and amplitudes take turns within it.
 std::vector<std::string> plan(int scenarios, std::uint64_t seed);
 
+/// The same for a table of rates, in `rounds` rounds: of each 75 nulls, every effect alone at 1,
+/// 0.3 and 0.1 or 0.05 times the noise, and 4 to 8 of every other group.
+std::vector<std::string> rates_plan(int rounds, std::uint64_t seed);
+
 /// Writes FOLDER/s0001/{sim.json,fit_*.csv,holdout_*.csv}, … and the sealed answers to the file
 /// `seal`, which must lie outside the folder; returns the SHA-256 of its bytes, which stands in
 /// FOLDER/seal.sha256 as well. The seal holds the SHA-256 of every file a scenario has.
