@@ -16,7 +16,7 @@ constexpr double kKnock = 5.5;  // deviations
 constexpr double kLoud = 10.0;  // deviations
 constexpr double kMany = 9.0;
 constexpr double kAlike = 0.2;        // of the highest
-constexpr double kMostWrong = 0.15;   // of the knocks, against the field
+constexpr double kMostWrong = 0.15;   // of the strength of all, against the field
 constexpr double kSignificant = 5.0;  // deviations of a fair coin, where more are wrong
 constexpr Index kFewestClipped = 20;
 constexpr double kNearLimit = 0.25;  // s, in which noise is clipped and the mean is not the force
@@ -145,7 +145,7 @@ Knocks find_knocks(const Case& study, const Signals& left) {
     const int axis = study.channels[j];
     if (axis > 2) continue;
     int right = 0, wrong = 0;
-    double strength = 0.0;
+    double strength = 0.0, against = 0.0;
     std::vector<double> gaps, slugs;
     std::vector<Span> spans;
     const auto heard = alike_spikes(left, levels, static_cast<Index>(j), study.dt());
@@ -159,6 +159,7 @@ Knocks find_knocks(const Case& study, const Signals& left) {
         const bool along = spike.height * field(i) > 0.0;
         (along ? right : wrong)++;
         strength += spike.height * spike.height;
+        if (!along) against += spike.height * spike.height;
         spans.push_back({k, motion.t(i) - 0.5, motion.t(i) + 0.12});
         const Index from = turned_before(field, i, study.dt());
         if (from < 0 || !along) continue;
@@ -177,7 +178,7 @@ Knocks find_knocks(const Case& study, const Signals& left) {
     }
     // Few may be chance unless they are loud; of many some may be noise.
     const double knocks = right + wrong, loudness = std::sqrt(strength / std::max(1.0, knocks));
-    const bool lawful = wrong <= kMostWrong * knocks && (knocks >= kMany || loudness >= kLoud);
+    const bool lawful = against <= kMostWrong * strength && (knocks >= kMany || loudness >= kLoud);
     const bool certain = right - wrong >= kSignificant * std::sqrt(knocks);
     if (right < 3 || !(lawful || certain) || strength < most || slugs.size() < 2) continue;
     most = strength;

@@ -25,8 +25,9 @@ struct Clipping {
 std::vector<Clipping> clipping(const Case& study);
 
 /// A load that slides between stops: knocks in the sense of the acceleration field they come with,
-/// at least three, 85 % of them of the right sign or more than chance makes. Its gap follows from
-/// when each comes after the field has turned, the slug from the momentum it hands over.
+/// at least three, of the right sign but for 15 % of their strength, or more of them than chance
+/// makes. Its gap follows from when each comes after the field has turned, the slug from the
+/// momentum it hands over.
 struct Knocks {
   std::optional<Member> member;
   std::vector<Span> spans;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -64,11 +65,30 @@ class Bench {
   TemporaryFolder folder_;
 };
 
+/// Changes the recordings of a bench by hand.
+template <class Change>
+void change(const Bench& bench, const Change& by) {
+  for (const char* name : {"fit.csv", "hold.csv"}) {
+    Recording log = read_recording(bench / name, ReadOptions(), System());
+    by(log);
+    write_csv(bench / name, log.table);
+  }
+}
+
+inline Json hidden(const char* effect, const Json& axis, const Json& parameters) {
+  return {{"effect", effect}, {"axis", axis}, {"parameters", parameters}};
+}
+
 /// The effects that were found, in the order of the report.
 inline std::vector<std::string> names(const Json& report) {
   std::vector<std::string> list;
   for (const Json& f : report["findings"]) list.push_back(f["effect"].get<std::string>());
   return list;
+}
+
+inline std::set<std::string> found(const Json& report) {
+  const auto list = names(report);
+  return {list.begin(), list.end()};
 }
 
 }  // namespace dcnn::test

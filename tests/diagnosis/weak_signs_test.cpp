@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 
 #include "dcnn/core/random.h"
 #include "diagnosis/noise_floor.h"
@@ -14,27 +13,11 @@ namespace dcnn {
 namespace {
 
 using test::Bench;
+using test::change;
 using test::configuration;
+using test::found;
+using test::hidden;
 using test::names;
-
-std::set<std::string> found(const Json& report) {
-  const auto list = names(report);
-  return {list.begin(), list.end()};
-}
-
-Json hidden(const char* effect, const Json& axis, const Json& parameters) {
-  return {{"effect", effect}, {"axis", axis}, {"parameters", parameters}};
-}
-
-/// Changes the recordings of a bench by hand.
-template <class Change>
-void change(const Bench& bench, const Change& by) {
-  for (const char* name : {"fit.csv", "hold.csv"}) {
-    Recording log = read_recording(bench / name, ReadOptions(), System());
-    by(log);
-    write_csv(bench / name, log.table);
-  }
-}
 
 // A sum of first-order processes, one an octave, has a density that falls as 1/f.
 TEST(WeakSigns, SlowNoiseAloneIsNothingMissing) {

@@ -1,0 +1,105 @@
+// Laws that look like a listed one without being it, and listed ones where something else is loud.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dcnn/core/random.h"
+#include "diagnosis/load.h"
+#include "diagnosis/support.h"
+#include "diagnosis/whitener.h"
+#include "support/sanitizer.h"
+
+namespace dcnn {
+namespace {
+
+using test::Bench;
+using test::change;
+using test::configuration;
+using test::found;
+using test::hidden;
+using test::names;
+
+/// Rate of a column, by differences.
+Eigen::VectorXd rate(const Eigen::VectorXd& x) {
+  Eigen::VectorXd v = Eigen::VectorXd::Zero(x.size());
+  for (Index i = 5; i + 5 < x.size(); ++i) v(i) = (x(i + 5) - x(i - 5)) / 0.02;
+  return v;
+}
+
+TEST(Relatives, FrictionThatGrowsWithTheLoadIsNotDry) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Bench bench(configuration(Json::array()));
+  change(bench, [](Recording& log) {
+    const Eigen::VectorXd v = rate(log.column("x"));
+    const Eigen::ArrayXd load = 0.7 + 0.3 * (log.column("fz") / 7.4).array().abs();
+    log.set("fx", log.column("fx") - (0.15 * (v.array() / 0.05).tanh() * load).matrix());
+  });
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(report["verdict"], "unexplained") << report["findings"].dump(1);
+  EXPECT_TRUE(report["findings"].empty()) << report["findings"].dump(1);
+}
+
+TEST(Relatives, ASpringThatStiffensIsNotLinear) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Bench bench(configuration(Json::array()));
+  change(bench, [](Recording& log) {
+    const Eigen::ArrayXd q = log.column("alpha").array();
+    log.set("fx", log.column("fx") - (0.1 * q + 0.05 * q.cube()).matrix());
+  });
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(report["verdict"], "unexplained") << report["findings"].dump(1);
+  EXPECT_EQ(found(report).count("cable_spring"), 0U) << report["findings"].dump(1);
+}
+
+TEST(Relatives, AnOffsetThatGrowsWithTheTimeIsADrift) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Json rate{{"rate_x_nps", 0.01}, {"rate_y_nps", 0.0}, {"rate_z_nps", -0.01}};
+  const Json report =
+      Bench(configuration(Json::array({hidden("linear_drift", nullptr, rate)}))).diagnose().report;
+  EXPECT_EQ(names(report), std::vector<std::string>{"linear_drift"}) << report["findings"].dump(1);
+}
+
+// Of the samples one in fifty is some seven times as noisy.
+TEST(Relatives, KnocksAreHeardBesideFrictionAndWildSamples) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  Rng rng({3u});
+  const Bench bench(
+      configuration({hidden("stribeck_friction", "base_y",
+                            {{"fc_n", 0.08}, {"fs_n", 0.2}, {"vs_mps", 0.05}, {"v0_mps", 0.004}}),
+                     hidden("loose_load", "sensor_x", {{"slug_kg", 0.06}, {"gap_m", 0.004}})}));
+  change(bench, [&](Recording& log) {
+    for (const char* channel : {"fx", "fy", "fz"}) {
+      Eigen::VectorXd force = log.column(channel);
+      for (Index i = 0; i < force.size(); ++i) {
+        if (rng.uniform() < 0.02) force(i) += 0.3 * rng.normal();
+      }
+      log.set(channel, force);
+    }
+  });
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(found(report), (std::set<std::string>{"stribeck_friction", "loose_load"}))
+      << report["findings"].dump(1);
+}
+
+// Twice the sensor's noise in the second half: its blocks count half as much, but not where the
+// noise is the pose's.
+TEST(Relatives, ThePosesNoiseDoesNotVaryWithTheSensors) {
+  const Bench bench(configuration(Json::array()));
+  LoadedCase loaded = load_wrist(bench.request());
+  Case& study = loaded.fit;
+  set_derivative(study, {.kind = DerivativeSpec::Kind::kSpectral, .cutoff_hz = 8.0});
+  const Index samples = study.logs[0].motion.samples();
+  Eigen::VectorXd level = Eigen::VectorXd::Ones(samples);
+  level.tail(samples / 2).setConstant(2.0);
+  const Signals ones{Eigen::MatrixXd::Ones(samples, study.channel_count())};
+  for (const double pose : {0.0, 1e6}) {
+    std::vector<Floor> floors(3);
+    for (Floor& floor : floors) floor.white = 1.0, floor.static_part = pose, floor.dt = study.dt();
+    const Eigen::VectorXd white = Whitener(study, floors, {level})(ones);
+    const Index blocks = white.size() / 3;
+    EXPECT_NEAR(white(blocks / 4) / white(blocks - blocks / 4), pose > 0.0 ? 1.0 : 2.0, 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace dcnn
