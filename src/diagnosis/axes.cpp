@@ -55,7 +55,8 @@ Json merged_places(const std::vector<Json>& reports, const System& system) {
   Json where{{"axes", Json::array()},
              {"segments", Json::array()},
              {"regimes", Json::array()},
-             {"bands", Json::array()}};
+             {"bands", Json::array()},
+             {"budget", Json::array()}};
   for (std::size_t k = 0; k < reports.size(); ++k) {
     for (auto& [key, list] : where.items()) {
       for (Json entry : reports[k]["where"][key]) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/axes.h"
+#include "diagnosis/budget.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/formula.h"
 #include "diagnosis/holdout.h"
@@ -258,7 +259,10 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   report["verdict"] = verdict_of(!report["findings"].empty(), search.remains());
   Case as_given = study;
   if (given.base.size() > 0) set_base(as_given, given.base);
-  report["where"] = locate(study, difference(study, predict(as_given, {})), search.floors());
+  const Signals before = difference(study, predict(as_given, {}));
+  report["where"] = locate(study, before, search.floors());
+  report["where"]["budget"] =
+      budget(search.setting(), before, own_parameters(study), report["where"]["segments"]);
   report["unnamed"] = unnamed_part(search);
   Json floors = Json::array(), sources = Json::array();
   for (const Floor& floor : search.floors()) {

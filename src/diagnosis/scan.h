@@ -47,6 +47,8 @@ class Scan {
   const Eigen::VectorXd& residual() const { return residual_; }
   const Setting& setting() const { return setting_; }
   const Chain& chain() const { return chain_; }
+  /// Of the model at hand, at the samples of a search.
+  const Signals& coarse_prediction() const { return coarse_chain_.prediction(); }
 
  private:
   Trial tuned(const Trial& start, Detail detail) const;

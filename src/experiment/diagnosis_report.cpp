@@ -141,6 +141,32 @@ void add_places(const Json& report, HtmlReport& page) {
   page.table({"place", "share of the excess", "excess rms"}, rows);
 }
 
+void add_budget(const Json& report, HtmlReport& page) {
+  const Json& parts = report["where"]["budget"];
+  if (parts.empty()) return;
+  page.heading("Of what kind the difference is");
+  Chart chart{"Share of the difference's energy", "", "share", {}, {}, false, 720, 240};
+  chart.legend = false;
+  Series shares{"share", {}, {}, {}, Series::Style::kBars};
+  for (const Json& part : parts) {
+    const std::string name = text_of(part["part"]);
+    const auto known = std::find(chart.categories.begin(), chart.categories.end(), name);
+    const auto at = static_cast<std::size_t>(known - chart.categories.begin());
+    if (known == chart.categories.end()) {
+      chart.categories.push_back(name);
+      shares.x.push_back(static_cast<double>(at));
+      shares.y.push_back(0.0);
+    }
+    shares.y[at] += part["share"].get<double>();  // of all axes of a machine
+  }
+  chart.series.push_back(shares);
+  page.chart(
+      chart,
+      "Of the simulator as given, each beside those to its left: its own numbers; functions of "
+      "rates and angles; of where the motion came from; of the time; pushes. Counted where "
+      "nothing was fitted.");
+}
+
 void add_limits(const Json& report, HtmlReport& page) {
   page.heading("What was not found, and from which size on it would have been");
   std::vector<std::vector<std::string>> rows;
@@ -164,6 +190,7 @@ std::string to_html(const Diagnosis& diagnosis) {
   add_errors(report, page);
   add_portraits(diagnosis, page);
   add_traces(diagnosis, page);
+  add_budget(report, page);
   add_places(report, page);
   add_limits(report, page);
   if (!report["next_motion"].is_null()) {
