@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/linear_algebra.h"
+#include "diagnosis/beginning.h"
 
 namespace dcnn {
 namespace {
@@ -123,6 +124,16 @@ Eigen::VectorXd best_change(const std::vector<Member>& members,
   return change;
 }
 
+/// What is always fitted, and how the cables among the members were bent when recordings began.
+Eigen::MatrixXd with_beginnings(const Setting& setting, const std::vector<Member>& members) {
+  Eigen::MatrixXd columns = setting.nuisance;
+  for (const Member& member : members) {
+    const Eigen::MatrixXd begun = beginnings(setting, member, Detail::kFine);
+    if (begun.cols() > 0) columns = appended(columns, begun);
+  }
+  return columns;
+}
+
 }  // namespace
 
 Eigen::VectorXd Setting::whitened(const Signals& signals) const {
@@ -157,15 +168,16 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
 JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   const Eigen::VectorXd wanted = setting.whitened(setting.measured);
   const auto coordinates = coordinates_of(members);
-  const Index free = static_cast<Index>(coordinates.size()), extra = setting.nuisance.cols();
+  const Eigen::MatrixXd nuisance_columns = with_beginnings(setting, members);
+  const Index free = static_cast<Index>(coordinates.size()), extra = nuisance_columns.cols();
   auto chain = std::make_unique<Chain>(setting.study, std::move(members));
   Eigen::VectorXd here = setting.whitened(chain->prediction());
   JointFit fit;
-  fit.nuisance = least_squares(setting.nuisance, wanted - here);
-  Eigen::VectorXd residual = wanted - here - setting.nuisance * fit.nuisance;
+  fit.nuisance = least_squares(nuisance_columns, wanted - here);
+  Eigen::VectorXd residual = wanted - here - nuisance_columns * fit.nuisance;
   fit.chi2 = residual.squaredNorm();
   fit.tangent.resize(here.size(), free + extra);
-  fit.tangent.rightCols(extra) = setting.nuisance;
+  fit.tangent.rightCols(extra) = nuisance_columns;
   for (int step = 0; step < kMostSteps; ++step) {
     fit.tangent.leftCols(free) = derivatives(setting, *chain, coordinates, here);
     if (free == 0) break;
@@ -185,8 +197,8 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
       }
       auto next = std::make_unique<Chain>(setting.study, std::move(moved));
       const Eigen::VectorXd there = setting.whitened(next->prediction());
-      const Eigen::VectorXd nuisance = least_squares(setting.nuisance, wanted - there);
-      const Eigen::VectorXd left = wanted - there - setting.nuisance * nuisance;
+      const Eigen::VectorXd nuisance = least_squares(nuisance_columns, wanted - there);
+      const Eigen::VectorXd left = wanted - there - nuisance_columns * nuisance;
       const double chi2 = left.squaredNorm();
       if (!(chi2 < fit.chi2)) continue;
       better = true;

@@ -115,6 +115,7 @@ std::vector<Constancy> constancy(const Setting& setting, const JointFit& fit) {
     }
     if (dof < 3.0) continue;
     list[m].ratio = score / dof;
+    list[m].excess = score - dof;
     list[m].z = (score - dof) / std::sqrt(2.0 * dof);
   }
   return list;

@@ -29,7 +29,7 @@ constexpr double kInconstant = 9.0;  ///< standard deviations of Constancy::z
 /// Whether a member explains the recordings throughout: its score over blocks of 8 s, per degree of
 /// freedom. A surrogate of something else fits some blocks and not others.
 struct Constancy {
-  double ratio = 1.0, z = 0.0;
+  double ratio = 1.0, z = 0.0, excess = 0.0;  ///< score over its degrees of freedom, and beyond
   bool refutes() const { return ratio > 2.5 && z > kInconstant; }
 };
 std::vector<Constancy> constancy(const Setting& setting, const JointFit& fit);

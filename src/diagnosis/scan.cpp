@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/beginning.h"
+
 namespace dcnn {
 namespace {
 
@@ -74,9 +76,15 @@ Trial Scan::evaluate(const Member& member, Detail detail) const {
   Trial trial;
   trial.member = member;
   trial.price = setting_.price;
-  const Eigen::MatrixXd raw = columns(member, detail), c = off_model(raw);
+  const Eigen::MatrixXd raw = columns(member, detail);
+  Eigen::MatrixXd c = off_model(raw);
   const double energy = raw.squaredNorm();
   trial.kept = energy > 0.0 ? c.squaredNorm() / energy : 0.0;
+  const Eigen::MatrixXd begun = off_model(beginnings(setting_, member, detail));
+  if (begun.cols() > 0) {
+    const Eigen::MatrixXd own = orthonormal(begun);
+    c -= own * (own.transpose() * c);
+  }
   const Eigen::VectorXd match = c.transpose() * residual_;
   if (member.amplitudes.size() == 0) {
     trial.gain = std::max(0.0, 2.0 * match(0) - c.squaredNorm());

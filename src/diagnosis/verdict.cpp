@@ -12,7 +12,8 @@
 namespace dcnn {
 namespace {
 
-constexpr double kSlowestMode = 2.0;  // Hz
+constexpr double kSlowestMode = 2.0;   // Hz
+constexpr double kLeastDoubt = 0.001;  // of a member's gain
 
 }  // namespace
 
@@ -106,8 +107,13 @@ bool Search::take_back_relatives() {
   double most = 1.0;
   std::optional<std::size_t> worst;
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
-    const bool inconstant = tests[m].refutes();
-    double apart = std::max(inconstant ? tests[m].z / kInconstant : 0.0, strengths[m] / kModulated);
+    if (fit_.members[m].fixed) continue;
+    // A law that explains a thousand times what is wrong with it may be a little wrong.
+    const double slack = kLeastDoubt * std::max(0.0, net_gain(m));
+    double apart = strengths[m] > slack ? strengths[m] / kModulated : 0.0;
+    if (tests[m].refutes() && tests[m].excess > slack) {
+      apart = std::max(apart, tests[m].z / kInconstant);
+    }
     // A mode that leaves something where modes are is one of several.
     if (swings && fit_.members[m].kind->stage == Stage::kResonance) apart = kInfinity;
     if (apart > most) most = apart, worst = m;

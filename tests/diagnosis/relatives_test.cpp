@@ -59,6 +59,22 @@ TEST(Relatives, AnOffsetThatGrowsWithTheTimeIsADrift) {
   EXPECT_EQ(names(report), std::vector<std::string>{"linear_drift"}) << report["findings"].dump(1);
 }
 
+// The recordings begin in the midst of the motion, where nobody knows how the cable is bent.
+TEST(Relatives, AHysteresisMayBeginAnyhow) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Bench bench(configuration(Json::array({hidden(
+      "hysteresis", "alpha:sensor_x", {{"force_n", 0.4}, {"width_rad", 0.5}, {"asym", 0.4}})})));
+  change(bench, [](Recording& log) {
+    const Index rows = log.table.values.rows();
+    log.table.values = log.table.values.bottomRows(rows - rows / 5).eval();
+  });
+  const Json report = bench.diagnose().report;
+  ASSERT_EQ(names(report), std::vector<std::string>{"hysteresis"}) << report["findings"].dump(1);
+  const Json& found = report["findings"][0]["parameters"];
+  EXPECT_NEAR(found["width_rad"]["value"].get<double>(), 0.5, 0.015);
+  EXPECT_NEAR(found["force_n"]["value"].get<double>(), 0.4, 0.012);
+}
+
 // Of the samples one in fifty is some seven times as noisy.
 TEST(Relatives, KnocksAreHeardBesideFrictionAndWildSamples) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
