@@ -18,7 +18,8 @@ Json read_if_there(const fs::path& file) {
 /// The nominal amplitude nearest in the logarithm; effects whose size is the motion's as well.
 std::string amplitude_class(double amplitude) {
   static const std::vector<std::pair<double, std::string>> nominal{
-      {0.05, "0.05"}, {0.1, "0.1"}, {0.2, "0.2"}, {0.5, "0.5"}, {1.0, "1"}, {2.0, "2"}};
+      {0.05, "0.05"}, {0.1, "0.1"}, {0.2, "0.2"}, {0.3, "0.3"},
+      {0.5, "0.5"},   {1.0, "1"},   {2.0, "2"}};
   std::string best;
   double least = 1e9;
   for (const auto& [value, name] : nominal) {
@@ -34,11 +35,36 @@ Json rows(const std::map<std::string, Tally>& tallies) {
   return out;
 }
 
+/// The amplitude for which a scenario was drawn: group:amplitude/effect/number.
+std::string drawn_amplitude(const Json& scenario) {
+  const std::string id = scenario["drawn"];
+  const auto colon = id.find(':');
+  return id.substr(colon + 1, id.find('/') - colon - 1);
+}
+
+/// How often each effect alone was named, or was among the alternatives, by drawn amplitude.
+Json single_effects(const Json& scenarios) {
+  Json table = Json::object();
+  for (const Json& s : scenarios) {
+    if (s["group"] != "single") continue;
+    const Json& e = s["effects"][0];
+    Json& cell = table[e["effect"].get<std::string>()][drawn_amplitude(s)];
+    const auto count = [&](const char* key, bool counts) {
+      cell[key] = cell.value(key, 0) + (counts ? 1 : 0);
+    };
+    count("of", true);
+    count("named", e["named"].get<bool>());
+    count("in_class", e["in_class"].get<bool>());
+  }
+  return table;
+}
+
 Json tabulate(const Json& scenarios) {
   Tally all;
-  std::map<std::string, Tally> group, effect, amplitude, motion, noise;
+  std::map<std::string, Tally> group, effect, amplitude, motion, noise, single;
   for (const Json& s : scenarios) {
     add_scenario(s, all);
+    if (s["group"] == "single") add_scenario(s, single["single, " + drawn_amplitude(s)]);
     add_scenario(s, group[s["group"]]);
     add_scenario(s, motion[s["motion"]]);
     add_scenario(s, noise[s["noise"]["kind"]]);
@@ -50,8 +76,10 @@ Json tabulate(const Json& scenarios) {
     }
   }
   std::erase_if(effect, [](const auto& row) { return row.second.summary().empty(); });
-  return {{"all", all.summary()},         {"group", rows(group)},   {"effect", rows(effect)},
-          {"amplitude", rows(amplitude)}, {"motion", rows(motion)}, {"noise", rows(noise)}};
+  return {{"all", all.summary()},   {"group", rows(group)},
+          {"effect", rows(effect)}, {"amplitude", rows(amplitude)},
+          {"motion", rows(motion)}, {"noise", rows(noise)},
+          {"single", rows(single)}, {"single_effect", single_effects(scenarios)}};
 }
 
 /// Every answer against FOLDER/<id>/<below>/report.json; those that are not there yet are missing.

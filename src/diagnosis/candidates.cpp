@@ -13,11 +13,9 @@
 namespace dcnn {
 namespace {
 
-/// Every combination of the seeds of a form's shapes on an axis. Seeds of speeds and lengths are
-/// those of a translation; a rotation has larger numbers (rad instead of m).
+/// Every combination of the seeds of a form's shapes on an axis.
 std::vector<Eigen::VectorXd> seed_grid(const EffectFit& form, const std::string& axis) {
-  constexpr double kPerArm = 5.0;  // 1/m
-  const double scale = axis.rfind("w_", 0) == 0 ? kPerArm : 1.0;
+  const double scale = seed_scale(axis);
   std::vector<Eigen::VectorXd> grid{Eigen::VectorXd(0)};
   for (const ShapeParameter& shape : form.shapes) {
     std::vector<Eigen::VectorXd> longer;
@@ -175,6 +173,11 @@ bool has_acceleration(const Case& study) {
 }
 
 }  // namespace
+
+double seed_scale(const std::string& axis) {
+  constexpr double kPerArm = 5.0;  // 1/m
+  return axis.starts_with("w_") ? kPerArm : 1.0;
+}
 
 bool is_listed(const Case& study, const EffectKind& kind) {
   if (!study.axis) return !kind.machines_only;

@@ -17,6 +17,10 @@ constexpr double kFewestTurns = 0.7;
 std::vector<Member> candidates(const Scan& scan, const Signals& left,
                                const std::vector<Floor>& floors);
 
+/// What the seeds of a law's speeds and lengths are multiplied by: they are those of a translation,
+/// and a rotation has larger numbers (rad instead of m).
+double seed_scale(const std::string& axis);
+
 /// Whether the effect is in the catalogue of the case: of a tool, or of an axis of another machine.
 bool is_listed(const Case& study, const EffectKind& kind);
 /// The axes it can act on there; one empty name where it takes none.

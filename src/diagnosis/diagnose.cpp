@@ -159,7 +159,7 @@ class Writer {
     std::optional<double> most;
     for (const auto& axis : axes_of(search_.study(), kind)) {
       const auto least = scan.least_detectable(
-          make_member(kind, form, axis, search_.study().has_torque(), shapes));
+          make_member(kind, form, axis, search_.study().has_torque(), seed_scale(axis) * shapes));
       if (least && (!most || *least > *most)) most = least;
     }
     return most;

@@ -17,8 +17,9 @@ constexpr double kColourGain = 12.0;  // of the log-likelihood, before noise is 
 constexpr double kUpperPart = 1.4;    // of the lowest frequency of the quiet band: its upper part
 constexpr double kColourAbove = 3.0;  // of the log-likelihood there
 constexpr Index kWindow = 1024;       // samples of one periodogram
-constexpr double kSlowest = 0.02;     // Hz: flicker noise is taken for flat below
-constexpr Index kFewestBins = 12;     // below this the quiet band says nothing
+constexpr Index kShortestWindow = 64;
+constexpr double kSlowest = 0.02;  // Hz: flicker noise is taken for flat below
+constexpr Index kFewestBins = 12;  // below this the quiet band says nothing
 
 /// Shape of AR(1) noise of unit variance.
 double ar_shape(double rho, double hz, double dt) {
@@ -33,12 +34,37 @@ struct Periodograms {
   Eigen::VectorXd hz;
 };
 
-Periodograms periodograms(const Case& study, const Signals& signals, Index channel) {
-  Index shortest = kWindow;
-  for (const Log& log : study.logs) {
-    for (const Segment& s : log.motion.segments) shortest = std::min(shortest, s.size());
+/// Samples of a window of which segments long enough hold half of the recordings.
+Index window_of(const Case& study) {
+  Index longest = 0;
+  for (Index n = kWindow; n >= kShortestWindow; n /= 2) {
+    Index all = 0, held = 0;
+    for (const Log& log : study.logs) {
+      for (const Segment& s : log.motion.segments) {
+        all += s.size();
+        if (s.size() >= n) held += s.size();
+        longest = std::max(longest, s.size());
+      }
+    }
+    if (2 * held >= all) return n;
   }
-  const Index n = std::max<Index>(16, shortest);
+  return std::max<Index>(16, std::min(longest, kShortestWindow));
+}
+
+/// Variance of white noise with these second differences.
+double variance_of_differences(const Signals& signals, Index channel) {
+  double sum = 0.0, count = 0.0;
+  for (const auto& x : signals) {
+    for (Index i = 2; i < x.rows(); ++i, ++count) {
+      const double d = x(i, channel) - 2.0 * x(i - 1, channel) + x(i - 2, channel);
+      sum += d * d / 6.0;
+    }
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+Periodograms periodograms(const Case& study, const Signals& signals, Index channel) {
+  const Index n = window_of(study);
   const Eigen::VectorXd taper =
       (1.0 - (Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5) * 2.0 *
               std::numbers::pi / static_cast<double>(n))
@@ -192,41 +218,6 @@ double quiet_band(const Case& study) {
   return std::min(study.motion_hz, most / study.dt());
 }
 
-namespace {
-
-/// Of poses at rest: what a free matrix on the direction of gravity and an offset leave, which
-/// holds every linear fault of tool and sensor.
-std::vector<Floor> floor_at_rest(const Case& study, const Signals& residual) {
-  std::vector<Eigen::RowVector4d> rows;
-  Eigen::MatrixXd y(0, study.channel_count());
-  for (std::size_t k = 0; k < study.logs.size(); ++k) {
-    for (const auto& R : study.logs[k].motion.R_BS) {
-      rows.emplace_back(R(2, 0), R(2, 1), R(2, 2), 1.0);
-    }
-    const Index before = y.rows();
-    y.conservativeResize(before + residual[k].rows(), Eigen::NoChange);
-    y.bottomRows(residual[k].rows()) = residual[k];
-  }
-  Eigen::MatrixXd A(static_cast<Index>(rows.size()), 4);
-  for (std::size_t i = 0; i < rows.size(); ++i) A.row(static_cast<Index>(i)) = rows[i];
-  const double dof = static_cast<double>(A.rows() - 4);
-  require(dof >= 3.0, Exit::kData, study.logs.front().recording.name, ": ", A.rows(),
-          " poses cannot tell noise from faults; record at least 7");
-  Eigen::Matrix4d gram = A.transpose() * A;
-  gram.diagonal().array() += 1e-9;
-  std::vector<Floor> floors;
-  for (Index j = 0; j < y.cols(); ++j) {
-    const Eigen::VectorXd left = y.col(j) - A * solve_symmetric(gram, A.transpose() * y.col(j));
-    Floor floor;
-    floor.white = left.squaredNorm() / dof;
-    floor.source = "poses at rest, beside a free matrix on gravity and an offset";
-    floors.push_back(floor);
-  }
-  return floors;
-}
-
-}  // namespace
-
 std::vector<Floor> noise_floor(const Case& study, const Signals& residual,
                                const std::vector<Eigen::VectorXd>& levels) {
   if (study.is_static()) return floor_at_rest(study, residual);
@@ -247,11 +238,14 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual,
     if (static_cast<Index>(quiet.size()) >= kFewestBins && p.power.cols() > 0) {
       floor = fit_floor(without_lines(density(quiet)), p.hz(quiet), dt,
                         static_cast<double>(p.power.cols()), study.without.coloured_floor);
+      floor.source = "spectrum of the residual above " +
+                     std::to_string(static_cast<int>(std::lround(from))) + " Hz";
+    } else {
+      floor.white = variance_of_differences(even, channel);
+      floor.source = "second differences of the residual";
     }
     floor.lowpass_hz = study.lowpass_hz;
     floor.dt = dt;
-    floor.source = "spectrum of the residual above " +
-                   std::to_string(static_cast<int>(std::lround(from))) + " Hz";
     floors.push_back(floor);
   }
   return floors;

@@ -43,6 +43,10 @@ double quiet_band(const Case& study);
 std::vector<Floor> noise_floor(const Case& study, const Signals& residual,
                                const std::vector<Eigen::VectorXd>& levels);
 
+/// Of poses at rest: what a free matrix on the direction of gravity and an offset leave, which
+/// holds every linear fault of tool and sensor. Error(kData) for fewer than 7 poses.
+std::vector<Floor> floor_at_rest(const Case& study, const Signals& residual);
+
 /// Adds what the pose's own noise, read from the raw pose above the motion's band, puts into the
 /// prediction: through accelerations (mass and lever) and through gravity.
 void add_pose_noise(const Case& study, std::vector<Floor>& floors);

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cstdio>
+#include <set>
+#include <string>
 
 #include "dcnn/experiment/challenge_report.h"
 #include "experiment/challenge_tables.h"
@@ -36,6 +38,7 @@ std::string text_of(const char* format, double a, double b = 0.0, double c = 0.0
 std::string comparison_text(const Json& table) {
   const Columns columns{{"top1", "first"},
                         {"set", "set"},
+                        {"class_set", "class"},
                         {"false_discovery", "false"},
                         {"null_without_name", "nulls"},
                         {"verdict", "verdict"},
@@ -56,6 +59,30 @@ std::string comparison_text(const Json& table) {
         said = text_of("%.4g", value["median"]);
       }
       line += std::string(10 - std::min<std::size_t>(10, said.size()), ' ') + said;
+    }
+    text += "\n" + line;
+  }
+  return text + "\n";
+}
+
+/// How many of each effect alone were named (or were among the alternatives), by amplitude.
+std::string singles_text(const Json& table) {
+  std::set<double> amplitudes;
+  for (const auto& [effect, cells] : table.items()) {
+    for (const auto& [amplitude, cell] : cells.items()) amplitudes.insert(std::stod(amplitude));
+  }
+  std::string text = "alone, named (class) of         ";
+  for (const double a : amplitudes) text += text_of("%14g", a);
+  for (const auto& [effect, cells] : table.items()) {
+    std::string line = effect;
+    line.resize(32, ' ');
+    for (const double a : amplitudes) {
+      std::string said;
+      for (const auto& [amplitude, cell] : cells.items()) {
+        if (std::stod(amplitude) != a) continue;
+        said = cell["named"].dump() + " (" + cell["in_class"].dump() + ") of " + cell["of"].dump();
+      }
+      line += std::string(14 - std::min<std::size_t>(14, said.size()), ' ') + said;
     }
     text += "\n" + line;
   }
@@ -133,6 +160,11 @@ std::string challenge_text(const Json& scores) {
   }
   if (!scores["missing"].empty()) {
     text += std::to_string(scores["missing"].size()) + " scenarios are not yet run\n";
+  }
+  text += "\n" + comparison_text(scores["tables"]["group"]);
+  const Json& single = scores["tables"]["single"];
+  if (single.size() > 1) {
+    text += "\n" + comparison_text(single) + "\n" + singles_text(scores["tables"]["single_effect"]);
   }
   if (!scores["rivals"].empty()) text += "\n" + comparison_text(beside_rivals(scores));
   if (!scores["ablations"].empty()) text += "\n" + comparison_text(beside_ablations(scores));
