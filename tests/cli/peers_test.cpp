@@ -1,5 +1,6 @@
 // dcnn-bench --peers, with no library beside it and with those that are here.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -26,20 +27,69 @@ std::string sample(const char* name) {
   return std::string(DCNN_SOURCE_DIR) + "/data/sample/" + name;
 }
 
-TEST(Peers, WithoutAnyHelperSaysWhatIsMissing) {
-  const test::TemporaryFolder folder;
-  const auto alone = folder / "dcnn-bench";
-  fs::create_hard_link(fs::path(DCNN_BIN_DIR) / "dcnn-bench", alone);
-  const std::string command = alone.string() +
-                              " --peers --lengths 1 --rounds 1 --epochs 0 --quiet > " +
-                              (folder / "out").string();
-  ASSERT_EQ(std::system(command.c_str()), 0);
-  const std::string out = test::slurp(folder / "out");
-  for (const char* name : {"ONNX Runtime", "oneDNN", "libtorch"}) {
-    EXPECT_NE(out.find(std::string(name) + " is left out: "), std::string::npos) << out;
+/// dcnn-bench in a folder where no helper is but those that a test puts there.
+struct Lonely {
+  test::TemporaryFolder folder;
+  Lonely() { fs::create_hard_link(fs::path(DCNN_BIN_DIR) / "dcnn-bench", folder / "dcnn-bench"); }
+
+  /// A shell script in the place of oneDNN's helper.
+  void put_helper(const std::string& script) const {
+    const auto path = folder / "dcnn-peer-onednn";
+    write_file(path, "#!/bin/sh\necho '{\"name\": \"oneDNN\", \"version\": \"0\"}'\n" + script);
+    fs::permissions(path, fs::perms::owner_all);
   }
-  EXPECT_NE(out.find("tools/install-deps --peers"), std::string::npos);
-  EXPECT_NE(out.find("dcnn-valid"), std::string::npos) << "our own rows are there";
+
+  int run() const {
+    const std::string command = (folder / "dcnn-bench").string() +
+                                " --peers --lengths 1 --rounds 1 --epochs 0 --quiet > " +
+                                (folder / "out").string() + " 2> " + (folder / "err").string();
+    return WEXITSTATUS(std::system(command.c_str()));
+  }
+  std::string out() const { return test::slurp(folder / "out"); }
+  std::string err() const { return test::slurp(folder / "err"); }
+};
+
+TEST(Peers, WithoutAnyHelperSaysWhatIsMissing) {
+  const Lonely bench;
+  ASSERT_EQ(bench.run(), 0) << bench.err();
+  for (const char* name : {"ONNX Runtime", "oneDNN", "libtorch"}) {
+    EXPECT_NE(bench.out().find(std::string(name) + " is left out: "), std::string::npos)
+        << bench.out();
+  }
+  EXPECT_NE(bench.out().find("tools/install-deps --peers"), std::string::npos);
+  EXPECT_NE(bench.out().find("dcnn-valid"), std::string::npos) << "our own rows are there";
+}
+
+TEST(Peers, AHelperThatEndsIsLeftOutFromThereOn) {
+  const Lonely bench;
+  bench.put_helper("read line\n");
+  ASSERT_EQ(bench.run(), 0) << bench.err();
+  EXPECT_NE(bench.out().find("dcnn-peer-onednn: ended before it answered; left out"),
+            std::string::npos)
+      << bench.out();
+  EXPECT_NE(bench.out().find("ffnn-m"), std::string::npos);
+}
+
+TEST(Peers, AHelperThatFailsSaysWhy) {
+  const Lonely bench;
+  bench.put_helper("while read line; do echo '{\"error\": \"no such primitive\"}'; done\n");
+  ASSERT_EQ(bench.run(), 0) << bench.err();
+  EXPECT_NE(bench.out().find("dcnn-peer-onednn: no such primitive; left out"), std::string::npos)
+      << bench.out();
+}
+
+TEST(Peers, OutputsThatDifferAreAFailure) {
+  const Lonely bench;
+  bench.put_helper(
+      "zeros=$(head -c 2999 /dev/zero | tr '\\0' 0 | sed 's/0/0,/g')0\n"
+      "while read verb rest; do case $verb in\n"
+      "  outputs) echo \"{\\\"values\\\": [$zeros]}\" ;;\n"
+      "  each) echo '{\"seconds\": [0.01, 0.01]}' ;;\n"
+      "  *) echo '{\"seconds\": 0.01}' ;;\n"
+      "esac; done\n");
+  EXPECT_EQ(bench.run(), 1) << bench.out();
+  EXPECT_NE(bench.out().find("1.0e+00 (too much)"), std::string::npos) << bench.out();
+  EXPECT_NE(bench.err().find("outputs differ"), std::string::npos) << bench.err();
 }
 
 TEST(Peers, AgreeWithOursWhereTheyAreHere) {

@@ -99,7 +99,8 @@ Network network(const Json& layers, const Shape& input) {
 TEST(Onnx, SaysItsVersionsAndTheShapesOfInputAndOutput) {
   const auto model = fields(to_onnx(network(dcnn_layers("same"), {15, 5, 1})));
   for (const Field& field : model) {
-    if (field.number == 1) EXPECT_EQ(field.value, static_cast<std::uint64_t>(kOnnxIrVersion));
+    if (field.number != 1) continue;
+    EXPECT_EQ(field.value, static_cast<std::uint64_t>(kOnnxIrVersion));
   }
   const auto opset = fields(one(model, 8));
   EXPECT_EQ(opset.back().value, static_cast<std::uint64_t>(kOnnxOpset));

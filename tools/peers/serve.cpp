@@ -1,11 +1,13 @@
 #include "peers/serve.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <iostream>
 #include <sstream>
 
 #include "dcnn/core/file.h"
+#include "experiment/peers/child.h"
 
 namespace dcnn::peers {
 namespace {
@@ -70,7 +72,7 @@ class Session {
     const ExportedNetwork exported = read_network(network);
     samples_ = read_samples(samples);
     call_size_ = batch_ * element_count(exported.input);
-    calls_ = static_cast<Index>(samples_.size()) / call_size_;
+    calls_ = std::min<Index>(kMostDistinctCalls, static_cast<Index>(samples_.size()) / call_size_);
     require(calls_ > 0, Exit::kData, samples, ": fewer samples than one call takes");
     runner_ = library_.load(exported, batch_, threads);
     return {{"outputs", runner_->outputs()}};

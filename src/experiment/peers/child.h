@@ -10,6 +10,9 @@
 
 namespace dcnn {
 
+/// Calls go through the samples in turn, over so many calls' worth of them at most.
+inline constexpr int kMostDistinctCalls = 1000;
+
 /// The protocol, line by line, words separated by spaces. It runs in the folder of the files:
 ///   (at the start)                         {"name", "version", "host", "trains"} or {"missing"}
 ///   load BATCH THREADS SAMPLES NETWORK      {"outputs": per sample}

@@ -65,7 +65,7 @@ Ours::Ours(const Network& network, const Tensor& samples, Index batch, int threa
       batch_plan_(network),
       batch_(batch),
       cells_(samples.size() / samples.dim(0)),
-      calls_(samples.dim(0) / batch),
+      calls_(std::min<Index>(kMostDistinctCalls, samples.dim(0) / batch)),
       threads_(threads) {}
 
 const Real* Ours::call(Index k) {

@@ -30,12 +30,12 @@ HWY_INLINE V activated(V x, Activation activation) {
 /// One vector of units from `at` on; four sums hide the latency.
 HWY_INLINE V units(const DenseLayer& layer, Index at, const Real* x) {
   const D d;
-  const Index padded = layer.bias.size();
-  const Real* w = layer.weights.data() + at;
+  const Index padded = layer.padded;
+  const Real* w = layer.weights + at;
   const auto product = [&](Index i, V sum) HWY_ATTR {
     return hn::MulAdd(hn::Set(d, x[i]), hn::Load(d, w + i * padded), sum);
   };
-  V sum[4] = {hn::Load(d, layer.bias.data() + at), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  V sum[4] = {hn::Load(d, layer.bias + at), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
   Index i = 0;
   for (; i + 4 <= layer.inputs; i += 4) {
     sum[0] = product(i, sum[0]);
@@ -65,29 +65,66 @@ void dense_of_one_target(const std::vector<DenseLayer>& layers, const Real* x, R
 
 constexpr Index kTogether = 2 * kLanes;  // samples
 
-/// kUnits units of the samples of a block, from `at` on; signals lie unit by unit.
-template <Index kUnits>
-HWY_INLINE void tile(const DenseLayer& layer, Index at, const Real* from, Real* to) {
+/// One unit of the samples of a block; signals lie unit by unit.
+HWY_INLINE void put_unit(const DenseLayer& layer, Index at, V first, V second, Real* to) {
   const D d;
-  const Index padded = layer.bias.size();
-  V sum[kUnits][2];
-  for (Index u = 0; u < kUnits; ++u) {
-    sum[u][0] = sum[u][1] = hn::Set(d, layer.bias.data()[at + u]);
+  hn::Store(activated(first, layer.activation), d, to + at * kTogether);
+  hn::Store(activated(second, layer.activation), d, to + at * kTogether + kLanes);
+}
+
+HWY_INLINE void one_unit(const DenseLayer& layer, Index at, const Real* from, Real* to) {
+  const D d;
+  V first = hn::Set(d, layer.bias[at]), second = first;
+  const Real* w = layer.weights + at;
+  for (Index i = 0; i < layer.inputs; ++i, w += layer.padded, from += kTogether) {
+    const V factor = hn::Set(d, *w);
+    first = hn::MulAdd(factor, hn::Load(d, from), first);
+    second = hn::MulAdd(factor, hn::Load(d, from + kLanes), second);
   }
-  const Real* w = layer.weights.data() + at;
-  for (Index i = 0; i < layer.inputs; ++i) {
-    const V first = hn::Load(d, from + i * kTogether);
-    const V second = hn::Load(d, from + i * kTogether + kLanes);
-    for (Index u = 0; u < kUnits; ++u) {
-      const V factor = hn::Set(d, w[i * padded + u]);
-      sum[u][0] = hn::MulAdd(factor, first, sum[u][0]);
-      sum[u][1] = hn::MulAdd(factor, second, sum[u][1]);
+  put_unit(layer, at, first, second, to);
+}
+
+/// Four at once; GCC keeps sums that have an index in memory.
+HWY_INLINE void four_units(const DenseLayer& layer, Index at, const Real* from, Real* to) {
+  const D d;
+  V first0 = hn::Set(d, layer.bias[at]), first1 = hn::Set(d, layer.bias[at + 1]);
+  V first2 = hn::Set(d, layer.bias[at + 2]), first3 = hn::Set(d, layer.bias[at + 3]);
+  V second0 = first0, second1 = first1, second2 = first2, second3 = first3;
+  const Real* w = layer.weights + at;
+  for (Index i = 0; i < layer.inputs; ++i, w += layer.padded, from += kTogether) {
+    const V x = hn::Load(d, from), y = hn::Load(d, from + kLanes);
+    const V w0 = hn::Set(d, w[0]), w1 = hn::Set(d, w[1]);
+    const V w2 = hn::Set(d, w[2]), w3 = hn::Set(d, w[3]);
+    first0 = hn::MulAdd(w0, x, first0);
+    second0 = hn::MulAdd(w0, y, second0);
+    first1 = hn::MulAdd(w1, x, first1);
+    second1 = hn::MulAdd(w1, y, second1);
+    first2 = hn::MulAdd(w2, x, first2);
+    second2 = hn::MulAdd(w2, y, second2);
+    first3 = hn::MulAdd(w3, x, first3);
+    second3 = hn::MulAdd(w3, y, second3);
+  }
+  put_unit(layer, at, first0, second0, to);
+  put_unit(layer, at + 1, first1, second1, to);
+  put_unit(layer, at + 2, first2, second2, to);
+  put_unit(layer, at + 3, first3, second3, to);
+}
+
+/// Rows of `count` samples as one row for each input.
+HWY_INLINE void turn(const Real* x, Index count, Index inputs, Real* to) {
+  Index s = 0;
+  for (; s + 4 <= count; s += 4, x += 4 * inputs, to += 4) {
+    const Real *x1 = x + inputs, *x2 = x1 + inputs, *x3 = x2 + inputs;
+    for (Index i = 0; i < inputs; ++i) {
+      Real* place = to + i * kTogether;
+      place[0] = x[i];
+      place[1] = x1[i];
+      place[2] = x2[i];
+      place[3] = x3[i];
     }
   }
-  for (Index u = 0; u < kUnits; ++u) {
-    Real* place = to + (at + u) * kTogether;
-    hn::Store(activated(sum[u][0], layer.activation), d, place);
-    hn::Store(activated(sum[u][1], layer.activation), d, place + kLanes);
+  for (; s < count; ++s, x += inputs, ++to) {
+    for (Index i = 0; i < inputs; ++i) to[i * kTogether] = x[i];
   }
 }
 
@@ -97,16 +134,14 @@ void dense_of_many_target(const std::vector<DenseLayer>& layers, const Real* x, 
   for (Index first = 0; first < n; first += kTogether) {
     const Index count = std::min(kTogether, n - first);
     if (count < kTogether) std::fill_n(signals[0], inputs * kTogether, Real(0));
-    for (Index i = 0; i < inputs; ++i) {
-      for (Index s = 0; s < count; ++s) signals[0][i * kTogether + s] = x[(first + s) * inputs + i];
-    }
+    turn(x + first * inputs, count, inputs, signals[0]);
     Index place = 0;
     for (const DenseLayer& layer : layers) {
       const Real* from = signals[place];
       Real* to = signals[1 - place];
       Index at = 0;
-      for (; at + 4 <= layer.outputs; at += 4) tile<4>(layer, at, from, to);
-      for (; at < layer.outputs; ++at) tile<1>(layer, at, from, to);
+      for (; at + 4 <= layer.outputs; at += 4) four_units(layer, at, from, to);
+      for (; at < layer.outputs; ++at) one_unit(layer, at, from, to);
       place = 1 - place;
     }
     for (Index s = 0; s < count; ++s) {
@@ -126,15 +161,18 @@ HWY_EXPORT(dense_of_one_target);
 HWY_EXPORT(dense_of_many_target);
 
 DenseLayer::DenseLayer(const Tensor& weight, const Tensor& bias_of_outputs)
-    : inputs(weight.dim(1)), outputs(weight.dim(0)) {
+    : inputs(weight.dim(1)),
+      outputs(weight.dim(0)),
+      padded((outputs + kPad - 1) / kPad * kPad),
+      memory({inputs + 1, padded}) {
   assert(inputs <= kMost && outputs <= kMost);
-  const Index padded = (outputs + kPad - 1) / kPad * kPad;
-  weights = Tensor({inputs, padded});
-  bias = Tensor({padded});
-  std::copy_n(bias_of_outputs.data(), outputs, bias.data());
+  Real* to = memory.data();
+  bias = to;
+  weights = to + padded;
   for (Index o = 0; o < outputs; ++o) {
+    to[o] = bias_of_outputs.data()[o];
     for (Index i = 0; i < inputs; ++i) {
-      weights.data()[i * padded + o] = weight.data()[o * inputs + i];
+      to[(i + 1) * padded + o] = weight.data()[o * inputs + i];
     }
   }
 }

@@ -16,9 +16,10 @@ struct DenseLayer {
   /// weight (outputs, inputs) and bias (outputs), at most kMost of each.
   DenseLayer(const Tensor& weight, const Tensor& bias);
 
-  Index inputs, outputs;
-  Tensor weights, bias;  ///< (inputs, padded outputs) and (padded outputs), zeros behind
+  Index inputs, outputs, padded;  ///< outputs, and those rounded up to whole vectors
+  const Real *weights, *bias;     ///< (inputs, padded) and (padded), zeros behind
   Activation activation = Activation::kNone;
+  Tensor memory;  ///< of both
 };
 
 /// y (outputs) of x (inputs): units in the vectors' lanes.
