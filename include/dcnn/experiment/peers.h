@@ -32,9 +32,9 @@ struct Peer {
   bool trains = false;
 };
 
-/// Times of one call [s]: the median of stretches of calls, and single calls.
+/// Times of one call [s]: median and least of stretches of calls, and single calls.
 struct CallTimes {
-  double median = 0.0, p50 = 0.0, p99 = 0.0, maximum = 0.0;
+  double median = 0.0, least = 0.0, p50 = 0.0, p99 = 0.0, maximum = 0.0;
 };
 
 /// What one library did in a row of the comparison.
@@ -46,6 +46,8 @@ struct PeerResult {
   /// a host [s].
   double overhead = 0.0;
   double ratio_net = 0.0;  ///< the ratio without it
+  /// The same of the least times: what others take of a busy machine hardly counts in it.
+  double ratio_least = 0.0;
   /// Greatest difference from our outputs over the greatest of our outputs; NaN where not compared.
   double difference = 0.0;
 };

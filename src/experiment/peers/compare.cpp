@@ -133,6 +133,8 @@ class Comparison {
     }
     result.ratio = median_of(ratios);
     result.ratio_net = median_of(net);
+    const double cost = *std::ranges::min_element(theirs.overhead);
+    result.ratio_least = std::max(0.0, theirs.times.least - cost) / ours.times.least;
     return result;
   }
 

@@ -147,6 +147,7 @@ Measured measure(const std::vector<Contestant*>& contestants, int rounds, int th
   for (std::size_t i = 0; i < count; ++i) {
     Turns& turns = result.contestants[i];
     turns.times.median = median_of(turns.calls);
+    turns.times.least = *std::ranges::min_element(turns.calls);
     settle(threads);
     single_calls(*contestants[i], turns.times);
   }

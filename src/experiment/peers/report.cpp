@@ -11,6 +11,7 @@ namespace {
 
 Json times_json(const CallTimes& times) {
   return {{"median_s", times.median},
+          {"least_s", times.least},
           {"p50_s", times.p50},
           {"p99_s", times.p99},
           {"max_s", times.maximum}};
@@ -32,6 +33,7 @@ Json call_json(const PeersRow& row) {
     result.update({{"ratio", peer.ratio},
                    {"overhead_s", peer.overhead},
                    {"ratio_without_overhead", peer.ratio_net},
+                   {"ratio_of_least", peer.ratio_least},
                    {"difference", peer.difference}});
     json["peers"].push_back(result);
   }

@@ -49,17 +49,17 @@ std::vector<std::string> peer_lines(const Peers& peers) {
 PeerTable call_table(const Peers& peers) {
   PeerTable table{
       {"network", "batch", "threads", "library", "call [us]", "p50 [us]", "p99 [us]", "max [us]",
-       "G products/s", "of peak", "ratio", "overhead [us]", "net", "difference"},
+       "G products/s", "of peak", "ratio", "overhead [us]", "net", "net of least", "difference"},
       {}};
   for (const PeersRow& row : peers.rows) {
     auto ours = cells(row, kOurs, row.ours);
-    ours.insert(ours.end(), {"1", "-", "1", "-"});
+    ours.insert(ours.end(), {"1", "-", "1", "1", "-"});
     table.rows.push_back(std::move(ours));
     for (const PeerResult& peer : row.peers) {
       auto line = cells(row, peer.peer, peer.call);
       line.insert(line.end(),
                   {significant(peer.ratio, 3), peer.overhead > 0.0 ? in_us(peer.overhead) : "-",
-                   significant(peer.ratio_net, 3),
+                   significant(peer.ratio_net, 3), significant(peer.ratio_least, 3),
                    scientific(peer.difference) +
                        (peer.difference <= Peers::kTolerance ? "" : " (too much)")});
       table.rows.push_back(std::move(line));

@@ -16,8 +16,8 @@ struct PeerTable {
 inline constexpr const char* kCallNote =
     "Times of a call: medians of stretches in turns (call) and single calls (p50, p99, max). "
     "ratio: median over turns of a library's time over ours; overhead: of a call through its host "
-    "that does nothing, in the same turns; net: the ratio without it. difference: of its outputs "
-    "from ours, the greatest over the greatest output.";
+    "that does nothing, in the same turns; net: the ratio without it; net of least: the same of "
+    "the least times. difference: of its outputs from ours, the greatest over the greatest output.";
 inline constexpr const char* kEpochNote =
     "Epochs of 41729 samples in turns, medians; ratio: median of the ratios of neighbours.";
 
