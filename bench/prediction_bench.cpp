@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "bench/training.h"
+#include "dcnn/nn/peak.h"
+#include "experiment/peers/training.h"
 
 namespace dcnn {
 namespace {

@@ -2,7 +2,8 @@
 // share of what the machine can do.
 #include <benchmark/benchmark.h>
 
-#include "bench/training.h"
+#include "dcnn/nn/peak.h"
+#include "experiment/peers/training.h"
 
 namespace dcnn {
 namespace {

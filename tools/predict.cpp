@@ -1,6 +1,7 @@
 #include <iostream>
 
-#include "dcnn/models/identifier.h"
+#include "dcnn/core/file.h"
+#include "dcnn/models/onnx.h"
 #include "dcnn/physics/axis_machine.h"
 #include "support/tool.h"
 
@@ -10,6 +11,7 @@ using namespace dcnn;
 
 constexpr const char* kExamples =
     "  dcnn-predict model.dcnn --data log.csv --out predicted.csv\n"
+    "  dcnn-predict model.dcnn --onnx model.onnx\n"
     "  dcnn-predict diagnosis/model.json --data log.csv --out predicted.csv   # a corrected "
     "simulator\n";
 
@@ -56,25 +58,33 @@ Recording predict_with_simulator(const std::filesystem::path& model,
 
 int main(int argc, char** argv) {
   Tool tool("dcnn-predict", "Predicts the tool's force for every row of a recording.", kExamples);
-  std::filesystem::path model, data, out;
+  std::filesystem::path model;
+  std::optional<std::filesystem::path> data, out, onnx;
   tool.option("model", model, "model file (.dcnn), or a simulator (.json)").required();
-  tool.option("--data", data, "recording").required();
-  tool.option("--out", out, "CSV to write: the input columns and <target>_hat").required();
+  tool.option("--data", data, "recording");
+  tool.option("--out", out, "CSV to write: the input columns and <target>_hat");
+  tool.option("--onnx", onnx,
+              "write the model as ONNX: features in SI units to targets in theirs, for other "
+              "runtimes");
   const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {
+    require(data.has_value() == out.has_value() && (data || onnx), Exit::kUsage,
+            "give --data and --out to predict, --onnx to export, or all three");
+    if (onnx) write_file(*onnx, to_onnx(read_identifier(model)));
+    if (!data) return Exit::kDone;
     ReadOptions options = read.options();
     options.motion_only = true;
     const bool simulator = model.extension() == ".json";
-    const Recording recording = simulator ? predict_with_simulator(model, data, options)
-                                          : predict_with_model(model, data, options);
+    const Recording recording = simulator ? predict_with_simulator(model, *data, options)
+                                          : predict_with_model(model, *data, options);
     for (const auto& note : recording.notes) tool.note(note);
-    write_csv(out, recording.table);
-    const Json summary = {{"rows", recording.samples()}, {"file", out.string()}};
+    write_csv(*out, recording.table);
+    const Json summary = {{"rows", recording.samples()}, {"file", out->string()}};
     if (tool.common().json) {
       Tool::print(summary);
     } else {
-      std::cout << out.string() << ": " << recording.samples() << " rows\n";
+      std::cout << out->string() << ": " << recording.samples() << " rows\n";
     }
     return Exit::kDone;
   });

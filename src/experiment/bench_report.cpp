@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "dcnn/experiment/bench.h"
+#include "dcnn/experiment/peers.h"
 #include "dcnn/experiment/report.h"
 #include "experiment/markup.h"
 
@@ -89,6 +90,24 @@ Chart sample_chart(const Bench& bench) {
   return chart;
 }
 
+void add_calls(HtmlReport& page, const Bench& bench, const BenchRequest& request) {
+  page.chart(sample_chart(bench), "time per sample over the samples predicted in one call");
+  page.heading("Time per call");
+  std::vector<std::vector<std::string>> rows;
+  for (const BenchRow& row : bench.rows) rows.push_back(cells(row));
+  page.table(kHeader, rows);
+  page.paragraph(
+      "Mean ± standard deviation over " + std::to_string(request.repetitions) +
+      " repetitions, one pinned thread, monotonic clock, after " + std::to_string(request.warm_up) +
+      " warm-up calls; p50, p99 and max are of single calls. 'X': the call begins at the features; "
+      "'pose': it also makes them with the causal derivative filter. Input: " +
+      bench.source + ".");
+  page.paragraph(kPaperNote);
+  page.paragraph(
+      "In the paper's table the DCNN is the fastest network at L = 1 alone: at 5 and 10 FFNN-S is "
+      "faster, and CF always is.");
+}
+
 }  // namespace
 
 Json to_json(const Bench& bench) {
@@ -127,24 +146,11 @@ std::string to_text(const Bench& bench) {
   return text + kPaperNote + "\n";
 }
 
-std::string to_html(const Bench& bench, const BenchRequest& request) {
+std::string to_html(const Bench& bench, const BenchRequest& request, const Peers* peers) {
   HtmlReport page("Tool dynamics identification: computation time");
-  page.chart(sample_chart(bench), "time per sample over the samples predicted in one call");
-  page.heading("Time per call");
-  std::vector<std::vector<std::string>> rows;
-  for (const BenchRow& row : bench.rows) rows.push_back(cells(row));
-  page.table(kHeader, rows);
-  page.paragraph(
-      "Mean ± standard deviation over " + std::to_string(request.repetitions) +
-      " repetitions, one pinned thread, monotonic clock, after " + std::to_string(request.warm_up) +
-      " warm-up calls; p50, p99 and max are of single calls. 'X': the call begins at the features; "
-      "'pose': it also makes them with the causal derivative filter. Input: " +
-      bench.source + ".");
-  page.paragraph(kPaperNote);
-  page.paragraph(
-      "In the paper's table the DCNN is the fastest network at L = 1 alone: at 5 and 10 FFNN-S is "
-      "faster, and CF always is.");
+  if (!bench.rows.empty()) add_calls(page, bench, request);
   for (const auto& note : bench.notes) page.paragraph(note);
+  if (peers) add_to(page, *peers);
   return page.html();
 }
 

@@ -148,7 +148,7 @@ void NetworkModel::fit_skip(const Samples& training) {
   scale_ = {Eigen::VectorXd::Zero(training.y.cols()), skip_->residual()};
 }
 
-void NetworkModel::refold() { folded_ = std::make_unique<Network>(network_->folded()); }
+void NetworkModel::refold() { batches_ = std::make_unique<BatchPlan>(*network_); }
 
 Eigen::MatrixXd NetworkModel::predict(const Stream& stream) const {
   constexpr Index kBlock = 520;  // 40 pieces of 13: activations stay in the cache
@@ -173,10 +173,11 @@ Eigen::MatrixXd NetworkModel::outputs(const Tensor& inputs) const {
   const Index n = inputs.dim(0), targets = scale_.mean.size();
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, targets);
   if (skip_) result = skip_->of(inputs);
-  if (!folded_) return result;
-  Pass pass;
-  const Tensor network = folded_->forward(inputs, pass);
-  require(network.dim(1) == targets, Exit::kModel, "the network's outputs do not fit its targets");
+  if (!batches_) return result;
+  require(element_count(network_->shapes().back()) == targets, Exit::kModel,
+          "the network's outputs do not fit its targets");
+  const Tensor network = Tensor::uninitialised({n, targets});
+  batches_->run(inputs.data(), n, network.data());
   for (Index i = 0; i < n; ++i) {
     for (Index j = 0; j < targets; ++j) {
       const auto y = static_cast<double>(network.data()[i * targets + j]);
@@ -187,6 +188,11 @@ Eigen::MatrixXd NetworkModel::outputs(const Tensor& inputs) const {
 }
 
 bool NetworkModel::per_sample() const { return input_->per_sample(); }
+
+std::optional<Network> NetworkModel::network() const {
+  if (skip_ || !network_) return std::nullopt;
+  return network_->folded();
+}
 
 Index NetworkModel::parameter_count() const {
   return (network_ ? network_->parameter_count() : 0) + (skip_ ? skip_->parameter_count() : 0);

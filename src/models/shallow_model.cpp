@@ -94,15 +94,16 @@ ShallowModel::ShallowModel(const Container& file, const std::string& where)
   require(shape.outputs > 0 && half_range_.size() == shape.outputs, Exit::kModel, where,
           ": its output does not fit its targets");
   network_ = make_network(shape, where, Exit::kModel);
-  weights_.resize(network_.parameter_count());
+  Eigen::VectorXd weights(network_.parameter_count());
   for (std::size_t l = 0; l < network_.layers().size(); ++l) {
     const auto& layer = network_.layers()[l];
     const auto& values = stored_values<double>(file, name_of(l), where);
     require(file.find(name_of(l))->shape == std::vector<Index>{1 + layer.width, layer.units},
             Exit::kModel, where, ": tensor '", name_of(l),
             "' has another shape than the architecture says");
-    std::ranges::copy(values, weights_.data() + layer.offset);
+    std::ranges::copy(values, weights.data() + layer.offset);
   }
+  set_weights(std::move(weights));
   require(predict({map_.mean().transpose(), {}}).allFinite(), Exit::kModel, where,
           ": its output is not finite");
 }
@@ -180,12 +181,12 @@ bool ShallowModel::run(LevenbergMarquardt& optimiser, const Samples& validation,
     }
     const double mu = optimiser.mu();
     if (!optimiser.iterate()) break;
-    weights_ = optimiser.weights();
+    set_weights(optimiser.weights());
     if (session.step_done) session.step_done(optimiser.epoch(), 1, 1, optimiser.loss());
     if (session.epoch_done) session.epoch_done(record(optimiser, mu, validation));
     if (session.save_checkpoint) session.save_checkpoint(optimiser.save());
   }
-  weights_ = optimiser.best();
+  set_weights(optimiser.best());
   return true;
 }
 
@@ -200,22 +201,6 @@ EpochRecord ShallowModel::record(const LevenbergMarquardt& optimiser, double mu,
   const Eigen::VectorXd rmse =
       (predict(validation) - validation.y).array().square().colwise().mean().sqrt().transpose();
   result.validation_rmse.assign(rmse.begin(), rmse.end());
-  return result;
-}
-
-Eigen::MatrixXd ShallowModel::predict(const Stream& stream) const {
-  const RowMatrix inputs = input_.read(stream, map_, all_rows(stream.rows()));
-  Eigen::MatrixXd result(stream.rows(), middle_.size());
-  const Index pieces = piece_count(stream.rows());
-  for_each_piece(pieces, [&](Index k) {
-    const Index first = piece_begin(stream.rows(), pieces, k);
-    const Index n = piece_begin(stream.rows(), pieces, k + 1) - first;
-    RowMatrix signals(n, network_.signals());
-    signals.leftCols(inputs.cols()) = inputs.middleRows(first, n);
-    RowMatrix outputs = network_.forward(weights_, signals);
-    outputs.array().rowwise() *= half_range_.array();
-    result.middleRows(first, n) = outputs.rowwise() + middle_;
-  });
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "dcnn/models/model.h"
+#include "dcnn/nn/batch_plan.h"
 #include "models/levenberg_marquardt.h"
 #include "models/shallow_input.h"
 #include "models/shallow_network.h"
@@ -34,6 +35,7 @@ class ShallowModel : public Model {
   std::unique_ptr<Predictor> predictor() const override;
   Index parameter_count() const override { return network_.parameter_count(); }
   const InputMap& map() const override { return map_; }
+  std::optional<Network> network() const override;
   void save(Container& file) const override;
 
  private:
@@ -42,6 +44,7 @@ class ShallowModel : public Model {
   struct Division {
     std::vector<Index> training, validation;
   };
+  void set_weights(Eigen::VectorXd weights);
   void learn_scales(const Samples& training);
   Division divide(const Samples& training) const;
   ShallowResiduals residuals(const Samples& samples, const std::vector<Index>& rows) const;
@@ -56,6 +59,7 @@ class ShallowModel : public Model {
   ShallowInput input_;
   ShallowNetwork network_;
   Eigen::VectorXd weights_;
+  std::unique_ptr<BatchPlan> batches_;      // of network(), where there is one
   Eigen::RowVectorXd middle_, half_range_;  // of the targets: unit = middle + half_range·output
   Eigen::VectorXd error_scale_;
   ShallowTraining training_;

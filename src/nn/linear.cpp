@@ -1,6 +1,9 @@
+#include <algorithm>
+
 #include "dcnn/nn/layer.h"
 #include "nn/init.h"
 #include "nn/kernels/channels.h"
+#include "nn/kernels/dense_chain.h"
 #include "nn/kernels/elementwise.h"
 #include "nn/kernels/tile.h"
 #include "nn/pieces.h"
@@ -19,6 +22,38 @@ class LinearStep final : public PlanStep {
 
  private:
   Tensor weight_, bias_;
+};
+
+/// Small layers and what is between them. Beyond a few outputs units in the lanes beat dot
+/// products, and one call for all of them counts as much.
+class DenseStep final : public PlanStep {
+ public:
+  DenseStep(const Tensor& weight, const Tensor& bias) { layers_.emplace_back(weight, bias); }
+  static bool takes(const Tensor& weight) {
+    return std::max(weight.dim(0), weight.dim(1)) <= DenseLayer::kMost;
+  }
+
+  void run(const Real* x, Real* y) noexcept override { dense_of_one(layers_, x, y); }
+  bool run_many(const Real* x, Index n, Real* y) const noexcept override {
+    dense_of_many(layers_, x, n, y);
+    return true;
+  }
+  bool absorb_relu() override { return absorb(Activation::kRelu); }
+  bool absorb_tanh() override { return absorb(Activation::kTanh); }
+  bool absorb_linear(const Tensor& weight, const Tensor& bias) override {
+    if (!takes(weight)) return false;
+    layers_.emplace_back(weight, bias);
+    return true;
+  }
+
+ private:
+  bool absorb(Activation activation) {
+    if (layers_.back().activation != Activation::kNone) return false;
+    layers_.back().activation = activation;
+    return true;
+  }
+
+  std::vector<DenseLayer> layers_;
 };
 
 /// y = W·x + b. (N, inputs) in, (N, outputs) out; weight (outputs, inputs).
@@ -42,6 +77,7 @@ class Linear final : public Layer {
 
   std::unique_ptr<PlanStep> plan(const Shape&, PlanStep* before) const override {
     if (before && before->absorb_linear(weight_, bias_)) return nullptr;
+    if (DenseStep::takes(weight_)) return std::make_unique<DenseStep>(weight_, bias_);
     return std::make_unique<LinearStep>(weight_, bias_);
   }
 

@@ -49,7 +49,7 @@ void fold(const Tensor& weight, const Tensor& bias, bool output_first,
 }  // namespace
 
 Network::Network(const Json& layers, const Shape& input, Rng& rng)
-    : layers_(layers), input_(input) {
+    : layers_(layers), input_(input), shapes_{input} {
   require(layers.is_array() && !layers.empty(), Exit::kUsage,
           "layers: must be a list of at least one layer");
   const NoGradient guard;
@@ -58,7 +58,7 @@ Network::Network(const Json& layers, const Shape& input, Rng& rng)
     const std::string place = "layer " + std::to_string(i);
     Options options(layers[i], place, Exit::kUsage);
     const auto& kind = find_kind(options.get<std::string>("kind"), place);
-    stack_.push_back(kind.make(options, Shape(x.shape().begin() + 1, x.shape().end()), rng));
+    stack_.push_back(kind.make(options, shapes_.back(), rng));
     options.finish();
     require(i < kMostLayers && parameter_count() <= kMostWeights, Exit::kUsage, place,
             ": more than ", kMostLayers, " layers or ", kMostWeights,
@@ -69,6 +69,7 @@ Network::Network(const Json& layers, const Shape& input, Rng& rng)
     }
     Pass pass;
     x = stack_.back()->forward(x, pass);
+    shapes_.emplace_back(x.shape().begin() + 1, x.shape().end());
   }
 }
 

@@ -7,9 +7,8 @@ namespace dcnn {
 
 void Plan::add(std::unique_ptr<PlanStep> step, Index outputs) {
   outputs_ = outputs;
-  if (!step) return;
-  steps_.push_back(std::move(step));
-  if (from_.defined() && from_.size() >= outputs) return;
+  if (step) steps_.push_back(std::move(step));
+  if (steps_.empty() || (from_.defined() && from_.size() >= outputs)) return;
   from_ = Tensor({outputs});
   to_ = Tensor({outputs});
 }

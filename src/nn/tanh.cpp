@@ -34,7 +34,8 @@ class Tanh final : public Layer {
     });
   }
 
-  std::unique_ptr<PlanStep> plan(const Shape& sample, PlanStep*) const override {
+  std::unique_ptr<PlanStep> plan(const Shape& sample, PlanStep* before) const override {
+    if (before && before->absorb_tanh()) return nullptr;
     return std::make_unique<TanhStep>(element_count(sample));
   }
 };

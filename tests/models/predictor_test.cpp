@@ -20,7 +20,8 @@ std::vector<Case> cases() {
   std::vector<Case> all;
   for (const ModelKind* kind : model_kinds()) {
     const std::string name = kind->name;
-    const bool single = name == "mlp" || name.starts_with("lstm") || name.starts_with("dcnn");
+    const bool single = name == "mlp" || name.starts_with("lstm") || name.starts_with("dcnn") ||
+                        name.starts_with("ffnn");
     all.push_back({name, name, Json::object(), single ? 1e-5 : 1e-9});
   }
   all.push_back({"cf_fourier", "cf", {{"form", "fourier"}}, 1e-9});
@@ -29,7 +30,7 @@ std::vector<Case> cases() {
   all.push_back({"dcnn_other", "dcnn", {{"filters", {3, 20}}, {"padding", "valid"}}});
   all.push_back({"dcnn_t_linear", "dcnn-t", {{"body", "none"}}});
   all.push_back({"dcnn_plus_hidden", "dcnn-plus", {{"body", "hidden"}}});
-  all.push_back({"ffnn_s_angles", "ffnn-s", {{"inputs", "angles"}}, 1e-9});
+  all.push_back({"ffnn_s_angles", "ffnn-s", {{"inputs", "angles"}}});
   all.push_back({"ffnn_m_lines", "ffnn-m", {{"input", {{"kind", "lines"}}}}});
   return all;
 }

@@ -6,7 +6,7 @@
 
 #include "dcnn/nn/loss.h"
 #include "dcnn/nn/optimizer.h"
-#include "support/dcnn_layers.h"
+#include "nn/dcnn_layers.h"
 
 namespace dcnn {
 namespace {

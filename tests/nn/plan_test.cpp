@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "dcnn/nn/network.h"
-#include "support/dcnn_layers.h"
+#include "nn/dcnn_layers.h"
 
 namespace dcnn {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "dcnn/nn/network.h"
-#include "support/dcnn_layers.h"
+#include "nn/dcnn_layers.h"
 
 namespace {
 

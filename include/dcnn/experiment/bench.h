@@ -13,6 +13,8 @@
 
 namespace dcnn {
 
+struct Peers;
+
 inline constexpr Index kPaperTestSamples = 32045;
 
 struct BenchRequest {
@@ -54,6 +56,6 @@ Bench bench(const BenchRequest& request, const std::function<void(int done, int 
 /// Contract section 5, a table beside the paper's, and a page with figures.
 Json to_json(const Bench& bench);
 std::string to_text(const Bench& bench);
-std::string to_html(const Bench& bench, const BenchRequest& request);
+std::string to_html(const Bench& bench, const BenchRequest& request, const Peers* peers = nullptr);
 
 }  // namespace dcnn

@@ -14,6 +14,7 @@
 #include "dcnn/data/noise.h"
 #include "dcnn/models/container.h"
 #include "dcnn/models/predictor.h"
+#include "dcnn/nn/network.h"
 
 namespace dcnn {
 
@@ -82,6 +83,9 @@ class Model {
   virtual Index parameter_count() const = 0;
   /// Training statistics of the features: the power that test noise refers to.
   virtual const InputMap& map() const = 0;
+  /// The network of layers inside, at inference, on its own inputs and outputs (before targets get
+  /// their units); nothing where there is none or something stands beside it.
+  virtual std::optional<Network> network() const { return std::nullopt; }
   /// What the user should know of the last fit, one line each.
   virtual std::vector<std::string> notes() const { return {}; }
 

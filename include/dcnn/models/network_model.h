@@ -7,7 +7,7 @@
 
 #include "dcnn/models/model.h"
 #include "dcnn/models/network_input.h"
-#include "dcnn/nn/network.h"
+#include "dcnn/nn/batch_plan.h"
 
 namespace dcnn {
 
@@ -52,6 +52,7 @@ class NetworkModel : public Model {
   bool per_sample() const override;
   Index parameter_count() const override;
   const InputMap& map() const override { return map_; }
+  std::optional<Network> network() const override;
   void save(Container& file) const override;
 
  private:
@@ -66,7 +67,8 @@ class NetworkModel : public Model {
 
   std::string kind_;
   std::vector<std::string> units_;  // of the features
-  std::unique_ptr<Network> network_, folded_;
+  std::unique_ptr<Network> network_;
+  std::unique_ptr<BatchPlan> batches_;  // of the network as it is now
   InputMap::Spec map_spec_;
   InputMap map_;
   std::unique_ptr<NetworkInput> input_;

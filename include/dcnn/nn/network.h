@@ -25,6 +25,8 @@ class Network {
 
   const Json& layers() const { return layers_; }
   const Shape& input() const { return input_; }
+  /// Of one sample before each layer, and after the last one.
+  const std::vector<Shape>& shapes() const { return shapes_; }
 
   /// The same function at inference with every batch norm folded into the convolution or the fully
   /// connected layer before it (y = (Wx + b - mean)·gamma/sqrt(var + eps) + beta).
@@ -38,6 +40,7 @@ class Network {
   Shape input_;
   std::vector<LayerPtr> stack_;
   std::vector<NamedTensor> state_;
+  std::vector<Shape> shapes_;
 };
 
 }  // namespace dcnn

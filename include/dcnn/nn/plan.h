@@ -18,8 +18,14 @@ class PlanStep {
   /// `begins`, else the window of the call before without its oldest row and with a new one. A step
   /// that keeps what it computed of the others gives the same bits.
   virtual void slide(const Real* x, bool /*begins*/, Real* y) noexcept { run(x, y); }
-  /// Takes a ReLU of its outputs into itself; false where it cannot.
+  /// y (n, outputs) of x (n, inputs), for a network that is this step alone; false where samples
+  /// are best taken one by one. Several threads may be in it at once.
+  virtual bool run_many(const Real* /*x*/, Index /*n*/, Real* /*y*/) const noexcept {
+    return false;
+  }
+  /// Takes a ReLU or tanh of its outputs into itself; false where it cannot.
   virtual bool absorb_relu() { return false; }
+  virtual bool absorb_tanh() { return false; }
   /// The same of a fully connected layer, weight (outputs, inputs) and bias (outputs).
   virtual bool absorb_linear(const Tensor& /*weight*/, const Tensor& /*bias*/) { return false; }
 };
@@ -32,7 +38,11 @@ class Plan {
   Index outputs() const { return outputs_; }
   /// The network's output for one sample, valid until the next call.
   const Real* run(const Real* x) noexcept;
-  /// The same for a window that slides (PlanStep::slide()); run() in between does not disturb it.
+  /// y (n, outputs) of x (n, inputs), where it can have many at once: see PlanStep::run_many().
+  bool run_many(const Real* x, Index n, Real* y) const noexcept {
+    return steps_.size() == 1 && steps_.front()->run_many(x, n, y);
+  }
+  /// run() for a window that slides (PlanStep::slide()); run() in between does not disturb it.
   const Real* slide(const Real* x, bool begins) noexcept;
 
  private:

@@ -31,7 +31,7 @@ Chart wide(Chart chart, const std::string& title) {
 }
 
 /// The headline figure under one protocol.
-void add_figure_5(HtmlReport& page, const Plan& plan, const Scores& scores,
+void add_figure_5(HtmlReport& page, const ReproductionPlan& plan, const Scores& scores,
                   const std::string& series, const std::string& words) {
   const auto entries = pick(plan.entries, {Group::kPaper}, {"lstm-25"});
   page.panels(error_panels(scores, entries),
@@ -44,8 +44,8 @@ void add_figure_5(HtmlReport& page, const Plan& plan, const Scores& scores,
                   "for all models. Logarithmic axis.");
 }
 
-void add_noise_experiment(HtmlReport& page, const ReproductionRequest& request, const Plan& plan,
-                          const Results& results) {
+void add_noise_experiment(HtmlReport& page, const ReproductionRequest& request,
+                          const ReproductionPlan& plan, const Results& results) {
   page.heading("Noise experiment (Fig. 5)");
   for (const Protocol& protocol : plan.protocols) {
     add_figure_5(page, plan, results.scores.at("feature/" + protocol.name),
@@ -66,7 +66,7 @@ void add_noise_experiment(HtmlReport& page, const ReproductionRequest& request, 
   }
 }
 
-void add_other_entries(HtmlReport& page, const Plan& plan, const Results& results) {
+void add_other_entries(HtmlReport& page, const ReproductionPlan& plan, const Results& results) {
   const Scores& scores = results.scores.at("feature/A");
   const auto readings = pick(plan.entries, {Group::kReading}, {"ffnn-s", "cfnn-m", "lstm", "dcnn"});
   const auto own = pick(plan.entries, {Group::kOwn}, {"cf", "dcnn"});
@@ -83,7 +83,7 @@ void add_other_entries(HtmlReport& page, const Plan& plan, const Results& result
   }
 }
 
-void add_other_modes(HtmlReport& page, const Plan& plan, const Results& results) {
+void add_other_modes(HtmlReport& page, const ReproductionPlan& plan, const Results& results) {
   if (plan.modes.size() < 2) return;
   page.heading("What 'noise' may mean");
   page.paragraph(
@@ -101,7 +101,7 @@ void add_other_modes(HtmlReport& page, const Plan& plan, const Results& results)
   page.panels(charts, "Overall RMSE under each noise mode, ±1 standard deviation over draws.");
 }
 
-void add_curves(HtmlReport& page, const ReproductionRequest& request, const Plan& plan,
+void add_curves(HtmlReport& page, const ReproductionRequest& request, const ReproductionPlan& plan,
                 const Results& results) {
   const OutputLayout layout{request.out};
   page.heading("Training");
@@ -132,7 +132,7 @@ void add_assumptions(HtmlReport& page) {
 
 }  // namespace
 
-std::string reproduction_page(const ReproductionRequest& request, const Plan& plan,
+std::string reproduction_page(const ReproductionRequest& request, const ReproductionPlan& plan,
                               const Results& results, const std::vector<Verdicts>& verdicts,
                               const Provenance& provenance) {
   HtmlReport page("Su et al. 2020, reproduced: noise, time and claims");

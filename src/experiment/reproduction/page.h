@@ -17,7 +17,7 @@ struct Verdicts {
   std::vector<Claim> claims;
 };
 
-std::string reproduction_page(const ReproductionRequest& request, const Plan& plan,
+std::string reproduction_page(const ReproductionRequest& request, const ReproductionPlan& plan,
                               const Results& results, const std::vector<Verdicts>& verdicts,
                               const Provenance& provenance);
 

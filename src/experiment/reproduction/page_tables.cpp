@@ -101,7 +101,8 @@ std::string time_from_pose(const std::vector<Timing>& timings, const Timing& sam
 
 }  // namespace
 
-void add_timing_table(HtmlReport& page, const std::vector<Timing>& timings, const Plan& plan) {
+void add_timing_table(HtmlReport& page, const std::vector<Timing>& timings,
+                      const ReproductionPlan& plan) {
   if (timings.empty()) return page.paragraph("Not measured.");
   page.chart(timing_chart(timings, plan.entries),
              "Mean time per call, ±1 standard deviation over repetitions.");
@@ -137,7 +138,7 @@ void add_timing_table(HtmlReport& page, const std::vector<Timing>& timings, cons
       "DCNN is the fastest network for one sample a call only: FFNN-S is faster for 5 and 10.");
 }
 
-void add_training_spread(HtmlReport& page, const Plan& plan, const Results& results) {
+void add_training_spread(HtmlReport& page, const ReproductionPlan& plan, const Results& results) {
   std::vector<Cells> rows;
   const Scores& first = results.scores.at(kFurtherTrainings + "/" + further_training(1));
   Cells header{"overall"};

@@ -13,8 +13,9 @@ void add_claim_table(HtmlReport& page, const std::vector<Verdicts>& verdicts);
 /// Overall RMSE per model and level, then per target.
 void add_score_table(HtmlReport& page, const Scores& scores, const std::vector<Entry>& entries);
 /// Table I with the paper's columns beside ours.
-void add_timing_table(HtmlReport& page, const std::vector<Timing>& timings, const Plan& plan);
+void add_timing_table(HtmlReport& page, const std::vector<Timing>& timings,
+                      const ReproductionPlan& plan);
 /// Mean and SD over further trainings of the overall RMSE.
-void add_training_spread(HtmlReport& page, const Plan& plan, const Results& results);
+void add_training_spread(HtmlReport& page, const ReproductionPlan& plan, const Results& results);
 
 }  // namespace dcnn

@@ -21,8 +21,8 @@ std::vector<NoiseMode> noise_modes(const std::string& preset) {
 
 }  // namespace
 
-Plan make_plan(const ReproductionRequest& request) {
-  Plan plan;
+ReproductionPlan make_plan(const ReproductionRequest& request) {
+  ReproductionPlan plan;
   plan.entries = choose_entries(request.models, request.preset);
   plan.protocols = {{"A", "trained with noise, fresh in every epoch", Json::object()},
                     {"B", "trained without noise", {{"levels_db", Json::array({nullptr})}}}};

@@ -32,7 +32,7 @@ struct TimingPlan {
   Index samples = 32045;
 };
 
-struct Plan {
+struct ReproductionPlan {
   std::vector<Entry> entries;  ///< NS first
   std::vector<Protocol> protocols;
   std::vector<NoiseMode> modes;
@@ -41,7 +41,7 @@ struct Plan {
   std::vector<SnrLevel> levels{std::nullopt, 40.0, 30.0, 20.0, 10.0};
 };
 
-Plan make_plan(const ReproductionRequest& request);
+ReproductionPlan make_plan(const ReproductionRequest& request);
 
 /// How much longer than in preset `standard` the training of an entry takes.
 double training_factor(const std::string& preset, const Entry& entry);

@@ -18,8 +18,8 @@ std::vector<Verdicts> judge(const ReproductionRequest& request, const Results& r
            judge_claims(only_one_augmented(a, b, request.augment_only), results.timings)}};
 }
 
-Provenance provenance(const ReproductionRequest& request, const Plan& plan, Workshop& workshop,
-                      const Results& results, int threads_used) {
+Provenance provenance(const ReproductionRequest& request, const ReproductionPlan& plan,
+                      Workshop& workshop, const Results& results, int threads_used) {
   const OutputLayout layout{request.out};
   Provenance p;
   p.rows = {{"preset", request.preset},
@@ -53,7 +53,7 @@ Json summary_of(const ReproductionRequest& request, const std::vector<Verdicts>&
   return summary;
 }
 
-void check(const ReproductionRequest& request, const Plan& plan) {
+void check(const ReproductionRequest& request, const ReproductionPlan& plan) {
   require(request.data.empty() || request.data.size() == 2, Exit::kUsage,
           "--data: give a training and a test recording");
   require(plan.entries.size() > 1, Exit::kUsage, "--models: nothing to train");
@@ -68,7 +68,7 @@ void check(const ReproductionRequest& request, const Plan& plan) {
 }  // namespace
 
 Json reproduction_plan(const ReproductionRequest& request) {
-  const Plan plan = make_plan(request);
+  const ReproductionPlan plan = make_plan(request);
   check(request, plan);
   Workshop workshop(request, plan);
   Json list = Json::array();
@@ -82,7 +82,7 @@ Json reproduction_plan(const ReproductionRequest& request) {
 
 ReproductionOutcome reproduce(const ReproductionRequest& request,
                               const ReproductionObserver& observer) {
-  const Plan plan = make_plan(request);
+  const ReproductionPlan plan = make_plan(request);
   check(request, plan);
   const OutputLayout layout{request.out};
   Workshop workshop(request, plan);

@@ -12,8 +12,8 @@ SnrLevel level_of(const Json& json) {
 Json read(const std::filesystem::path& file) { return read_json(file, Exit::kFailure); }
 
 /// Scores of all entries under one mode and series.
-Scores read_scores(const OutputLayout& layout, const Plan& plan, const std::string& mode,
-                   const std::string& series) {
+Scores read_scores(const OutputLayout& layout, const ReproductionPlan& plan,
+                   const std::string& mode, const std::string& series) {
   Scores scores;
   for (const Entry& entry : plan.entries) {
     if (entry.name == kNoIdentification) continue;
@@ -92,7 +92,7 @@ Scores only_one_augmented(const Scores& with, const Scores& without, const std::
   return mixed;
 }
 
-Results read_results(const OutputLayout& layout, const Plan& plan) {
+Results read_results(const OutputLayout& layout, const ReproductionPlan& plan) {
   Results results;
   for (const NoiseMode& mode : plan.modes) {
     for (const auto& series : mode.protocols) {

@@ -52,7 +52,7 @@ struct Results {
   std::map<std::string, Table> traces;  ///< by entry
 };
 
-Results read_results(const OutputLayout& layout, const Plan& plan);
+Results read_results(const OutputLayout& layout, const ReproductionPlan& plan);
 
 /// The reading "only `augmented` was trained with noise": that model from `with`, the others from
 /// `without`.

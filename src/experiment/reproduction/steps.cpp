@@ -45,7 +45,7 @@ void run_training(const TrainingRequest& request, const StepSession& session) {
 
 }  // namespace
 
-Workshop::Workshop(const ReproductionRequest& request, const Plan& plan)
+Workshop::Workshop(const ReproductionRequest& request, const ReproductionPlan& plan)
     : request_(request), plan_(plan), layout_{request.out} {}
 
 std::filesystem::path Workshop::training_data() const {

@@ -12,7 +12,7 @@ namespace dcnn {
 
 class Workshop {
  public:
-  Workshop(const ReproductionRequest& request, const Plan& plan);
+  Workshop(const ReproductionRequest& request, const ReproductionPlan& plan);
 
   std::vector<Step> steps();
   std::filesystem::path training_data() const;
@@ -40,7 +40,7 @@ class Workshop {
   std::string code() const;
 
   const ReproductionRequest& request_;
-  const Plan& plan_;
+  const ReproductionPlan& plan_;
   OutputLayout layout_;
   std::vector<std::pair<std::filesystem::path, std::string>> hashes_;
 };

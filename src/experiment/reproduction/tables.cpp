@@ -70,7 +70,8 @@ Json timing_json(const std::vector<Timing>& timings) {
 }
 
 /// Epochs of all models of a series: model,epoch,loss,validation RMSE per target.
-Json training_curves(const OutputLayout& layout, const Plan& plan, const std::string& series) {
+Json training_curves(const OutputLayout& layout, const ReproductionPlan& plan,
+                     const std::string& series) {
   Json curves = Json::array();
   for (const Entry& entry : plan.entries) {
     const auto path = run_directory(layout.model(series, entry.name)) / "metrics.jsonl";
@@ -140,7 +141,8 @@ Json to_json(const Scores& scores) {
           {"summary", summary}};
 }
 
-void write_tables(const OutputLayout& layout, const Plan& plan, const Results& results) {
+void write_tables(const OutputLayout& layout, const ReproductionPlan& plan,
+                  const Results& results) {
   const auto folder = layout.out / "figures";
   for (const auto& [name, scores] : results.scores) {
     std::string stem = "noise_" + name;

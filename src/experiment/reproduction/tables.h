@@ -8,7 +8,7 @@
 namespace dcnn {
 
 /// figures/noise_<mode>_<series>.csv|json, figures/table1.csv|json, figures/training_<series>.csv.
-void write_tables(const OutputLayout& layout, const Plan& plan, const Results& results);
+void write_tables(const OutputLayout& layout, const ReproductionPlan& plan, const Results& results);
 
 Json to_json(const std::vector<Claim>& claims);
 

@@ -1,11 +1,13 @@
+#include "dcnn/nn/peak.h"
+
 #include <algorithm>
 #include <chrono>
 #include <vector>
 
-#include "bench/training.h"
+#include "dcnn/core/tensor.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "bench/peak.cpp"
+#define HWY_TARGET_INCLUDE "nn/kernels/peak.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -47,18 +49,16 @@ HWY_AFTER_NAMESPACE();
 namespace dcnn {
 HWY_EXPORT(chains);
 
-double peak_multiply_adds() {
+double peak_multiply_adds(int repetitions) {
   using Clock = std::chrono::steady_clock;
   const Index count = threads();
   std::vector<double> done(static_cast<std::size_t>(count) * 16);  // apart: no shared cache line
   double best = 0;
-  for (int repetition = 0; repetition < 20; ++repetition) {
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
     const auto begin = Clock::now();
     for_each_piece(count, [&](Index k) {
       Real sink[3] = {Real(0.5), Real(0.25), 0};
       done[static_cast<std::size_t>(k) * 16] = HWY_DYNAMIC_DISPATCH(chains)(1000000, sink);
-      static volatile Real keep;
-      keep = sink[2];
     });
     const std::chrono::duration<double> seconds = Clock::now() - begin;
     best = std::max(best, done[0] * static_cast<double>(count) / seconds.count());

@@ -1,12 +1,13 @@
-// One epoch of the networks as the paper trains them: what both benchmarks time.
+// One epoch of the networks as the paper trains them: what benchmarks time.
 #pragma once
 
+#include <cstdlib>
 #include <string>
 
 #include "dcnn/nn/loss.h"
 #include "dcnn/nn/network.h"
 #include "dcnn/nn/optimizer.h"
-#include "tests/support/dcnn_layers.h"
+#include "nn/dcnn_layers.h"
 
 namespace dcnn {
 
@@ -31,7 +32,7 @@ inline Task dcnn_task(const std::string& padding) {
   const double products = same ? 508800 : 117024;  // spec 2.0
   // Forward, weight gradient and, but for the first layer, input gradient.
   const double training = 3 * products - (same ? 15 * 5 : 14 * 4) * 4 * 8;
-  return {"dcnn " + padding, dcnn_layers(padding), {15, 5, 1}, 50, products, training};
+  return {"dcnn-" + padding, dcnn_layers(padding), {15, 5, 1}, 50, products, training};
 }
 
 constexpr Index kLstmUnits = 150;
@@ -44,8 +45,18 @@ inline Task lstm_task(Index steps) {
   const double t = static_cast<double>(steps);
   const double input = t * 15 * 600, recurrent = (t - 1) * 150 * 600, output = 3 * 150;
   return {
-      "lstm T=" + std::to_string(steps),      layers, {steps, 15}, 200, input + recurrent + output,
+      "lstm-" + std::to_string(steps),        layers, {steps, 15}, 200, input + recurrent + output,
       2 * input + 3 * recurrent + 3 * output, 1};
+}
+
+/// dcnn-valid, dcnn-same or lstm-T.
+inline Task named_task(const std::string& name) {
+  for (const char* padding : {"valid", "same"}) {
+    if (Task task = dcnn_task(padding); task.name == name) return task;
+  }
+  const int steps = name.starts_with("lstm-") ? std::atoi(name.c_str() + 5) : 0;
+  require(steps > 0, Exit::kUsage, "no training is called '", name, "'");
+  return lstm_task(steps);
 }
 
 /// A network, its optimiser and random data of the task's size.
@@ -91,9 +102,5 @@ class Training {
   Index batch_;
   Adam adam_;
 };
-
-/// Measured multiply-adds per second of all threads together, in the widest vectors of this
-/// machine.
-double peak_multiply_adds();
 
 }  // namespace dcnn

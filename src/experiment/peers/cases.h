@@ -1,0 +1,35 @@
+// What is compared: networks and samples, as files for the helpers.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dcnn/experiment/peers.h"
+#include "dcnn/nn/network.h"
+
+namespace dcnn {
+
+struct PeerCase {
+  std::string name;
+  Network network;  ///< folded
+};
+
+/// The networks of the request's models, or those of the paper: dcnn valid, dcnn same, lstm (one
+/// row), lstm-25, ffnn-s, ffnn-m. A model without a plain network becomes a note.
+std::vector<PeerCase> peer_cases(const PeersRequest& request, std::vector<std::string>& notes);
+
+/// Multiply-adds of one prediction; those with the zeros around an image and with the zero state
+/// before a window do not count.
+double products(const Network& network);
+
+/// Standard normal inputs of so many samples.
+Tensor drawn_samples(const Network& network, Index samples, std::uint64_t seed);
+
+/// Writes the files of a case into a folder: samples as floats, the network as ONNX and as tensors
+/// by their names with metadata `layers` and `input`.
+inline constexpr const char *kSamplesFile = "samples.f32", *kOnnxFile = "network.onnx",
+                            *kNetworkFile = "network.safetensors";
+void write_case(const std::filesystem::path& folder, const Network& network, const Tensor& x);
+
+}  // namespace dcnn
