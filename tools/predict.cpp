@@ -27,7 +27,7 @@ Recording predict_with_model(const std::filesystem::path& model, const std::file
   if (novelty.size() > 0) {
     recording.set("novelty", novelty);
     const auto beyond = (novelty.array() > 1.0).count();
-    if (beyond > 0) {
+    if (beyond > recording.samples() / 100) {  // as rare as the threshold allows is no news
       recording.notes.push_back(std::to_string(beyond) + " of " +
                                 std::to_string(recording.samples()) +
                                 " rows move unlike the training (column 'novelty' above 1): their "
