@@ -25,6 +25,17 @@ Recording predict_with_model(const std::filesystem::path& model, const std::file
     recording.set(identifier.targets.names[j] + "_hat",
                   predicted.col(static_cast<Eigen::Index>(j)));
   }
+  const Eigen::VectorXd novelty = identifier.novelty(recording);
+  if (novelty.size() > 0) {
+    recording.set("novelty", novelty);
+    const auto beyond = (novelty.array() > 1.0).count();
+    if (beyond > recording.samples() / 100) {  // as rare as the threshold allows is no news
+      recording.notes.push_back(std::to_string(beyond) + " of " +
+                                std::to_string(recording.samples()) +
+                                " rows move unlike the training (column 'novelty' above 1): their "
+                                "errors may be of any size; train on such motion, too");
+    }
+  }
   return recording;
 }
 
@@ -62,7 +73,9 @@ int main(int argc, char** argv) {
   std::optional<std::filesystem::path> data, out, onnx;
   tool.option("model", model, "model file (.dcnn), or a simulator (.json)").required();
   tool.option("--data", data, "recording");
-  tool.option("--out", out, "CSV to write: the input columns and <target>_hat");
+  tool.option(
+      "--out", out,
+      "CSV to write: the input columns, <target>_hat, and novelty from models that measure it");
   tool.option("--onnx", onnx,
               "write the model as ONNX: features in SI units to targets in theirs, for other "
               "runtimes");

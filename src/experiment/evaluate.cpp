@@ -151,9 +151,15 @@ Eigen::MatrixXd noisy_features(const EvaluationRequest& request, const TestSet& 
 }
 
 EvaluationSummary summarise(const std::vector<EvaluationRow>& rows) {
-  EvaluationSummary s{
-      rows[0].model, rows[0].file, rows[0].snr_db, static_cast<int>(rows.size()), {}, {}, {},
-      rows[0].score};
+  EvaluationSummary s{rows[0].model,
+                      rows[0].file,
+                      rows[0].snr_db,
+                      static_cast<int>(rows.size()),
+                      {},
+                      {},
+                      {},
+                      rows[0].score,
+                      {}};
   const auto over = [&](auto value) {
     std::vector<double> values;
     values.reserve(rows.size());
@@ -168,6 +174,21 @@ EvaluationSummary summarise(const std::vector<EvaluationRow>& rows) {
     s.overall_torque = over([](const Score& score) { return *score.overall_torque; });
   }
   return s;
+}
+
+std::optional<double> share_beyond(const Model& model, const Stream& stream) {
+  const Eigen::VectorXd novelty = model.novelty(stream);
+  if (novelty.size() == 0) return std::nullopt;
+  return (novelty.array() > 1.0).cast<double>().mean();
+}
+
+void note_beyond(Evaluation& evaluation, const std::string& file) {
+  for (const EvaluationSummary& s : evaluation.summary) {
+    if (s.file != file || s.beyond.value_or(0.0) <= 0.01) continue;
+    evaluation.notes.push_back(file + ": " + std::to_string(std::lround(100.0 * *s.beyond)) +
+                               " % of the rows move unlike its training; no error is known there");
+    return;
+  }
 }
 
 void check_targets(const Evaluation& evaluation, const Identifier& identifier,
@@ -202,13 +223,13 @@ Evaluation evaluate(const EvaluationRequest& request,
     const std::string file = path.filename().string();
     for (const auto& level : request.levels) {
       std::vector<EvaluationRow> rows;
+      std::optional<double> beyond;
       for (int run = 0; run < (level ? request.runs : 1); ++run) {
+        const Stream stream{noisy_features(request, set, identifier, data, level, run),
+                            set.stream.segments};
         const Eigen::MatrixXd predicted =
-            predict_every(
-                *identifier.model,
-                {noisy_features(request, set, identifier, data, level, run), set.stream.segments},
-                request.every) +
-            set.base;
+            predict_every(*identifier.model, stream, request.every) + set.base;
+        if (run == 0) beyond = share_beyond(*identifier.model, stream);
         rows.push_back(
             {identifier.name, file, level, run, score(predicted, set.wanted, identifier.targets)});
         if (!level && identifier.layout.system.lowpass_hz > 0.0) {
@@ -223,8 +244,10 @@ Evaluation evaluate(const EvaluationRequest& request,
         if (progress) progress(++done, per_model * static_cast<int>(request.models.size()));
       }
       evaluation.summary.push_back(summarise(rows));
+      evaluation.summary.back().beyond = beyond;
       std::move(rows.begin(), rows.end(), std::back_inserter(evaluation.rows));
     }
+    note_beyond(evaluation, file);
   }
   for (const auto& path : request.data) evaluation.data.push_back(path.filename().string());
   return evaluation;

@@ -36,6 +36,7 @@ Json summary_json(const EvaluationSummary& s, const Score& unidentified) {
     json["rmse_overall_torque_mean"] = s.overall_torque->mean;
     json["rmse_overall_torque_std"] = s.overall_torque->deviation;
   }
+  if (s.beyond) json["share_beyond_training"] = *s.beyond;
   json["max_abs_error"] = s.first.max_abs;
   json["r2"] = s.first.r2;
   json["vector_rmse"] = or_null(s.first.vector_rmse);

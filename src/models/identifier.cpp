@@ -64,6 +64,10 @@ Eigen::MatrixXd Identifier::predict(const Recording& recording) const {
          base_prediction(recording);
 }
 
+Eigen::VectorXd Identifier::novelty(const Recording& recording) const {
+  return model->novelty({make_features(recording, layout).x, recording.segments});
+}
+
 Container pack(const Identifier& identifier) {
   Container file;
   file.metadata["format"] = kFormat;

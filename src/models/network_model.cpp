@@ -136,7 +136,7 @@ bool NetworkModel::fit(const Samples& training, const Samples& validation, FitSe
   map_ = InputMap(training.x, map_spec_, units_);
   spread_ = target_spread(training.y);
   scale_ = make_scale(training.y, spread_, training_.standardise_targets);
-  input_->learn(training, map_);
+  input_->learn(training, map_, noise_);
   if (skip_) fit_skip(training);
   if (!network_) return true;
   Trainer trainer(*this, training, validation, session);

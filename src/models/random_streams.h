@@ -21,6 +21,8 @@ enum RandomStream : std::uint64_t {
   kTcnUnits,
   kTcnRidge,
   kTcnBins,
+  // mixtures of line fits
+  kMixtureNoise = 120,
   // protocol A: levels of rows
   kLevelOrder = 200,
   kLevelNoise,

@@ -67,6 +67,9 @@ SensorColumns::SensorColumns(const std::string& kind, Options& options, const Fe
     }
     lengths_.push_back(static_cast<Index>(samples));
   }
+  adaptive_ = options.get("adaptive", true);
+  // Angles are logged as they are, rates come smoothed out of the derivative's window.
+  level_channels_ = frame_.to_json().is_null() ? features_ : 3;
 }
 
 SensorColumns::SensorColumns(const std::string& kind, Options& options, Index features,
@@ -79,6 +82,11 @@ SensorColumns::SensorColumns(const std::string& kind, Options& options, Index fe
         lengths_.size() > kSaturatedLine && lengths_.size() <= kMostLines &&
         std::ranges::all_of(lengths_, [](Index n) { return n > 1 && n <= kLongest; });
     if (!valid) options.reject("line_lengths", "must be numbers of samples");
+    const Json mixture = options.raw("mixture");
+    adaptive_ = !mixture.is_null();
+    if (adaptive_) {
+      mixture_ = LineMixture::parse(mixture, features, static_cast<Index>(lengths_.size()), where);
+    }
   }
   channel_mean_ = read_vector(options, "channel_mean", features);
   knee_ = read_vector(options, "knee", features);
@@ -88,10 +96,13 @@ SensorColumns::SensorColumns(const std::string& kind, Options& options, Index fe
   if ((deviation_.array() <= 0.0).any()) options.reject("deviation", "must be above 0");
 }
 
-void SensorColumns::learn(const Samples& training, const InputMap& /*map*/) {
+void SensorColumns::learn(const Samples& training, const InputMap& map, const NoiseSpec& noise) {
   const Eigen::MatrixXd channels = frame_.of(training.x);
   channel_mean_ = channels.colwise().mean().transpose();
   knee_ = kKnee * deviation_of(channels, channel_mean_.transpose()).transpose();
+  if (adaptive_) {
+    mixture_ = LineMixture::learn(training, noise, map, lengths_, level_channels_);
+  }
   const RowMajor entries = raw(training).values;
   mean_ = entries.colwise().mean();
   deviation_ = deviation_of(entries, mean_);
@@ -118,12 +129,19 @@ PreparedStream SensorColumns::raw(const Stream& stream) const {
     set_column(entries, 4, x.cwiseAbs2());
     return prepared;
   }
+  std::vector<Eigen::MatrixXd> lines;
   for (std::size_t k = 0; k < lengths_.size(); ++k) {
-    const Eigen::MatrixXd line =
-        frame_.of(line_filtered(stream.x, prepared.segment_begin, lengths_[k]));
-    set_column(entries, static_cast<Index>(k), line);
-    if (k == kSaturatedLine) set_column(entries, saturated_column(), saturated(line));
+    lines.push_back(line_filtered(stream.x, prepared.segment_begin, lengths_[k]));
+    const Eigen::MatrixXd turned = frame_.of(lines.back());
+    set_column(entries, static_cast<Index>(k), turned);
+    if (!adaptive_ && k == kSaturatedLine) {
+      set_column(entries, saturated_column(), saturated(turned));
+    }
   }
+  if (!adaptive_) return prepared;
+  const Eigen::MatrixXd mixed = frame_.of(mixture_.of(stream.x, prepared.segment_begin, lines));
+  set_column(entries, saturated_column() - 1, mixed);
+  set_column(entries, saturated_column(), saturated(mixed));
   return prepared;
 }
 
@@ -151,6 +169,7 @@ Json SensorColumns::to_json() const {
                {"mean", json_of(mean_)},
                {"deviation", json_of(deviation_)}};
   if (is_lines()) json["line_lengths"] = lengths_;
+  if (adaptive_) json["mixture"] = mixture_.to_json();
   return json;
 }
 

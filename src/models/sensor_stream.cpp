@@ -13,6 +13,8 @@ class SensorColumns::Streaming final : public StreamingInput {
       : c_(columns),
         x_(columns.features_),
         line_(columns.features_),
+        lines_(static_cast<Index>(columns.lengths_.size()), columns.features_),
+        level_(columns.mixture_.noise_level()),
         cells_(columns.columns() * columns.features_) {
     for (const Index length : c_.lengths_) filters_.emplace_back(length, c_.features_);
   }
@@ -46,13 +48,29 @@ class SensorColumns::Streaming final : public StreamingInput {
     for (std::size_t k = 0; k < filters_.size(); ++k) {
       if (fresh_) filters_[k].restart(x_);
       filters_[k].push(x_, line_);
+      lines_.row(static_cast<Index>(k)) = line_;
       c_.frame_.turn(line_);
-      for (Index j = 0; j < line_.size(); ++j) {
-        put(j, static_cast<Index>(k), line_[j]);
-        if (k == kSaturatedLine) put(j, c_.saturated_column(), std::tanh(line_[j] / c_.knee_[j]));
-      }
+      put_column(static_cast<Index>(k));
+      if (!c_.adaptive_ && k == kSaturatedLine) put_saturated();
+    }
+    if (c_.adaptive_) {
+      if (fresh_) level_.restart();
+      c_.mixture_.mix(lines_, level_.push(x_), line_);
+      c_.frame_.turn(line_);
+      put_column(c_.saturated_column() - 1);
+      put_saturated();
     }
     fresh_ = false;
+  }
+
+  void put_column(Index column) {
+    for (Index j = 0; j < line_.size(); ++j) put(j, column, line_[j]);
+  }
+
+  void put_saturated() {
+    for (Index j = 0; j < line_.size(); ++j) {
+      put(j, c_.saturated_column(), std::tanh(line_[j] / c_.knee_[j]));
+    }
   }
 
   void put(Index channel, Index column, double value) {
@@ -63,6 +81,8 @@ class SensorColumns::Streaming final : public StreamingInput {
 
   SensorColumns c_;
   Eigen::RowVectorXd x_, line_;
+  Eigen::MatrixXd lines_;  // (windows, F) before the turn
+  NoiseLevel level_;
   std::vector<LineFilter> filters_;
   Eigen::Matrix<Real, Eigen::Dynamic, 1> cells_;
   bool fresh_ = true;

@@ -110,8 +110,8 @@ RowMatrix ShallowInput::raw(const Stream& stream, const InputMap& map,
   return values;
 }
 
-void ShallowInput::learn(const Samples& training, const InputMap& map) {
-  if (input_) input_->learn(training, map);
+void ShallowInput::learn(const Samples& training, const InputMap& map, const NoiseSpec& noise) {
+  if (input_) input_->learn(training, map, noise);
   const RowMatrix values = raw(training, map, all_rows(training.rows()));
   const Eigen::RowVectorXd least = values.colwise().minCoeff(), most = values.colwise().maxCoeff();
   std::vector<Index> kept;

@@ -21,7 +21,7 @@ class ShallowInput {
 
   Index count() const { return static_cast<Index>(columns_.size()); }
   /// Error(kData) where no column varies.
-  void learn(const Samples& training, const InputMap& map);
+  void learn(const Samples& training, const InputMap& map, const NoiseSpec& noise);
   /// (rows.size(), count()), mapped.
   RowMatrix read(const Stream& stream, const InputMap& map, const std::vector<Index>& rows) const;
   void save(Container& file) const;

@@ -150,7 +150,7 @@ ShallowResiduals ShallowModel::residuals(const Samples& samples,
 
 bool ShallowModel::fit(const Samples& training, const Samples& validation, FitSession& session) {
   map_ = InputMap(training.x, map_spec_, units_);
-  input_.learn(training, map_);
+  input_.learn(training, map_, noise_);
   learn_scales(training);
   ShallowNetwork::Shape shape = network_.shape();
   shape.inputs = input_.count();

@@ -101,6 +101,34 @@ TEST_F(Tools, TrainingLearnsAndEvaluationAgreesWithPrediction) {
   EXPECT_NEAR(rmse, json["rows"][0]["rmse"][0].get<double>(), 1e-9);
 }
 
+/// A model that knows the band of its training says where a recording leaves it.
+TEST_F(Tools, MotionUnlikeTheTrainingIsToldToTheUser) {
+  std::string scene = kScene;
+  for (auto place = scene.find("[0.1, 1.0]"); place != std::string::npos;
+       place = scene.find("[0.1, 1.0]", place)) {
+    scene.replace(place, 10, "[0.4, 4.0]");
+  }
+  std::ofstream(at("fast.json")) << scene;
+  ASSERT_EQ(run("sim", {"--config", at("fast.json"), "--out", at("fast")}).exit_code, 0);
+  ASSERT_EQ(run("train", training("band.dcnn", {"--model", "frame-tcn"})).exit_code, 0);
+  for (const std::string name : {"data", "fast"}) {
+    const Result told = run("predict", {at("band.dcnn"), "--data", at(name + "/test.csv"), "--out",
+                                        at(name + "_p.csv")});
+    ASSERT_EQ(told.exit_code, 0) << told.err;
+    EXPECT_EQ(told.err.find("unlike the training") != std::string::npos, name == "fast")
+        << told.err;
+    const Result scored = run(
+        "eval", {at("band.dcnn"), "--data", at(name + "/test.csv"), "--snr", "clean", "--json"});
+    const Json json = parse_json(scored.out, "eval", Exit::kFailure);
+    const double share = json["summary"][0]["share_beyond_training"];
+    EXPECT_TRUE(name == "fast" ? share > 0.5 : share < 0.01) << name << " " << share;
+    EXPECT_EQ(json["notes"].empty(), name == "data");
+    const Table table = read_csv(at(name + "_p.csv"));
+    EXPECT_EQ(table.columns.back(), "novelty");
+    EXPECT_NEAR((table.values.rightCols(1).array() > 1.0).cast<double>().mean(), share, 1e-9);
+  }
+}
+
 TEST_F(Tools, NoiseOnThePoseIsLearnedAndScored) {
   std::ofstream(at("pose.json")) << R"({"noise": {"on": "pose"}})";
   Result result = run("train", training("pose.dcnn", {"--config", at("pose.json")}));

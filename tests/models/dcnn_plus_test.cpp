@@ -174,7 +174,7 @@ TEST(DcnnPlus, LinesAreFittedBeforeTheTurn) {
   patch["model"] = {{"body", "none"},
                     {"input", {{"kind", "lines"}, {"windows_s", {0.6, 0.8, 1.0}}}}};
   const auto model = trained("dcnn-t", training, patch, false);
-  EXPECT_EQ(model->parameter_count(), (1 + 15 * 4) * 3);
+  EXPECT_EQ(model->parameter_count(), (1 + 15 * 5) * 3);
   Stream still{training.x.row(200).replicate(800, 1), {{0, 800}}};
   const Eigen::RowVectorXd wanted = model->predict(still).row(799);
   for (Index i = 0; i < 800; ++i) still.x(i, 0) += i % 2 == 0 ? 0.8 : -0.8;

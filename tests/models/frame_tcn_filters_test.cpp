@@ -47,6 +47,26 @@ TEST(FrameTcnFilters, BlocksAreMeansOfTheRows) {
   }
 }
 
+TEST(FrameTcnFilters, BlocksAreHandedOnAndTheOldestHeld) {
+  Eigen::MatrixXd x(700, kChannels);
+  Rng rng(3);
+  for (double& value : x.reshaped()) value = rng.normal();
+  const BlockMeans blocks(x, {});
+  Front front(kBlocks);
+  front.hand_on_blocks();
+  double means[kBlocks];
+  for (const Index row : {2, 30, 699}) {
+    const Eigen::MatrixXd handed = front.apply(blocks, row, 1);
+    const Index known = kHistories[history_of(blocks.known(row))];
+    for (Index c = 0; c < kChannels; ++c) {
+      blocks.write(row, c, kBlocks, means);
+      for (Index k = 0; k < kBlocks; ++k) {
+        EXPECT_NEAR(handed(c * kBlocks + k, 0), means[std::min(k, known - 1)], 1e-12);
+      }
+    }
+  }
+}
+
 /// Of a random walk in noise the best estimate is the steady state of a Kalman filter, from the
 /// first row on: no filter whose history is made up reaches it.
 TEST(FrameTcnFilters, YoungSegmentsGetTheBestEstimateOfTheBlocksTheyHave) {

@@ -85,15 +85,16 @@ TEST(FrameTcn, AnUnknownLevelIsThatOfTheOthersOrTheWorst) {
   EXPECT_TRUE(level.col(1).tail(13).isConstant(-1.5));
 }
 
-TEST(FrameTcn, GradientsAgreeWithDifferences) {
+/// Gradients of all parameters by hand against differences, every `stride`-th.
+void expect_gradients(const Net::Plan& plan, double spread, Index stride) {
   Rng rng(5);
-  Net net({2, 2, true}, rng);
-  for (double& p : net.parameters) p += 0.3 * rng.normal();
+  Net net(plan, rng);
+  for (double& p : net.parameters) p += spread * rng.normal();
   net.mean.setConstant(0.2);
   net.scale.setConstant(0.7);
   Pass pass;
   pass.levels.resize(kChannels, 3);
-  pass.experts.resize(2 * kChannels, 3);
+  pass.experts.resize(plan.experts * kChannels, 3);
   for (double& v : pass.levels.reshaped()) v = rng.normal();
   for (double& v : pass.experts.reshaped()) v = 0.5 * rng.normal();
   const auto loss = [&] {
@@ -106,7 +107,7 @@ TEST(FrameTcn, GradientsAgreeWithDifferences) {
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(net.parameters.size());
   const Eigen::MatrixXd d_clean = net.pull_back_head(pass, pass.out, gradient);
   net.pull_back_denoise(pass, d_clean, gradient);
-  for (Index i = 0; i < net.parameters.size(); i += 7) {
+  for (Index i = 0; i < net.parameters.size(); i += stride) {
     const double step = 1e-6, kept = net.parameters[i];
     net.parameters[i] = kept + step;
     const double above = loss();
@@ -116,6 +117,27 @@ TEST(FrameTcn, GradientsAgreeWithDifferences) {
     const double wanted = (above - below) / (2.0 * step);
     EXPECT_NEAR(gradient[i], wanted, 1e-5 * std::max(1.0, std::abs(wanted))) << "parameter " << i;
   }
+}
+
+TEST(FrameTcn, GradientsAgreeWithDifferences) { expect_gradients({2, 2, true}, 0.3, 7); }
+
+TEST(FrameTcn, GradientsOfDenseLayersAgreeWithDifferences) {
+  expect_gradients({kBlocks, 1, true, true}, 0.01, 997);
+}
+
+/// The control in place of convolutions and gates learns, too, and its file is the same model.
+TEST(FrameTcn, DenseLayersLearnATool) {
+  FrameTcn model(problem({{"model", {{"front", "dense"}, {"time_scales", {1.0}}}},
+                          {"training", {{"lr_gates", 1e-3}}}}));
+  FitSession session;
+  ASSERT_TRUE(model.fit(training(), {}, session));
+  const Samples test = draw_motion(1500, 2.0, 2);
+  EXPECT_LT((model.predict(test) - test.y).norm(), 0.4 * test.y.norm());
+  EXPECT_GT(model.parameter_count(), 114000);
+  Container file;
+  model.save(file);
+  const FrameTcn copy(decode(encode(file), "m"), "m");
+  EXPECT_EQ(copy.predict(test), model.predict(test));
 }
 
 TEST(FrameTcn, LearnsAToolOnAnotherMotion) {

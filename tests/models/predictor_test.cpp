@@ -29,6 +29,8 @@ std::vector<Case> cases() {
   all.push_back({"dcnn_valid", "dcnn", {{"padding", "valid"}}});
   all.push_back({"dcnn_other", "dcnn", {{"filters", {3, 20}}, {"padding", "valid"}}});
   all.push_back({"dcnn_t_linear", "dcnn-t", {{"body", "none"}}});
+  all.push_back({"dcnn_t_fixed", "dcnn-t", {{"input", {{"kind", "lines"}, {"adaptive", false}}}}});
+  all.push_back({"frame_tcn_dense", "frame-tcn", {{"front", "dense"}}, 1e-9});
   all.push_back({"dcnn_plus_hidden", "dcnn-plus", {{"body", "hidden"}}});
   all.push_back({"ffnn_s_angles", "ffnn-s", {{"inputs", "angles"}}});
   all.push_back({"ffnn_m_lines", "ffnn-m", {{"input", {{"kind", "lines"}}}}});

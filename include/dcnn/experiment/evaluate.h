@@ -41,6 +41,8 @@ struct EvaluationSummary {
   std::vector<Spread> rmse;
   std::optional<Spread> overall, overall_torque;
   Score first;  ///< of run 0: largest error, R^2
+  /// Share of the rows whose motion is unlike the training (Model::novelty() above 1), of run 0.
+  std::optional<double> beyond;
 };
 
 /// What a model said on the first recording without noise: for figures.

@@ -24,6 +24,8 @@ struct Identifier {
 
   /// (T, targets) from features of the recording, plus the base simulator's part.
   Eigen::MatrixXd predict(const Recording& recording) const;
+  /// Model::novelty() of the recording's rows; empty where the model does not measure it.
+  Eigen::VectorXd novelty(const Recording& recording) const;
   /// The base simulator's part alone, zeros without one.
   Eigen::MatrixXd base_prediction(const Recording& recording) const;
 };

@@ -91,6 +91,10 @@ class Model {
 
   /// Metadata and tensors by which load() of the same kind makes an equal model.
   virtual void save(Container& file) const = 0;
+
+  /// (N) How far the motion of each row's last second is from that of the training: above 1 an
+  /// error may be of any size. Empty where the kind does not measure it.
+  virtual Eigen::VectorXd novelty(const Stream& /*stream*/) const { return {}; }
 };
 
 /// Size of the problem a model is made for, and everything it may read of the configuration.

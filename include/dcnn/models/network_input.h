@@ -37,8 +37,10 @@ class NetworkInput {
   virtual Shape shape() const = 0;
   /// The input of a row is made of that row alone.
   virtual bool per_sample() const { return false; }
-  /// Statistics of its own, from training rows alone; those of the features are in the map.
-  virtual void learn(const Samples& /*training*/, const InputMap& /*map*/) {}
+  /// Statistics of its own, from training rows alone; those of the features are in the map, `noise`
+  /// is what may be expected on them.
+  virtual void learn(const Samples& /*training*/, const InputMap& /*map*/,
+                     const NoiseSpec& /*noise*/) {}
   virtual PreparedStream prepare(const Stream& stream, const InputMap& map) const = 0;
   /// Writes the network's input for one row.
   virtual void write(const PreparedStream& stream, const InputMap& map, Index row,
@@ -57,7 +59,7 @@ PreparedStream prepare_rows(const Stream& stream);
 ///   {"kind": "window", "length": T}  (T, F): the last T rows standardised, the segment's first row
 ///                                    repeated before it
 ///   {"kind": "body"}                 (F, 5, 1): per-sample columns of channels in the sensor frame
-///   {"kind": "lines"}                (F, 5, 1): causal line fits to them (sensor_columns.h)
+///   {"kind": "lines"}                (F, 7, 1): causal line fits to them (sensor_columns.h)
 std::unique_ptr<NetworkInput> make_input(const Json& json, const FeatureLayout& layout,
                                          const std::string& where);
 /// From to_json(), for that number of features: Error(kModel).

@@ -50,6 +50,21 @@ Front::Front(Index count) : experts(count) {
   }
 }
 
+void Front::hand_on_blocks() {
+  for (Index g = 0; g < kGroups; ++g) {
+    for (std::size_t h = 0; h < kHistories.size(); ++h) {
+      const Index known = kHistories[h];
+      Eigen::MatrixXd& w = weights[static_cast<std::size_t>(g)][h];
+      w.setZero();
+      for (Index c = 0; c < channel_count(g); ++c) {
+        for (Index k = 0; k < experts; ++k) {
+          w(c * experts + k, c * known + std::min(k, known - 1)) = 1.0;
+        }
+      }
+    }
+  }
+}
+
 Eigen::MatrixXd Front::apply(const BlockMeans& blocks, Index first, Index count) const {
   Eigen::MatrixXd result(kChannels * experts, count);
   for (Index begin = 0, end = 0; begin < count; begin = end) {

@@ -32,6 +32,10 @@ class Front {
   Front() = default;
   explicit Front(Index experts);  ///< all weights zero
 
+  /// Of 48 "experts": every block mean is handed on as it is; those that a young segment does not
+  /// have equal the oldest that it has.
+  void hand_on_blocks();
+
   /// Estimates of rows [first, first + count), (15·experts, count), row channel·experts + e;
   /// 14 976 multiply-adds a row with 8 experts.
   Eigen::MatrixXd apply(const BlockMeans& blocks, Index first, Index count) const;

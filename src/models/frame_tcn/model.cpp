@@ -44,7 +44,7 @@ FrameTcn::FrameTcn(const Problem& problem)
           " targets");
   front_ = Front(spec_.experts());
   Rng rng({spec_.seed, 100});
-  net_ = Net({spec_.experts(), problem.outputs() / 3, spec_.saturation}, rng);
+  net_ = Net({spec_.experts(), problem.outputs() / 3, spec_.saturation, spec_.dense}, rng);
   net_.mounting = spec_.mounting;
   if (!spec_.pose_snr.empty()) net_.edge = edge_rows(spec_.layout);
   spread_ = Eigen::VectorXd::Ones(problem.outputs() / 3);
@@ -58,13 +58,16 @@ FrameTcn::FrameTcn(const Container& file, const std::string& where) {
   const auto clouds = static_cast<Index>(options.number("clouds", 0, 1, kMostClouds));
   const auto edge = static_cast<Index>(options.number("edge", 0, 0, kMostEdge));
   const bool saturation = options.get<bool>("saturation");
+  const bool dense = options.get("dense", false);
   options.finish();
   map_ = InputMap::parse(parse_json(stored_text(file, "map", where), where, Exit::kModel), where,
                          Exit::kModel);
   require(map_.features() == kChannels, Exit::kModel, where, ": its statistics are not of 15 rows");
+  require(!dense || experts == kBlocks, Exit::kModel, where, ": its dense layers need ", kBlocks,
+          " means a channel");
   front_ = Front(experts);
   Rng rng(0);
-  net_ = Net({experts, triples, saturation}, rng);
+  net_ = Net({experts, triples, saturation, dense}, rng);
   net_.edge = edge;
   spread_ = Eigen::VectorXd::Ones(triples);
   novelty_ = Novelty(clouds);
@@ -123,17 +126,19 @@ void FrameTcn::assign(const std::vector<Slot>& all) {
 void FrameTcn::save(Container& file) const {
   file.metadata["model"] = "frame-tcn";
   file.metadata["map"] = map_.to_json().dump();
-  file.metadata["plan"] = Json{{"experts", net_.plan().experts},
-                               {"triples", net_.plan().triples},
-                               {"clouds", novelty_.clouds()},
-                               {"edge", net_.edge},
-                               {"saturation", net_.plan().saturation}}
-                              .dump();
+  Json plan{{"experts", net_.plan().experts},
+            {"triples", net_.plan().triples},
+            {"clouds", novelty_.clouds()},
+            {"edge", net_.edge},
+            {"saturation", net_.plan().saturation}};
+  if (net_.plan().dense) plan["dense"] = true;
+  file.metadata["plan"] = plan.dump();
   for (const Slot& slot : slots()) file.tensors.push_back(stored(slot.name, slot.value));
 }
 
 Index FrameTcn::parameter_count() const {
   Index count = net_.parameters.size();
+  if (net_.plan().dense) return count;  // its front hands on the block means
   for (const Bank& bank : front_.weights) {
     for (const auto& weights : bank) count += weights.size();
   }

@@ -16,6 +16,7 @@ namespace dcnn::frame_tcn {
 struct Spec {
   bool line = false;                    ///< a fixed line fit in place of the learned convolutions
   bool gates = true;                    ///< else one filter per channel
+  bool dense = false;                   ///< dense layers in place of convolutions and gates
   bool saturation = true;               ///< tanh units in the head
   std::vector<double> speeds;           ///< paces of the motion that the filters are made for
   std::vector<double> x_snr, pose_snr;  ///< dB, one expert each; empty where not trained for
@@ -45,9 +46,9 @@ class FrameTcn : public Model {
   const InputMap& map() const override { return map_; }
   void save(Container& file) const override;
 
-  /// (N) How far the motion of each row's last second is from that of the training: above 1 is what
-  /// less than one held-out row in 10^4 was (validation rows, else the last 15 % of the training).
-  Eigen::VectorXd novelty(const Stream& stream) const;
+  /// Above 1 is what less than one held-out row in 10^4 was (validation rows, else the last 15 % of
+  /// the training).
+  Eigen::VectorXd novelty(const Stream& stream) const override;
 
  private:
   friend class Recipe;

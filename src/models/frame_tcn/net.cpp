@@ -32,7 +32,9 @@ Net::Net(const Plan& plan, Rng& rng)
       gate_{kChannels, 24, kChannels * plan.experts},
       gain_{kChannels, 16, kSaturating} {
   parameters = Eigen::VectorXd::Zero(head_begin() + plan.triples * 6 * columns_z());
-  if (gate_size() > 0) {
+  if (plan.dense) {
+    Dense::start(parameters.head(Dense::size()), rng);
+  } else if (gate_size() > 0) {
     fill_normal(parameters.head(24 * kChannels), 1.0 / std::sqrt(15.0), rng);
     fill_normal(parameters.segment(24 * (kChannels + 1), gate_.outputs * 24), 0.05, rng);
   }
@@ -92,6 +94,10 @@ void Net::denoise(Pass& pass) const {
     pass.clean = pass.experts;
     return;
   }
+  if (plan_.dense) {
+    Dense::forward(parameters.data(), pass.experts, pass.levels, pass.dense, pass.clean);
+    return;
+  }
   gate_.forward(parameters.data(), pass.levels, pass.gate_hidden, pass.share);
   pass.clean.resize(kChannels, n);
   for (Index i = 0; i < n; ++i) {
@@ -146,6 +152,10 @@ void Net::product(Pass& pass) const {
 void Net::pull_back_denoise(const Pass& pass, const Eigen::MatrixXd& d_clean,
                             Eigen::VectorXd& gradient) const {
   if (gate_size() == 0) return;
+  if (plan_.dense) {
+    Dense::backward(parameters.data(), pass.dense, d_clean, gradient.data());
+    return;
+  }
   const Index experts = plan_.experts;
   Eigen::MatrixXd d_logit(pass.share.rows(), pass.columns());
   for (Index i = 0; i < pass.columns(); ++i) {

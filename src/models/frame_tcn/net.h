@@ -5,6 +5,7 @@
 
 #include "dcnn/core/random.h"
 #include "models/frame_tcn/blocks.h"
+#include "models/frame_tcn/dense.h"
 #include "models/frame_tcn/frame.h"
 #include "models/frame_tcn/mlp.h"
 
@@ -18,6 +19,7 @@ constexpr Index kScales = 5;
 struct Pass {
   Eigen::MatrixXd levels;   ///< (15, n) standardised: given
   Eigen::MatrixXd experts;  ///< (15·experts, n) estimates by the convolutions: given
+  Dense::Signals dense;
   Eigen::MatrixXd gate_hidden, share, clean;  ///< clean (15, n): denoised, in units of scale
   Eigen::MatrixXd gain_hidden, gain, tanh, z, in_world;
   Eigen::MatrixXd out;  ///< (3·triples, n), in units of the spread
@@ -31,11 +33,15 @@ class Net {
     Index experts = 8;
     Index triples = 1;  ///< force, then torque
     bool saturation = true;
+    bool dense = false;  ///< dense layers in place of gates; experts are then the block means
   };
   Net() = default;
   Net(const Plan& plan, Rng& rng);
 
-  Index gate_size() const { return plan_.experts > 1 ? gate_.size() : 0; }
+  /// Parameters of what makes channels of the experts: gates or dense layers.
+  Index gate_size() const {
+    return plan_.dense ? Dense::size() : plan_.experts > 1 ? gate_.size() : 0;
+  }
   Index columns_z() const { return kSmooth + (plan_.saturation ? kSaturating : 0); }
   const Plan& plan() const { return plan_; }
 

@@ -38,6 +38,7 @@ class Recipe {
   void make_filters();
   void make_expert(Index group, Index expert, std::size_t history, const Moments& signal,
                    const Eigen::MatrixXd& unit, double snr);
+  void start_dense(Index group, const Eigen::MatrixXd& filter);
   std::array<Moments, 3> axis_moments(Index first_group) const;
   Moments pooled_moments(const std::array<Moments, 3>& axes, Index group) const;
   Eigen::VectorXd feature_noise_power(Index group) const;

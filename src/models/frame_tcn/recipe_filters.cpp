@@ -1,4 +1,5 @@
 // The filters: moments of the motion and of the noise, then Wiener.
+#include <algorithm>
 #include <cmath>
 
 #include "models/frame_tcn/pose_noise_moments.h"
@@ -8,6 +9,7 @@ namespace dcnn::frame_tcn {
 namespace {
 
 constexpr Index kMomentStride = 6;  // neighbours are nearly equal
+constexpr Index kMiddleExpert = 2;  // 20 dB on the features, 24 dB on the pose
 
 }  // namespace
 
@@ -93,7 +95,10 @@ Eigen::VectorXd Recipe::reached_by_pose_noise() const {
 
 void Recipe::make_filters() {
   Front& front = model_.front_;
-  errors_ = Eigen::MatrixXd::Zero(front.experts, kChannels);
+  errors_ = Eigen::MatrixXd::Zero(
+      static_cast<Index>(std::max<std::size_t>(1, spec_.x_snr.size() + spec_.pose_snr.size())),
+      kChannels);
+  if (spec_.dense) front.hand_on_blocks();
   if (spec_.line) {
     for (Index g = 0; g < kGroups; ++g) {
       const auto count = static_cast<Index>(group_channels(g).size());
@@ -111,7 +116,7 @@ void Recipe::make_filters() {
     if (g % 3 == 0) axes = axis_moments(g);
     const Moments signal = pooled_moments(axes, g);
     const Eigen::MatrixXd white = white_noise_moments(feature_noise_power(g));
-    for (std::size_t h = 0; h < kHistories.size(); ++h) {
+    for (std::size_t h = 0; h < (spec_.dense ? 1 : kHistories.size()); ++h) {
       for (Index k = 0; k < features; ++k) {
         make_expert(g, k, h, signal, white, spec_.x_snr[static_cast<std::size_t>(k)]);
       }
@@ -124,6 +129,19 @@ void Recipe::make_filters() {
   }
 }
 
+/// The dense layers begin with the filter for a middle level as their linear part.
+void Recipe::start_dense(Index group, const Eigen::MatrixXd& filter) {
+  auto linear = Dense::linear(model_.net_.parameters.data());
+  const auto channels = group_channels(group);
+  for (std::size_t from = 0; from < channels.size(); ++from) {
+    for (std::size_t to = 0; to < channels.size(); ++to) {
+      linear.row(channels[to]).segment(channels[from] * kBlocks, kBlocks) =
+          filter.row(static_cast<Index>(to)).segment(static_cast<Index>(from) * kBlocks, kBlocks);
+    }
+  }
+  adam_ = Adam(model_.net_.parameters);
+}
+
 /// The filters of one expert and history; `unit` are moments of the noise at 0 dB.
 void Recipe::make_expert(Index group, Index expert, std::size_t history, const Moments& signal,
                          const Eigen::MatrixXd& unit, double snr) {
@@ -131,9 +149,13 @@ void Recipe::make_expert(Index group, Index expert, std::size_t history, const M
   const auto channels = group_channels(group);
   const Eigen::MatrixXd noise = std::pow(10.0, -snr / 10.0) * unit;
   const Eigen::MatrixXd w = wiener(signal, noise, kHistories[history]);
-  for (Index c = 0; c < w.rows(); ++c) {
-    front.weights[static_cast<std::size_t>(group)][history].row(c * front.experts + expert) =
-        w.row(c);
+  if (spec_.dense) {
+    if (expert == kMiddleExpert) start_dense(group, w);
+  } else {
+    for (Index c = 0; c < w.rows(); ++c) {
+      front.weights[static_cast<std::size_t>(group)][history].row(c * front.experts + expert) =
+          w.row(c);
+    }
   }
   if (kHistories[history] < kBlocks) return;
   const Eigen::VectorXd error = expected_error(signal, noise, w);

@@ -20,7 +20,9 @@ std::vector<double> read_numbers(Options& options, const std::string& key,
 
 void read_model(Options options, Spec& spec) {
   options.raw("name");
-  spec.line = options.choice("front", "experts", {"experts", "line"}) == "line";
+  const auto front = options.choice("front", "experts", {"experts", "line", "dense"});
+  spec.line = front == "line";
+  spec.dense = front == "dense";
   spec.gates = options.get("gates", true) && !spec.line;
   spec.saturation = options.get("saturation", true);
   spec.speeds = read_numbers(options, "time_scales", {0.7, 0.85, 1.0, 1.2, 1.45}, 0.1, 10.0);
@@ -81,6 +83,7 @@ Spec Spec::parse(const Problem& problem) {
 }
 
 Index Spec::experts() const {
+  if (dense) return kBlocks;
   return line ? 1 : static_cast<Index>(x_snr.size() + pose_snr.size());
 }
 
