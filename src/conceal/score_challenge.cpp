@@ -49,6 +49,7 @@ Json single_effects(const Json& scenarios) {
     if (s["group"] != "single") continue;
     const Json& e = s["effects"][0];
     Json& cell = table[e["effect"].get<std::string>()][drawn_amplitude(s)];
+    if (cell.is_null()) cell = Json::object();
     const auto count = [&](const char* key, bool counts) {
       cell[key] = cell.value(key, 0) + (counts ? 1 : 0);
     };

@@ -114,8 +114,9 @@ bool Search::take_back_relatives() {
     if (tests[m].refutes() && tests[m].excess > slack) {
       apart = std::max(apart, tests[m].z / kInconstant);
     }
-    // A mode that leaves something where modes are is one of several.
-    if (swings && fit_.members[m].kind->stage == Stage::kResonance) apart = kInfinity;
+    // Motion that nobody sees rings in a mode here and there. One that leaves something where modes
+    // are is one of several.
+    if (fit_.members[m].kind->stage == Stage::kResonance) apart = swings ? kInfinity : 0.0;
     if (apart > most) most = apart, worst = m;
   }
   if (worst) settle(members_without(*worst));
