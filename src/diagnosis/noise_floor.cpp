@@ -19,6 +19,7 @@ constexpr double kColourAbove = 3.0;  // of the log-likelihood there
 constexpr Index kWindow = 1024;       // samples of one periodogram
 constexpr Index kShortestWindow = 64;
 constexpr double kSlowest = 0.02;  // Hz: flicker noise is taken for flat below
+constexpr double kLeastOfDifferences = 1e-6;
 constexpr Index kFewestBins = 12;  // below this the quiet band says nothing
 
 /// Shape of AR(1) noise of unit variance.
@@ -240,9 +241,11 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual,
                         static_cast<double>(p.power.cols()), study.without.coloured_floor);
       floor.source = "spectrum of the residual above " +
                      std::to_string(static_cast<int>(std::lround(from))) + " Hz";
-    } else {
-      floor.white = variance_of_differences(even, channel);
-      floor.source = "second differences of the residual";
+    }
+    // Without a quiet band, or where most windows hold one value that is read again and again.
+    const double differences = variance_of_differences(even, channel);
+    if (floor.white + floor.coloured + floor.flicker < kLeastOfDifferences * differences) {
+      floor = Floor{.white = differences, .source = "second differences of the residual"};
     }
     floor.lowpass_hz = study.lowpass_hz;
     floor.dt = dt;

@@ -53,8 +53,9 @@ void Search::make_setting(const std::vector<Member>& members) {
   // it.
   for (Floor& floor : floors_) {
     if (!study_.axis) continue;
-    const double variance = floor.white + floor.coloured;
-    floor.white = variance;
+    Floor unfiltered = floor;
+    unfiltered.lowpass_hz = 0.0;
+    floor.white = unfiltered.deviation() * unfiltered.deviation();
     floor.coloured = floor.flicker = 0.0;
   }
   const Whitener whitener(study_, floors_, levels);
