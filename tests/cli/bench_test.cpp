@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "dcnn/core/json.h"
+#include "dcnn/data/csv.h"
 #include "support/process.h"
 
 namespace dcnn {
@@ -23,9 +24,13 @@ TEST(Bench, TimesEveryLengthFromFeaturesAndFromThePose) {
                                 "1", "--out", model, "--quiet"})
                 .exit_code,
             0);
+  Table few = read_csv(sample + "test.csv");
+  few.values.conservativeResize(400, Eigen::NoChange);
+  write_csv(folder / "few.csv", few);
   const auto out = folder / "timing";
-  const auto result = test::run("bench", {model, "--data", sample + "test.csv", "--lengths", "5,10",
-                                          "--repetitions", "2", "--json", "--out", out.string()});
+  const auto result =
+      test::run("bench", {model, "--data", (folder / "few.csv").string(), "--lengths", "1,3",
+                          "--repetitions", "2", "--json", "--out", out.string()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Json json = parse_json(result.out, "bench", Exit::kFailure);
   EXPECT_EQ(json["threads"], 1);
