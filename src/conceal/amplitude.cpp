@@ -69,6 +69,24 @@ class Contribution {
   std::vector<Eigen::MatrixXd> plain_;
 };
 
+/// A loose load that does not slide to and fro is no more than a part of the tool.
+bool slides(const std::vector<Path>& paths, const Scenario& s, const Hidden& h) {
+  constexpr double kTurned = 0.5;  // m/s^2
+  constexpr int kFewest = 6;       // ways from stop to stop
+  int turns = 0;
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    if (s.recordings[k].holdout) continue;
+    const Eigen::VectorXd field = felt_field(paths[k]).col(h.axis.back() - 'x');
+    double side = 0.0;
+    for (Eigen::Index i = 0; i < field.size(); ++i) {
+      if (std::abs(field(i)) < kTurned || side * field(i) > 0.0) continue;
+      if (side != 0.0) ++turns;
+      side = field(i);
+    }
+  }
+  return turns >= kFewest;
+}
+
 /// A clip acts from its limit down.
 Hidden clipped(const Contribution& contribution, Hidden h, double target) {
   double low = 0.0, high = 60.0;
@@ -85,6 +103,7 @@ Hidden clipped(const Contribution& contribution, Hidden h, double target) {
 std::optional<Hidden> of_amplitude(const std::vector<Path>& paths, const Scenario& s, Hidden h,
                                    double target) {
   constexpr double kNothing = 1e-6;  // N, of parameters as drawn: below it there is rounding alone
+  if (h.effect == "loose_load" && !slides(paths, s, h)) return std::nullopt;
   const Contribution contribution(paths, s);
   if (h.effect == "saturation") h = clipped(contribution, h, target);
   double now = contribution(h);

@@ -32,7 +32,7 @@ void place(Hidden& h, const std::vector<Path>& paths, Rng& rng);
 
 /// Scales `h` until it alone changes the fit recordings by `target` [N] on its strongest axis,
 /// or as far as its parameters stay plausible. Its amplitude is what it has then. Nothing where it
-/// changes nothing on these paths: friction along an axis that rests.
+/// changes nothing on these paths: friction along an axis that rests, a load that never slides.
 std::optional<Hidden> of_amplitude(const std::vector<Path>& paths, const Scenario& s, Hidden h,
                                    double target);
 

@@ -19,7 +19,7 @@ double friction(const Hidden& h, double v);
 Eigen::VectorXd lugre(const Hidden& h, const Eigen::VectorXd& v);
 Eigen::VectorXd bouc_wen(const Hidden& h, const Eigen::VectorXd& q);
 
-/// Adds the force on the tool, if the effect is one; `field`: gravity less acceleration (T, 3).
+/// Adds the force on the tool, if the effect is one; `field`: of felt_field().
 void add_force(const Path& path, const Hidden& h, const Eigen::MatrixXd& field, Eigen::MatrixXd& F);
 /// Resonance and what the sensor makes of the force, if the effect is one of these.
 void change_reading(const Path& path, const Hidden& h, Eigen::MatrixXd& F);

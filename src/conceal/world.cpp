@@ -74,16 +74,21 @@ void digitise(const std::vector<Hidden>& hidden, Eigen::MatrixXd& F) {
   }
 }
 
+Eigen::MatrixXd felt_field(const Path& path, const Eigen::Vector3d& gravity) {
+  Eigen::MatrixXd field(path.samples(), 3);
+  for (Index i = 0; i < field.rows(); ++i) {
+    const Eigen::Matrix3d& R = path.rotation[static_cast<std::size_t>(i)];
+    field.row(i) = (gravity.transpose() - path.acceleration.row(i)) * R;
+  }
+  return field;
+}
+
 Eigen::MatrixXd force(const Path& path, const Tool& nominal, const std::vector<Hidden>& hidden) {
   Tool tool = nominal;
   const Eigen::Vector3d gravity = apply_parameters(hidden, tool);
-  const Index n = path.samples();
-  Eigen::MatrixXd field(n, 3), F(n, 3);
-  for (Index i = 0; i < n; ++i) {
-    const Eigen::Matrix3d& R = path.rotation[static_cast<std::size_t>(i)];
-    field.row(i) = (gravity.transpose() - path.acceleration.row(i)) * R;
-    F.row(i) = rigid(path, i, tool, gravity);
-  }
+  const Eigen::MatrixXd field = felt_field(path, gravity);
+  Eigen::MatrixXd F(path.samples(), 3);
+  for (Index i = 0; i < F.rows(); ++i) F.row(i) = rigid(path, i, tool, gravity);
   for (const Hidden& h : hidden) add_force(path, h, field, F);
   for (int s = 0; s <= 6; ++s) {
     if (s == 6) F.rowwise() += tool.bias.transpose();

@@ -60,6 +60,20 @@ TEST(Scenario, WhatChangesNothingOnItsMotionIsDrawnAnew) {
   }
 }
 
+// A mode must be driven to ring that much, and a load must slide to knock: most first draws do not.
+TEST(Scenario, AnAmplitudeIsTheOneAskedFor) {
+  for (const char* effect : {"flexible_resonance", "loose_load"}) {
+    for (const char* amplitude : {"0.3", "1"}) {
+      const std::string id = std::string("single:") + amplitude + "/" + effect + "/4";
+      const double asked = std::stod(amplitude);
+      const Scenario s = draw(id, 1288057598);
+      ASSERT_EQ(s.hidden.size(), 1U) << id;
+      EXPECT_GT(s.hidden[0].amplitude, asked / 1.25) << id;
+      EXPECT_LT(s.hidden[0].amplitude, asked * 1.25) << id;
+    }
+  }
+}
+
 // Another implementation reads the nominal simulator and the recordings: nothing is left but noise.
 TEST(Scenario, WithNothingHiddenTheSimulatorLeavesTheNoise) {
   const test::TemporaryFolder folder;
