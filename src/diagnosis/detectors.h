@@ -24,16 +24,6 @@ struct Clipping {
 };
 std::vector<Clipping> clipping(const Case& study);
 
-/// A load that slides between stops: knocks in the sense of the acceleration field they come with,
-/// at least three, of the right sign but for 15 % of their strength, or more of them than chance
-/// makes. Its gap follows from when each comes after the field has turned, the slug from the
-/// momentum it hands over.
-struct Knocks {
-  std::optional<Member> member;
-  std::vector<Span> spans;
-};
-Knocks find_knocks(const Case& study, const Signals& left);
-
 /// The strongest line above what block means can show, fitted at the log's rate.
 std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
                                     const std::vector<Floor>& floors);

@@ -1,0 +1,266 @@
+#include "diagnosis/knocks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/candidates.h"
+#include "diagnosis/median.h"
+#include "diagnosis/noise_floor.h"
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kShortest = 0.003;  // s, half of what a knock lasts in a recording
+constexpr double kSpread = 0.025;    // of a slide's duration: how well its end is foretold
+constexpr double kFirstGap = 0.001, kLastGap = 0.035, kNextGap = 1.06;  // m
+constexpr double kHeard = 5.3;            // deviations of the same sum at other times
+constexpr double kHeardWithoutOne = 2.5;  // the same without the loudest knock
+constexpr std::size_t kFewest = 4;        // ways from stop to stop
+constexpr int kOtherTimes = 60;
+
+/// What is not known of a load but tried.
+struct Slug {
+  double gap;      ///< m
+  double grip;     ///< dry friction over mass [m/s^2]
+  double rebound;  ///< speed after a knock over that before
+};
+
+struct Knock {
+  std::size_t log;
+  Index from, at;  ///< samples: begins to slide, arrives
+  double change;   ///< of its speed, along the axis [m/s]
+};
+
+/// A recording's field along the axis [m/s^2], and where it leaves the band of a friction.
+struct Field {
+  Eigen::VectorXd along;
+  std::vector<Index> leaves;
+
+  void leave(double grip) {
+    leaves.clear();
+    double side = 0.0;
+    for (Index i = 0; i < along.size(); ++i) {
+      const double now = std::abs(along(i)) <= grip ? 0.0 : along(i);
+      if (now != 0.0 && now * side <= 0.0) leaves.push_back(i);
+      side = now;
+    }
+  }
+};
+
+/// Appends the knocks of one way from stop to stop that begins at sample `from`, with its rebounds;
+/// false where the field turns back before the load arrives.
+bool slide(const Eigen::VectorXd& field, const Slug& slug, Index from, double dt, std::size_t log,
+           std::vector<Knock>& knocks) {
+  constexpr double kRest = 0.02;  // m/s
+  const double sense = std::copysign(1.0, field(from));
+  double way = 0.0, speed = 0.0;
+  bool arrived = false;
+  for (Index k = from; k < field.size(); ++k) {
+    speed += (sense * field(k) - std::copysign(slug.grip, speed)) * dt;
+    way += speed * dt;
+    if (way < 0.0 || (!arrived && speed < 0.0)) break;
+    if (way < slug.gap) continue;
+    arrived = true;
+    knocks.push_back({log, from, k, sense * (1.0 + slug.rebound) * speed});
+    speed *= -slug.rebound;
+    way = slug.gap;
+    if (speed > -kRest) break;
+  }
+  return arrived;
+}
+
+std::vector<Knock> knocks_of(const std::vector<Field>& fields, const Slug& slug, double dt) {
+  std::vector<Knock> knocks;
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    const Eigen::VectorXd& field = fields[k].along;
+    double side = field.size() > 0 ? field(0) : 0.0;
+    for (const Index i : fields[k].leaves) {
+      if (side * field(i) <= 0.0 && slide(field, slug, i, dt, k, knocks)) side = field(i);
+    }
+  }
+  return knocks;
+}
+
+/// A channel of a recording in deviations of its noise, summed, so that a mean costs nothing.
+class Channel {
+ public:
+  Channel(const Eigen::VectorXd& r, const Eigen::VectorXd& level)
+      : level_(level), sums_(Eigen::VectorXd::Zero(r.size() + 1)) {
+    for (Index i = 0; i < r.size(); ++i) sums_(i + 1) = sums_(i) + r(i) / level(i);
+  }
+  double level(Index i) const { return level_(i); }
+  /// Mean of 2 wide + 1 samples above that of what is around them; nothing near an end.
+  std::optional<double> above(Index at, Index wide) const {
+    const Index far = around(wide);
+    if (at < far || at + far >= level_.size()) return std::nullopt;
+    return mean(at - wide, at + wide + 1) -
+           0.5 * (mean(at - far, at - wide) + mean(at + wide + 1, at + far + 1));
+  }
+  /// Deviation of that, for white noise of deviation 1.
+  static double deviation(Index wide) {
+    const auto own = static_cast<double>(2 * wide + 1),
+               other = static_cast<double>(2 * (around(wide) - wide));
+    return std::sqrt(1.0 / own + 1.0 / other);
+  }
+
+ private:
+  static Index around(Index wide) { return 4 * wide + 2; }
+  double mean(Index from, Index to) const {
+    return (sums_(to) - sums_(from)) / static_cast<double>(to - from);
+  }
+  Eigen::VectorXd level_, sums_;
+};
+
+/// What a slug of 1 kg would explain of what is heard.
+struct Evidence {
+  double sum = 0.0, square = 0.0, most = 0.0;
+  double slug() const { return square > 0.0 ? sum / square : 0.0; }
+  double strength() const { return square > 0.0 ? sum / std::sqrt(square) : 0.0; }
+};
+
+class Ear {
+ public:
+  Ear(const Case& study, const Signals& left, const std::vector<Eigen::VectorXd>& levels,
+      std::size_t channel)
+      : dt_(study.dt()) {
+    ToolModel moving = study.simulator.model;
+    moving.inertial = ToolModel::Inertial::kLinear;
+    std::vector<double> heights;
+    for (std::size_t k = 0; k < study.logs.size(); ++k) {
+      const Motion& motion = study.logs[k].motion;
+      fields_.push_back({felt_acceleration(moving, motion).col(study.channels[channel]), {}});
+      channels_.emplace_back(left[k].col(static_cast<Index>(channel)), levels[k]);
+      for (Index i = 0; i < motion.samples(); i += 3) {
+        if (const auto a = channels_.back().above(i, 1)) heights.push_back(std::abs(*a));
+      }
+    }
+    if (!heights.empty()) sigma_ = 1.4826 * median(heights) / Channel::deviation(1);
+  }
+
+  /// The knocks that are heard best.
+  void listen() {
+    for (const double grip : {0.0, 0.1, 0.2, 0.3, 0.4, 0.55, 0.75, 1.0}) {
+      for (Field& field : fields_) field.leave(grip);
+      for (double gap = kFirstGap; gap < kLastGap; gap *= kNextGap) {
+        for (const double rebound : {0.0, 0.3, 0.6}) take({gap, grip, rebound});
+      }
+    }
+    if (heard.strength() <= 0.0) return;
+    std::vector<double> others;
+    for (int k = 0; k < kOtherTimes; ++k) {
+      const double seconds = (k % 2 ? 1.0 : -1.0) * (0.1 + 0.02 * k);
+      others.push_back(std::abs(evidence(knocks, std::llround(seconds / dt_)).strength()));
+    }
+    scale = std::max(1.0, 1.4826 * median(others));
+    weigh();
+  }
+
+  double significance() const { return heard.strength() / scale; }
+  bool is_heard() const {
+    std::size_t ways = 0;
+    Index last = -1;
+    for (const Knock& knock : knocks) {
+      if (knock.from != last) ++ways;
+      last = knock.from;
+    }
+    const double others = significance() * (1.0 - heard.most / heard.sum);
+    return significance() > kHeard && others > kHeardWithoutOne && ways >= kFewest;
+  }
+
+  Slug slug{};
+  Evidence heard;
+  std::vector<Knock> knocks;
+  double scale = 1.0;  ///< deviation of strength() where there are no knocks
+
+  /// Slug [kg] and gap [m], means over all that was tried, by likelihood; and their deviations.
+  Eigen::Vector2d mean, deviation;
+
+ private:
+  /// Matched to changes of momentum, `shift` samples after they are due.
+  Evidence evidence(const std::vector<Knock>& list, Index shift) const {
+    Evidence e;
+    for (const Knock& knock : list) {
+      const Channel& channel = channels_[knock.log];
+      const double seconds = kSpread * dt_ * static_cast<double>(knock.at - knock.from);
+      const Index wide = std::max<Index>(1, std::llround(std::max(kShortest, seconds) / dt_ - 0.5));
+      const auto above = channel.above(knock.at + shift, wide);
+      if (!above) continue;
+      const double unit = sigma_ * Channel::deviation(wide) * channel.level(knock.at + shift);
+      const double height = knock.change / (static_cast<double>(2 * wide + 1) * dt_) / unit;
+      const double share = *above / (sigma_ * Channel::deviation(wide)) * height;
+      e.sum += share;
+      e.square += height * height;
+      e.most = std::max(e.most, share);
+    }
+    return e;
+  }
+
+  void take(const Slug& tried) {
+    const std::vector<Knock> list = knocks_of(fields_, tried, dt_);
+    const Evidence e = evidence(list, 0);
+    tried_.push_back({tried.gap, e});
+    if (e.strength() > heard.strength()) slug = tried, heard = e, knocks = list;
+  }
+
+  void weigh() {
+    double all = 0.0;
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero(), squares = Eigen::Vector2d::Zero();
+    for (const auto& [gap, e] : tried_) {
+      if (e.sum <= 0.0) continue;
+      const double below = heard.strength() * heard.strength() - e.strength() * e.strength();
+      const double weight = std::exp(-0.5 * below / (scale * scale));
+      const Eigen::Vector2d at(e.slug(), gap);
+      const Eigen::Vector2d own(scale * scale / e.square,
+                                std::pow(0.5 * (kNextGap - 1.0) * gap, 2));
+      all += weight;
+      sum += weight * at;
+      squares += weight * (at.cwiseAbs2() + own);
+    }
+    mean = sum / all;
+    deviation = (squares / all - mean.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+  }
+
+  double dt_, sigma_ = 1.0;
+  std::vector<Field> fields_;
+  std::vector<Channel> channels_;
+  std::vector<std::pair<double, Evidence>> tried_;
+};
+
+}  // namespace
+
+Knocks find_knocks(const Case& study, const Signals& left) {
+  const EffectKind& kind = *find_effect("loose_load");
+  if (!is_testable(study, kind)) return {};
+  const auto levels = noise_level(study, left);
+  std::optional<Ear> best;
+  std::size_t channel = 0;
+  for (std::size_t j = 0; j < study.channels.size(); ++j) {
+    if (study.channels[j] > 2) continue;
+    Ear ear(study, left, levels, j);
+    ear.listen();
+    fprintf(
+        stderr,
+        "axis %zu z %.2f scale %.2f gap %.4f grip %.2f reb %.1f slug %.5f knocks %zu most %.2f\n",
+        j, ear.heard.strength(), ear.scale, ear.slug.gap, ear.slug.grip, ear.slug.rebound,
+        ear.heard.slug(), ear.knocks.size(), ear.heard.most / std::max(1e-9, ear.heard.sum));
+    if (ear.is_heard() && (!best || ear.significance() > best->significance())) {
+      best = std::move(ear), channel = j;
+    }
+  }
+  if (!best) return {};
+  Knocks found;
+  const auto name = static_cast<std::size_t>(study.channels[channel]);
+  found.member = make_member(kind, kind.fits[0], admitted_axes(AxisRule::kSensor)[name], false,
+                             Eigen::VectorXd::Constant(1, best->mean(1)));
+  found.member->amplitudes(0) = best->mean(0);
+  found.member->fixed = true;
+  found.member->fixed_deviation = best->deviation;
+  for (const Knock& knock : best->knocks) {
+    const Eigen::VectorXd& t = study.logs[knock.log].motion.t;
+    found.spans.push_back({knock.log, t(knock.from), t(knock.at) + 0.12});
+  }
+  return found;
+}
+
+}  // namespace dcnn
