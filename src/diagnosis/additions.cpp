@@ -1,6 +1,7 @@
 // The effects that would gain most next to a model.
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "diagnosis/candidates.h"
 #include "diagnosis/events.h"
@@ -63,11 +64,11 @@ std::vector<Trial> Search::additions(const JointFit& fit, bool events,
                                    [&](const Member& m) { return same_place(m, member); });
     if (!taken) trials[static_cast<std::size_t>(k)] = scan.evaluate(member, Detail::kCoarse);
   });
-  // The best seed of each effect and axis, then the best axes of each effect.
-  std::map<std::string, Trial> places;
+  // The best seed of each form of an effect on an axis, then the best places of each effect.
+  std::map<std::tuple<std::string, std::string, const EffectFit*>, Trial> places;
   for (const Trial& trial : trials) {
     if (!trial.member.kind || trial.gain <= 0.0) continue;
-    Trial& best = places[trial.member.name() + " " + trial.member.axis];
+    Trial& best = places[{trial.member.name(), trial.member.axis, trial.member.form}];
     if (trial.gain > best.gain) best = trial;
   }
   std::vector<Trial> ranked;

@@ -167,6 +167,20 @@ bool has_temperature(const Case& study) {
   });
 }
 
+/// The recordings' own temperatures: an offset that follows them turns its sign at any.
+std::vector<Eigen::VectorXd> reference_temperatures(const Case& study) {
+  double low = 1e300, high = -1e300;
+  for (const Log& log : study.logs) {
+    low = std::min(low, log.motion.temperature.minCoeff());
+    high = std::max(high, log.motion.temperature.maxCoeff());
+  }
+  std::vector<Eigen::VectorXd> seeds;
+  for (const double share : {-2.0, 0.0, 0.5, 1.0, 3.0}) {
+    seeds.push_back(Eigen::VectorXd::Constant(1, low + share * (high - low)));
+  }
+  return seeds;
+}
+
 bool has_acceleration(const Case& study) {
   return std::all_of(study.logs.begin(), study.logs.end(),
                      [](const Log& log) { return log.motion.a_B.rows() == log.motion.samples(); });
@@ -249,12 +263,10 @@ std::vector<Member> candidates(const Scan& scan, const Signals& left,
                           kind->stage == Stage::kSaturation || kind->stage == Stage::kQuantisation;
     if (own_test || !is_listed(study, *kind) || !is_testable(study, *kind)) continue;
     for (const EffectFit& form : kind->fits) {
-      if (!form.shapes.empty() && std::string(form.shapes[0].name) == "t_ref" &&
-          !has_temperature(study)) {
-        continue;
-      }
+      const bool follows = !form.shapes.empty() && std::string(form.shapes[0].name) == "t_ref";
+      if (follows && !has_temperature(study)) continue;
       for (const auto& axis : axes_of(study, *kind)) {
-        for (const auto& shapes : seed_grid(form, axis)) {
+        for (const auto& shapes : follows ? reference_temperatures(study) : seed_grid(form, axis)) {
           list.push_back(make_member(*kind, form, axis, study.has_torque(), shapes));
         }
       }

@@ -132,5 +132,39 @@ TEST(WeakSigns, UnseenMotionRingsInAMode) {
   EXPECT_NEAR(floor.pose_density(0.01, 5.0) / floor.static_part, 1.0, 1e-4);
 }
 
+// A slug of 2.5 g: each of its knocks is within the noise.
+TEST(WeakSigns, KnocksThatAreFaintOneByOneAreHeardTogether) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Json report =
+      Bench(configuration(Json::array(
+                {hidden("loose_load", "sensor_x", {{"slug_kg", 0.0025}, {"gap_m", 0.005}})})))
+          .diagnose()
+          .report;
+  ASSERT_EQ(names(report), std::vector<std::string>{"loose_load"}) << report["findings"].dump(1);
+  EXPECT_EQ(report["findings"][0]["axis"], "sensor_x");
+  const Json& found = report["findings"][0]["parameters"];
+  EXPECT_NEAR(found["slug_kg"]["value"].get<double>(), 0.0025, 0.0006);
+  EXPECT_NEAR(found["gap_m"]["value"].get<double>(), 0.005, 0.001);
+}
+
+// Both forms of a thermal drift were seeded once, and the one that follows the clock hid the other.
+TEST(WeakSigns, AnOffsetFollowsATemperatureThatHardlyBends) {
+  const Bench bench(configuration(Json::array()));
+  Rng rng({9u});
+  change(bench, [&](Recording& log) {
+    const Eigen::ArrayXd t = log.column("t").array();
+    Eigen::VectorXd temperature = 20.6 + 3.2 * (1.0 - (-t / 25.0).exp());
+    const Eigen::VectorXd drift = (temperature.array() - 21.4) * 0.05;
+    for (double& x : temperature) x += 0.01 * rng.normal();
+    log.set("temperature", temperature);
+    log.set("fy", log.column("fy") + drift);
+  });
+  const Json report = bench.diagnose().report;
+  ASSERT_EQ(names(report), std::vector<std::string>{"thermal_drift"}) << report["findings"].dump(1);
+  const Json& found = report["findings"][0]["parameters"];
+  ASSERT_TRUE(found.contains("t_ref_degc")) << found.dump(1);
+  EXPECT_NEAR(found["k_y_npk"]["value"].get<double>(), 0.05, 0.004);
+}
+
 }  // namespace
 }  // namespace dcnn

@@ -82,7 +82,7 @@ const EffectKind effect{
     .needs_time = true,
     .apply = apply,
     .stream = stream,
-    .fits = {{.shapes = {{"delay", 2e-5, 1.0, {0.001, 0.004, 0.02}}},
+    .fits = {{.shapes = {{"delay", 2e-5, 1.0, {1.5e-4, 0.001, 0.004, 0.02}}},
               .parameters =
                   [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {
                     return Json{{"delay_s", s(0)}};
