@@ -10,13 +10,25 @@
 namespace dcnn {
 namespace {
 
-constexpr double kLeastNetGain = 3.0;    // prices, after one per number, to name an effect
-constexpr double kLeastShare = 0.001;    // of what the model explains already
-constexpr int kMostRounds = 6;           // of exchanges
-constexpr int kMostSteps = 12;           // of growth: what is added may be left out again
-constexpr double kLinearError = 0.01;    // of a gain that is estimated along a tangent
-constexpr double kRoundedError = 0.4;    // the same where rounding bends every tangent
-constexpr std::size_t kMostMembers = 5;  // more only ever fed what is not in the catalogue
+constexpr double kLeastNetGain = 3.0;      // prices, after one per number, to name an effect
+constexpr double kLeastShare = 0.001;      // of what the model explains already
+constexpr int kMostRounds = 6;             // of exchanges
+constexpr int kMostSteps = 12;             // of growth: what is added may be left out again
+constexpr double kLinearError = 0.01;      // of a gain that is estimated along a tangent
+constexpr double kRoundedError = 0.4;      // the same where rounding bends every tangent
+constexpr double kDegenerateError = 0.05;  // the same beside a law whose shape is at its bound
+constexpr std::size_t kMostMembers = 5;    // more only ever fed what is not in the catalogue
+
+/// A shape as far as it goes: the law bends less, or more, than any of its kind, and another that
+/// has no such shape may do.
+bool is_degenerate(const Member& member) {
+  for (Index i = 0; i < member.shapes.size(); ++i) {
+    const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(i)];
+    const double size = 1e-3 * std::max(std::abs(shape.high), std::abs(shape.low));
+    if (member.shapes(i) > shape.high - size) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -127,7 +139,8 @@ bool Search::swap() {
           trial.net_gain() < own + setting_->price) {
         continue;
       }
-      if (trial.net_gain() < own - std::max(2.0 * setting_->price, doubt(trial))) break;
+      const double doubtful = is_degenerate(fit_.members[m]) ? kDegenerateError * trial.gain : 0.0;
+      if (trial.net_gain() < own - std::max({2.0 * setting_->price, doubt(trial), doubtful})) break;
       std::vector<Member> members = rest.members;
       members.push_back(trial.member);
       const JointFit other = joint_fit(*setting_, members);

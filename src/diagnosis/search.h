@@ -87,6 +87,7 @@ class Search {
   bool loosen();
   bool admit_flicker();
   void judge();
+  void drop_minor();
   void keep_what_carries_over();
   bool take_back_relatives();
   void say(const std::string& text) const;

@@ -4,6 +4,7 @@
 
 #include "diagnosis/candidates.h"
 #include "diagnosis/detectors.h"
+#include "diagnosis/knocks.h"
 #include "diagnosis/left_out.h"
 #include "diagnosis/modulation.h"
 #include "diagnosis/search.h"
@@ -153,7 +154,26 @@ void Search::judge() {
   while (take_back_relatives()) {
   }
   drop_coincidences();
-  bands_ = band_tests(*setting_, fit_.residual);
+  drop_minor();
+}
+
+/// Beside a remainder nobody can name, a name that explains less than what is left is more likely a
+/// part of it.
+void Search::drop_minor() {
+  while (true) {
+    bands_ = band_tests(*setting_, fit_.residual);
+    double least = 0.0;
+    for (const BandTest& band : bands_) {
+      if (band.stands_out()) least += band.excess;
+    }
+    std::optional<std::size_t> worst;
+    for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+      if (fit_.members[m].fixed || net_gain(m) >= least) continue;
+      least = net_gain(m), worst = m;
+    }
+    if (!worst) return;
+    settle(members_without(*worst));
+  }
 }
 
 /// Of a machine, where laws are never constant to the last digit: a name must help on pieces of
@@ -171,7 +191,8 @@ void Search::keep_what_carries_over() {
 }
 
 std::vector<std::vector<std::string>> Search::alternatives() const {
-  constexpr double kNear = 12.0;  // of chi-square
+  constexpr double kNear = 12.0;        // of chi-square
+  constexpr double kLeastOfMore = 0.5;  // of the price of a number
   const double price = setting_->price;
   std::vector<std::vector<std::string>> all(fit_.members.size());
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
@@ -187,10 +208,12 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
       std::vector<Member> members = rest.members;
       members.push_back(trial.member);
       const JointFit other = joint_fit(*setting_, members);
-      // One that needs more numbers holds the named one as a special case, or it would have won.
-      const int more = std::max(0, trial.member.parameters() - own.parameters());
-      if (rest.chi2 - other.chi2 - price * (trial.member.parameters() + more) >
-              net - 0.1 * kNear * price &&
+      // One that needs more numbers holds the named one as a special case: where they gain nothing,
+      // nothing speaks for it.
+      const int more = trial.member.parameters() - own.parameters();
+      const double least =
+          more > 0 ? kLeastOfMore * price * more : price * more - 0.1 * kNear * price;
+      if (fit_.chi2 - other.chi2 > least &&
           std::find(all[m].begin(), all[m].end(), trial.member.name()) == all[m].end()) {
         all[m].push_back(trial.member.name());
       }
