@@ -16,6 +16,7 @@ constexpr double kSpread = 0.025;    // of a slide's duration: how well its end 
 constexpr double kFirstGap = 0.001, kLastGap = 0.035, kNextGap = 1.06;  // m
 constexpr double kHeard = 5.3;            // deviations of the same sum at other times
 constexpr double kHeardWithoutOne = 2.5;  // the same without the loudest knock
+constexpr double kStandsOut = 1.5;        // over the greatest of them
 constexpr std::size_t kFewest = 4;        // ways from stop to stop
 constexpr int kOtherTimes = 60;
 
@@ -152,6 +153,7 @@ class Ear {
       const double seconds = (k % 2 ? 1.0 : -1.0) * (0.1 + 0.02 * k);
       others.push_back(std::abs(evidence(knocks, std::llround(seconds / dt_)).strength()));
     }
+    most_elsewhere = *std::max_element(others.begin(), others.end());
     scale = std::max(1.0, 1.4826 * median(others));
     weigh();
   }
@@ -165,12 +167,14 @@ class Ear {
       last = knock.from;
     }
     const double others = significance() * (1.0 - heard.most / heard.sum);
-    return significance() > kHeard && others > kHeardWithoutOne && ways >= kFewest;
+    return significance() > kHeard && others > kHeardWithoutOne && ways >= kFewest &&
+           heard.strength() > kStandsOut * most_elsewhere;
   }
 
   Slug slug{};
   Evidence heard;
   std::vector<Knock> knocks;
+  double most_elsewhere = 0.0;
   double scale = 1.0;  ///< deviation of strength() where there are no knocks
 
   /// Slug [kg] and gap [m], means over all that was tried, by likelihood; and their deviations.
@@ -239,11 +243,6 @@ Knocks find_knocks(const Case& study, const Signals& left) {
     if (study.channels[j] > 2) continue;
     Ear ear(study, left, levels, j);
     ear.listen();
-    fprintf(
-        stderr,
-        "axis %zu z %.2f scale %.2f gap %.4f grip %.2f reb %.1f slug %.5f knocks %zu most %.2f\n",
-        j, ear.heard.strength(), ear.scale, ear.slug.gap, ear.slug.grip, ear.slug.rebound,
-        ear.heard.slug(), ear.knocks.size(), ear.heard.most / std::max(1e-9, ear.heard.sum));
     if (ear.is_heard() && (!best || ear.significance() > best->significance())) {
       best = std::move(ear), channel = j;
     }

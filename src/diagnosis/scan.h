@@ -21,6 +21,9 @@ struct Trial {
   double net_gain() const { return gain - price * member.parameters(); }
 };
 
+/// The net gain from which on an effect is named.
+double least_net_gain(const Setting& setting);
+
 /// At which samples a candidate's columns are computed: all, or as many as a search needs.
 enum class Detail { kFine, kCoarse };
 

@@ -10,7 +10,6 @@
 namespace dcnn {
 namespace {
 
-constexpr double kLeastNetGain = 3.0;      // prices, after one per number, to name an effect
 constexpr double kLeastShare = 0.001;      // of what the model explains already
 constexpr int kMostRounds = 6;             // of exchanges
 constexpr int kMostSteps = 12;             // of growth: what is added may be left out again
@@ -100,7 +99,7 @@ bool Search::grow() {
   const auto trials = additions();
   if (trials.empty()) return false;
   const Trial& best = trials.front();
-  if (best.net_gain() < kLeastNetGain * setting_->price) return false;
+  if (best.net_gain() < least_net_gain(*setting_)) return false;
   if (best.gain < kLeastShare * explained(false)) return false;
   std::vector<Member> members = fit_.members;
   members.push_back(best.member);
@@ -116,7 +115,7 @@ bool Search::simplify() {
       ++m;
       continue;
     }
-    if (net_gain(m) >= setting_->price * kLeastNetGain) {
+    if (net_gain(m) >= least_net_gain(*setting_)) {
       ++m;
       continue;
     }

@@ -90,6 +90,7 @@ class Search {
   void drop_minor();
   void keep_what_carries_over();
   bool take_back_relatives();
+  bool uncover_relatives();
   void say(const std::string& text) const;
 
   Case study_, softer_, harder_;  // the two others smooth more and less: what smoothing alone does

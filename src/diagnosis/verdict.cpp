@@ -124,6 +124,24 @@ bool Search::take_back_relatives() {
   return worst.has_value();
 }
 
+/// Leaves out a faint name that only makes up for what a relative of a stronger law leaves: without
+/// it that law's strength varies by more than the name explains.
+bool Search::uncover_relatives() {
+  constexpr double kFaint = 6.0;  // prices
+  if (study_.axis || study_.is_static() || study_.without.omnibus) return false;
+  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+    if (fit_.members[m].fixed || net_gain(m) > kFaint * setting_->price) continue;
+    const JointFit& rest = without(m);
+    const double needed = kModulated + setting_->price + std::max(0.0, net_gain(m));
+    for (const double strength : modulations(*setting_, rest)) {
+      if (strength < needed || strength < kLeastDoubt * explained(false)) continue;
+      settle(std::vector<Member>(rest.members));
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Takes back what a remainder nobody can name makes doubtful: events, and members that fit in some
 /// places and not in others.
 void Search::judge() {
@@ -131,7 +149,7 @@ void Search::judge() {
   if (study_.axis) keep_what_carries_over();
   remains_ = is_alarming_now();
   if (remains_ && (loosen() || admit_flicker())) remains_ = false;
-  if (!remains_ && !take_back_relatives()) return;
+  if (!remains_ && !take_back_relatives() && !uncover_relatives()) return;
   remains_ = true;
   say("something is left that no effect explains: names are tested again");
   if (events_allowed_) {
@@ -193,16 +211,18 @@ void Search::keep_what_carries_over() {
 std::vector<std::vector<std::string>> Search::alternatives() const {
   constexpr double kNear = 12.0;        // of chi-square
   constexpr double kLeastOfMore = 0.5;  // of the price of a number
+  constexpr double kBend = 0.06;        // of a gain: what another bend of a law is worth
+  const auto kind_of = [](const Member& member) { return std::string(member.kind->kind); };
   const double price = setting_->price;
   std::vector<std::vector<std::string>> all(fit_.members.size());
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     const Member& own = fit_.members[m];
     if (own.fixed) continue;
     const JointFit& rest = without(m);
-    const double net = net_gain(m);
+    const double net = net_gain(m), own_gain = rest.chi2 - fit_.chi2;
     for (const Trial& trial : others(m)) {
       if (trial.member.kind == own.kind ||
-          trial.net_gain() < net - std::max(0.2 * kNear * price, doubt(trial))) {
+          trial.net_gain() < net - std::max(0.4 * kNear * price, doubt(trial))) {
         continue;
       }
       std::vector<Member> members = rest.members;
@@ -211,8 +231,12 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
       // One that needs more numbers holds the named one as a special case: where they gain nothing,
       // nothing speaks for it.
       const int more = trial.member.parameters() - own.parameters();
-      const double least =
-          more > 0 ? kLeastOfMore * price * more : price * more - 0.1 * kNear * price;
+      const double near = 0.1 * kNear * price;
+      double least = more > 0 ? kLeastOfMore * price * more : price * more - near;
+      // A small force hides how it bends.
+      const bool same_family =
+          trial.member.axis == own.axis && kind_of(trial.member) == kind_of(own);
+      if (more > 0 && same_family) least = std::min(least, kBend * own_gain - near);
       if (fit_.chi2 - other.chi2 > least &&
           std::find(all[m].begin(), all[m].end(), trial.member.name()) == all[m].end()) {
         all[m].push_back(trial.member.name());
