@@ -34,7 +34,7 @@ class DenseStep final : public PlanStep {
   }
 
   void run(const Real* x, Real* y) noexcept override { dense_of_one(layers_, x, y); }
-  bool run_many(const Real* x, Index n, Real* y) const noexcept override {
+  bool run_many(const Real* x, Index n, Real* y) noexcept override {
     dense_of_many(layers_, x, n, y);
     return true;
   }

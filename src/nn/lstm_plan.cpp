@@ -18,10 +18,11 @@ class LstmStep final : public PlanStep {
         weights_(std::move(weights)),
         bias_({weights_.padded_columns()}),
         input_({weights_.padded_columns()}),
-        gates_({(slides() ? std::min(kTogether, shape.steps) : 1) * weights_.padded_columns() +
-                LstmOnline::kSlack}),
+        gates_({kTogether * weights_.padded_columns() + LstmOnline::kSlack}),
         joined_({shape.inputs + row_}),
         c_({row_}),
+        many_joined_({kTogether, shape.inputs + row_}),
+        many_c_({kTogether, shape.inputs + row_}),
         window_h_({slides() ? shape.steps : 0, row_}),
         window_c_({slides() ? shape.steps : 0, row_}) {
     std::ranges::copy(bias.values(), bias_.data());
@@ -36,6 +37,23 @@ class LstmStep final : public PlanStep {
     if (!shape_.sequence) put_h(y);
   }
 
+  Index together() const override { return kTogether; }
+  bool run_many(const Real* x, Index n, Real* y) noexcept override {
+    if (n == 1) return false;
+    const Index units = shape_.units, row = many_joined_.dim(1);
+    Real* h = many_joined_.data() + shape_.inputs;
+    std::fill_n(many_c_.data(), n * row, Real(0));
+    for (Index t = 0; t < shape_.steps; ++t) {
+      advance_many(x + t * shape_.inputs, n, t > 0);
+      if (t + 1 < shape_.steps && !shape_.sequence) continue;
+      for (Index i = 0; i < n; ++i) {
+        std::copy_n(h + i * row, units,
+                    y + i * shape_.outputs() + (shape_.sequence ? t * units : 0));
+      }
+    }
+    return true;
+  }
+
   void slide(const Real* x, bool begins, Real* y) noexcept override {
     if (!slides()) return run(x, y);
     if (begins) return begin_windows(x, y);
@@ -46,7 +64,7 @@ class LstmStep final : public PlanStep {
   }
 
  private:
-  /// As many windows in one product as fill the tile's registers twice.
+  /// As many windows or samples in one product as fill the tile's registers twice.
   static constexpr Index kTogether = 26;
 
   bool slides() const { return shape_.steps > 1 && !shape_.sequence; }
@@ -67,6 +85,26 @@ class LstmStep final : public PlanStep {
                        .start_row = 0,
                        .padded = true});
     lstm_online({1, shape_.units, gates_.data(), weights_.padded_columns(), c_.data(), h(), row_});
+  }
+
+  /// n samples by the row x of each, the weights read once for all.
+  void advance_many(const Real* x, Index n, bool recurs) {
+    const Index inputs = shape_.inputs, row = many_joined_.dim(1);
+    Real* joined = many_joined_.data();
+    for (Index i = 0; i < n; ++i) {
+      std::copy_n(x + i * shape_.steps * inputs, inputs, joined + i * row);
+    }
+    weights_.multiply({.a = joined,
+                       .a_row = row,
+                       .rows = n,
+                       .depth = recurs ? shape_.joined() : inputs,
+                       .out = gates_.data(),
+                       .out_row = weights_.padded_columns(),
+                       .start = bias_.data(),
+                       .start_row = 0,
+                       .padded = true});
+    lstm_online({n, shape_.units, gates_.data(), weights_.padded_columns(), many_c_.data(),
+                 joined + inputs, row});
   }
 
   /// All rows of x are the same: a younger window has seen what an older one had seen earlier.
@@ -125,6 +163,7 @@ class LstmStep final : public PlanStep {
   Panels weights_;
   Tensor bias_, input_, gates_;  // bias, its sum with the newest row's products; (rows, gates)
   Tensor joined_, c_;            // x_t | h_(t-1) and c of one window from its begin
+  Tensor many_joined_, many_c_;  // the same of many, at equal steps
   Tensor window_h_, window_c_;   // (T, row_) of the windows that slide
   Index oldest_ = 0;             // the window that the next row completes
 };

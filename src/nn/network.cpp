@@ -120,7 +120,7 @@ Plan Network::plan() const {
   const Network network = folded();
   const NoGradient guard;
   Pass pass;
-  Plan plan;
+  Plan plan(element_count(input_));
   PlanStep* before = nullptr;
   Tensor x(with_batch(input_));
   for (const auto& layer : network.stack_) {

@@ -18,11 +18,11 @@ class PlanStep {
   /// `begins`, else the window of the call before without its oldest row and with a new one. A step
   /// that keeps what it computed of the others gives the same bits.
   virtual void slide(const Real* x, bool /*begins*/, Real* y) noexcept { run(x, y); }
-  /// y (n, outputs) of x (n, inputs), for a network that is this step alone; false where samples
-  /// are best taken one by one. Several threads may be in it at once.
-  virtual bool run_many(const Real* /*x*/, Index /*n*/, Real* /*y*/) const noexcept {
-    return false;
-  }
+  /// y (n, outputs) of x (n, inputs), n up to together() where that is more than one; false where
+  /// samples are best taken one by one. What a sample gives does not depend on the others.
+  virtual bool run_many(const Real* /*x*/, Index /*n*/, Real* /*y*/) noexcept { return false; }
+  /// How many samples it gains by; a network whose steps all say 1 keeps one sample in the cache.
+  virtual Index together() const { return 1; }
   /// Takes a ReLU or tanh of its outputs into itself; false where it cannot.
   virtual bool absorb_relu() { return false; }
   virtual bool absorb_tanh() { return false; }
@@ -33,25 +33,27 @@ class PlanStep {
 /// Made by Network::plan(). Holds copies of the weights.
 class Plan {
  public:
+  explicit Plan(Index inputs) : inputs_(inputs), outputs_(inputs) {}
   /// The next operation, which makes so many values; null where the layer does nothing.
   void add(std::unique_ptr<PlanStep> step, Index outputs);
   Index outputs() const { return outputs_; }
   /// The network's output for one sample, valid until the next call.
   const Real* run(const Real* x) noexcept;
-  /// y (n, outputs) of x (n, inputs), where it can have many at once: see PlanStep::run_many().
-  bool run_many(const Real* x, Index n, Real* y) const noexcept {
-    return steps_.size() == 1 && steps_.front()->run_many(x, n, y);
-  }
+  /// y (n, outputs) of x (n, inputs): what run() gives for each.
+  void run_many(const Real* x, Index n, Real* y) noexcept;
   /// run() for a window that slides (PlanStep::slide()); run() in between does not disturb it.
   const Real* slide(const Real* x, bool begins) noexcept;
 
  private:
+  void run_together(const Real* x, Index n, Real* y) noexcept;
   template <class First>
   const Real* run_after(const Real* x, const First& first) noexcept;
 
   std::vector<std::unique_ptr<PlanStep>> steps_;
-  Index outputs_ = 0;
-  Tensor from_, to_;  // each as large as the largest output
+  std::vector<Index> outputs_of_;  // of each step
+  Index inputs_, outputs_, together_ = 1;
+  Tensor from_, to_;            // each as large as the largest output
+  Tensor many_from_, many_to_;  // of together_ samples
 };
 
 }  // namespace dcnn
