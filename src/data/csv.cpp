@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <set>
 #include <string_view>
 
@@ -150,16 +151,19 @@ const char* plain_decimal(const char* p, const char* end, double* value) {
   return p;
 }
 
-/// Reads the rows of one file into row-major cells.
+/// Reads the rows of one file into blocks of rows, which never move and are turned into columns
+/// while the cache holds them.
 class Rows {
  public:
   Rows(const LineReader& reader, const std::vector<std::string>& columns)
       : reader_(reader), columns_(columns) {}
 
   void add(std::string_view line) {
-    const std::size_t before = cells_.size();
-    cells_.resize(before + columns_.size());
-    double* cell = cells_.data() + before;
+    const Index row = count_++ % kBlockRows;
+    if (row == 0) {
+      blocks_.emplace_back(new double[static_cast<std::size_t>(kBlockRows) * columns_.size()]);
+    }
+    double* cell = blocks_.back().get() + static_cast<std::size_t>(row) * columns_.size();
     const char* begin = line.data();
     const char* const end = begin + line.size();
     for (std::size_t k = 0; k < columns_.size(); ++k) {
@@ -174,10 +178,15 @@ class Rows {
   Eigen::MatrixXd values() const {
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const auto columns = static_cast<Index>(columns_.size());
-    return Eigen::Map<const RowMajor>(cells_.data(), static_cast<Index>(cells_.size()) / columns,
-                                      columns);
+    Eigen::MatrixXd values(count_, columns);
+    for (Index begin = 0; begin < count_; begin += kBlockRows) {
+      const Index rows = std::min(kBlockRows, count_ - begin);
+      const double* block = blocks_[static_cast<std::size_t>(begin / kBlockRows)].get();
+      values.middleRows(begin, rows) = Eigen::Map<const RowMajor>(block, rows, columns);
+    }
+    return values;
   }
-  bool empty() const { return cells_.empty(); }
+  bool empty() const { return count_ == 0; }
 
  private:
   /// The cell from `begin` on where it is no plain decimal: exponents, spaces and '+', or an error.
@@ -211,7 +220,9 @@ class Rows {
 
   const LineReader& reader_;
   const std::vector<std::string>& columns_;
-  std::vector<double> cells_;
+  static constexpr Index kBlockRows = 512;
+  Index count_ = 0;
+  std::vector<std::unique_ptr<double[]>> blocks_;
 };
 
 }  // namespace
@@ -230,7 +241,9 @@ Table read_csv(const std::filesystem::path& path) {
       if (blank == 0) blank = reader.number();
       continue;
     }
-    require(blank == 0, Exit::kData, reader.place(blank), ": blank line between rows; remove it");
+    if (blank != 0) {
+      fail(Exit::kData, reader.place(blank), ": blank line between rows; remove it");
+    }
     rows.add(line);
   }
   require(!rows.empty(), Exit::kData, reader.name(), ": has a header row but no samples");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "data/feature_blocks.h"
+#include "data/rows.h"
 #include "dcnn/data/pose_noise.h"
 
 namespace dcnn {
@@ -174,10 +175,10 @@ Features make_features(const Recording& recording, const FeatureLayout& layout) 
   }
   features.x = wrist_features(recording, layout, blocks);
   if (layout.spec.set == Set::kPose) {
-    for (Index i = 0; i < recording.samples(); ++i) {
+    for_each_row(recording.samples(), [&](Index i) {
       features.valid[static_cast<std::size_t>(i)] =
           std::abs(std::cos(features.x(i, 1))) >= kSingular;
-    }
+    });
   }
   return features;
 }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "data/rows.h"
+
 namespace dcnn {
 namespace {
 
@@ -42,11 +44,14 @@ double nearest_turn(double angle, double near) {
 }
 
 void unwrap(Eigen::Ref<Eigen::MatrixXd> angles) {
-  for (Index column = 0; column < angles.cols(); ++column) {
+  constexpr double kSurelyLess = 3.14;  // than half a turn: rounding would leave the angle alone
+  for_each_piece(angles.cols(), [&](Index column) {
     for (Index i = 1; i < angles.rows(); ++i) {
-      angles(i, column) = nearest_turn(angles(i, column), angles(i - 1, column));
+      double& angle = angles(i, column);
+      const double before = angles(i - 1, column);
+      if (!(std::abs(angle - before) < kSurelyLess)) angle = nearest_turn(angle, before);
     }
-  }
+  });
 }
 
 Eigen::MatrixXd quaternions(const Recording& recording) {
@@ -57,9 +62,9 @@ Eigen::MatrixXd quaternions(const Recording& recording) {
   } else {
     const Eigen::MatrixXd euler = recording.block(kEuler);
     q.resize(euler.rows(), 4);
-    for (Index i = 0; i < euler.rows(); ++i) {
+    for_each_row(euler.rows(), [&](Index i) {
       q.row(i) = quaternion_from_euler(euler(i, 0), euler(i, 1), euler(i, 2));
-    }
+    });
   }
   for (Index i = 1; i < q.rows(); ++i) {
     if (q.row(i).dot(q.row(i - 1)) < 0.0) q.row(i) = -q.row(i);
@@ -72,9 +77,9 @@ Eigen::MatrixXd euler_angles(const Recording& recording) {
   if (recording.has_all(kQuaternion)) {
     const Eigen::MatrixXd q = quaternions(recording);
     euler.resize(q.rows(), 3);
-    for (Index i = 0; i < q.rows(); ++i) {
+    for_each_row(q.rows(), [&](Index i) {
       euler.row(i) = euler_from_rotation(rotation_from_quaternion(q.row(i).transpose()));
-    }
+    });
   } else {
     euler = recording.block(kEuler);
   }
@@ -85,9 +90,9 @@ Eigen::MatrixXd euler_angles(const Recording& recording) {
 std::vector<Eigen::Matrix3d> rotations(const Recording& recording) {
   const Eigen::MatrixXd q = quaternions(recording);
   std::vector<Eigen::Matrix3d> R(static_cast<std::size_t>(q.rows()));
-  for (Index i = 0; i < q.rows(); ++i) {
+  for_each_row(q.rows(), [&](Index i) {
     R[static_cast<std::size_t>(i)] = rotation_from_quaternion(q.row(i).transpose());
-  }
+  });
   return R;
 }
 

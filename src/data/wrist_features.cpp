@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "data/feature_blocks.h"
+#include "data/rows.h"
 #include "dcnn/data/rotation.h"
 
 namespace dcnn {
@@ -72,9 +73,8 @@ bool needs(const std::vector<Block>& blocks, const Recording& recording, Quantit
 /// Multiplies every row by its own matrix.
 template <class MatrixOf>
 void turn_rows(MatrixXd& rows, const MatrixOf& matrix_of) {
-  for (Index i = 0; i < rows.rows(); ++i) {
-    rows.row(i) = (matrix_of(i) * rows.row(i).transpose()).eval();
-  }
+  for_each_row(rows.rows(),
+               [&](Index i) { rows.row(i) = (matrix_of(i) * rows.row(i).transpose()).eval(); });
 }
 
 /// The paper's set: Euler angles and their rates, linear rates in B.
@@ -87,14 +87,14 @@ Motion pose_motion(const Recording& recording, const FeatureLayout& layout,
   const auto euler_of = [&](Index i) -> Vector3d { return euler.row(i).transpose(); };
   const Matrix3d R_ES = rotation_from_euler(layout.spec.sensor_rotation_rpy.reverse());
   if (needs(blocks, recording, Quantity::kVelocity, Quantity::kAcceleration)) {
-    const Derivatives rates = differentiate(recording.block(kPosition), recording, derivative);
-    motion.velocity = rates.first;
-    motion.acceleration = rates.second;
+    Derivatives rates = differentiate(recording.block(kPosition), recording, derivative);
+    motion.velocity = std::move(rates.first);
+    motion.acceleration = std::move(rates.second);
   }
   if (recording.dt > 0.0) {
-    const Derivatives rates = differentiate(euler, recording, derivative);
-    motion.angular_velocity = rates.first;
-    motion.angular_acceleration = rates.second;
+    Derivatives rates = differentiate(euler, recording, derivative);
+    motion.angular_velocity = std::move(rates.first);
+    motion.angular_acceleration = std::move(rates.second);
   }
   const auto R_BS = [&](Index i) -> Matrix3d { return rotation_from_euler(euler_of(i)) * R_ES; };
   if (recording.has_all(kV)) turn_rows(motion.velocity = recording.block(kV), R_BS);
@@ -107,23 +107,39 @@ Motion pose_motion(const Recording& recording, const FeatureLayout& layout,
   if (recording.has_all(kAlpha) && motion.angular_velocity.rows() > 0) {
     // alpha_E = W·accelerations + dW/dt·rates, in S as measured.
     MatrixXd alpha = recording.block(kAlpha);
-    for (Index i = 0; i < alpha.rows(); ++i) {
+    for_each_row(alpha.rows(), [&](Index i) {
       const Vector3d rates = motion.angular_velocity.row(i).transpose();
       const Vector3d turning = euler_rate_matrix_derivative(euler_of(i), rates) * rates;
       alpha.row(i) -= (R_ES.transpose() * turning).transpose();
-    }
+    });
     turn_rows(alpha, to_rates);
     motion.angular_acceleration = alpha;
   }
   return motion;
 }
 
-MatrixXd angular_rates(const MatrixXd& q, const MatrixXd& rate, const Matrix3d& R_SE) {
-  MatrixXd out(q.rows(), 3);
-  for (Index i = 0; i < q.rows(); ++i) {
-    out.row(i) = (R_SE * angular_rate(q.row(i).transpose(), rate.row(i).transpose())).transpose();
-  }
-  return out;
+/// The same for several at once: a matrix costs more than its products.
+template <class MatrixOf>
+void turn_rows(const std::vector<MatrixXd*>& all, const MatrixOf& matrix_of) {
+  for_each_row(all.front()->rows(), [&](Index i) {
+    const Matrix3d R = matrix_of(i);
+    for (MatrixXd* rows : all) {
+      const Vector3d v((*rows)(i, 0), (*rows)(i, 1), (*rows)(i, 2));
+      for (Index k = 0; k < 3; ++k) {
+        (*rows)(i, k) = R(k, 0) * v[0] + R(k, 1) * v[1] + R(k, 2) * v[2];
+      }
+    }
+  });
+}
+
+/// Into the first three columns of `rate`, derivatives of q.
+void to_angular_rates(const MatrixXd& q, MatrixXd& rate, const Matrix3d& R_SE) {
+  for_each_row(q.rows(), [&](Index i) {
+    const Eigen::Vector4d at(q(i, 0), q(i, 1), q(i, 2), q(i, 3));
+    const Eigen::Vector4d turning(rate(i, 0), rate(i, 1), rate(i, 2), rate(i, 3));
+    const Vector3d w = R_SE * angular_rate(at, turning);
+    for (Index k = 0; k < 3; ++k) rate(i, k) = w[k];
+  });
 }
 
 /// Everything in S.
@@ -136,17 +152,21 @@ Motion body_motion(const Recording& recording, const FeatureLayout& layout,
     return R_SE * rotation_from_quaternion(q.row(i)).transpose();
   };
   motion.orientation = Vector3d::UnitZ().transpose().replicate(q.rows(), 1);
-  turn_rows(motion.orientation, R_SB);
+  std::vector<MatrixXd*> turned{&motion.orientation};
   if (needs(blocks, recording, Quantity::kVelocity, Quantity::kAcceleration)) {
     Derivatives rates =
         differentiate(recording.block(kPosition), recording, layout.spec.derivative);
-    turn_rows(motion.velocity = std::move(rates.first), R_SB);
-    turn_rows(motion.acceleration = std::move(rates.second), R_SB);
+    motion.velocity = std::move(rates.first);
+    motion.acceleration = std::move(rates.second);
+    turned.insert(turned.end(), {&motion.velocity, &motion.acceleration});
   }
+  turn_rows(turned, R_SB);
   if (needs(blocks, recording, Quantity::kAngularVelocity, Quantity::kAngularAcceleration)) {
-    const Derivatives rates = differentiate(q, recording, layout.spec.derivative);
-    motion.angular_velocity = angular_rates(q, rates.first, R_SE);
-    motion.angular_acceleration = angular_rates(q, rates.second, R_SE);
+    Derivatives rates = differentiate(q, recording, layout.spec.derivative);
+    motion.angular_velocity = std::move(rates.first);
+    motion.angular_acceleration = std::move(rates.second);
+    to_angular_rates(q, motion.angular_velocity, R_SE);
+    to_angular_rates(q, motion.angular_acceleration, R_SE);
   }
   if (recording.has_all(kV)) motion.velocity = recording.block(kV);
   if (recording.has_all(kOmega)) motion.angular_velocity = recording.block(kOmega);
@@ -200,9 +220,10 @@ MatrixXd wrist_features(const Recording& recording, const FeatureLayout& layout,
   const Motion motion =
       body ? body_motion(recording, layout, blocks) : pose_motion(recording, layout, blocks);
   MatrixXd x(recording.samples(), static_cast<Index>(3 * blocks.size()));
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    x.middleCols<3>(static_cast<Index>(3 * k)) = motion.of(blocks[k].quantity);
-  }
+  for_each_piece(x.cols(), [&](Index column) {
+    const Block& block = blocks[static_cast<std::size_t>(column / 3)];
+    x.col(column) = motion.of(block.quantity).col(column % 3);
+  });
   return x;
 }
 
