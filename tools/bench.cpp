@@ -4,6 +4,7 @@
 
 #include "dcnn/core/file.h"
 #include "dcnn/experiment/peers.h"
+#include "support/interrupt.h"
 #include "support/progress.h"
 #include "support/tool.h"
 
@@ -20,15 +21,21 @@ constexpr const char* kExamples =
 
 Peers compare(const PeersRequest& request, bool quiet) {
   Progress bar(quiet);
-  const Peers peers = compare_with_peers(
-      request, [&](double done, const std::string& what) { bar.update(done, what); });
-  bar.clear();
-  return peers;
+  try {
+    const Peers peers = compare_with_peers(
+        request, [&](double done, const std::string& what) { bar.update(done, what); });
+    bar.clear();
+    return peers;
+  } catch (const Error&) {
+    if (interrupted()) die_of_interrupt();
+    throw;
+  }
 }
 
 Bench time(const BenchRequest& request, bool quiet) {
   Progress bar(quiet);
   const Bench result = bench(request, [&](int done, int total) {
+    if (interrupted()) die_of_interrupt();
     bar.update(double(done) / total, std::to_string(done) + "/" + std::to_string(total));
   });
   bar.clear();
@@ -61,6 +68,11 @@ int main(int argc, char** argv) {
   tool.flag("--peers", with_peers,
             "beside ONNX Runtime, oneDNN and libtorch, as far as they are there "
             "(tools/install-deps --peers): the paper's networks, or those of the models");
+  tool.option("--networks", peers_request.networks,
+              "with --peers and no model: these of the paper's networks and trainings alone")
+      .separated_by_commas()
+      .one_of({"dcnn-valid", "dcnn-same", "lstm-1", "lstm-10", "lstm-25", "lstm-25-online",
+               "ffnn-s", "ffnn-m"});
   tool.option("--rounds", peers_request.rounds, "with --peers: turns of every library in a row")
       .between(1, 1000)
       .with_default();
@@ -82,6 +94,8 @@ int main(int argc, char** argv) {
       peers_request.helpers = std::filesystem::read_symlink("/proc/self/exe").parent_path();
       peers_request.seed = request.seed;
       if (lengths.given()) peers_request.batches = request.lengths;
+      peers_request.stop_wanted = interrupted;
+      catch_interrupts();  // its folder goes with it
       peers = compare(peers_request, quiet);
     }
     const Bench result = time(request, quiet);

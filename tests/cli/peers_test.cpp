@@ -101,7 +101,7 @@ TEST(Peers, AgreeWithOursWhereTheyAreHere) {
   const Json peers = parse_json(result.out, "bench", Exit::kFailure)["peers"];
   EXPECT_EQ(peers["agree"], true);
   EXPECT_EQ(peers["peers"].size(), 3U);
-  ASSERT_EQ(peers["rows"].size(), 12U);
+  ASSERT_EQ(peers["rows"].size(), 13U);
   std::size_t here = 0;
   for (const Json& peer : peers["peers"]) here += peer["missing"].is_null();
   for (const Json& row : peers["rows"]) {
@@ -115,6 +115,25 @@ TEST(Peers, AgreeWithOursWhereTheyAreHere) {
   const std::string page = test::slurp(folder / "out" / "bench.html");
   EXPECT_NE(page.find("Beside other libraries"), std::string::npos);
   if (here == 0) GTEST_SKIP() << "no library is here (tools/install-deps --peers)";
+}
+
+TEST(Peers, CtrlCLeavesNoFolder) {
+  const test::TemporaryFolder folder;
+  const auto is_there = [&] {  // others leave files of their own
+    return std::ranges::any_of(fs::directory_iterator(folder.path()), [](const auto& entry) {
+      return entry.path().filename().string().starts_with("dcnn-peers-");
+    });
+  };
+  const test::Process bench("bench", {"--peers", "--lengths", "1", "--epochs", "0", "--quiet"},
+                            {.environment = {"TMPDIR=" + folder.path().string()}});
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!is_there() && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  ASSERT_TRUE(is_there());
+  bench.signal(SIGINT);
+  EXPECT_EQ(bench.wait().exit_code, 128 + SIGINT);
+  EXPECT_FALSE(is_there());
 }
 
 TEST(Peers, CountProductsThatMeetTheImageAlone) {

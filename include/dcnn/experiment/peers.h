@@ -17,11 +17,14 @@ struct PeersRequest {
   /// Trained models whose networks are compared; without, the networks of the paper with drawn
   /// weights (times do not depend on them).
   std::vector<std::filesystem::path> models;
+  /// Of the paper's networks and trainings those of these names alone; all where there is none.
+  std::vector<std::string> networks;
   std::filesystem::path helpers;  ///< folder with the programs dcnn-peer-<library>
   std::vector<Index> batches{1, 10, 100, 1000, 10000, kPaperTestSamples};  ///< samples per call
   int rounds = 25;  ///< turns of every library for each row
   int epochs = 3;   ///< epochs of each in turn for each network that is trained; 0 for none
   std::uint64_t seed = 1;
+  std::function<bool()> stop_wanted;  ///< asked before every row; may be empty
 };
 
 /// A library, or why it is not there.
@@ -85,6 +88,8 @@ struct Peers {
   bool agree() const;  ///< no difference is beyond the tolerance
 };
 
+/// Works in a temporary folder, which is gone when it ends; Error(kFailure) where a stop was
+/// wanted.
 Peers compare_with_peers(const PeersRequest& request,
                          const std::function<void(double done, const std::string& what)>& progress);
 

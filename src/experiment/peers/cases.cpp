@@ -1,5 +1,7 @@
 #include "experiment/peers/cases.h"
 
+#include <algorithm>
+
 #include "dcnn/core/file.h"
 #include "dcnn/models/onnx.h"
 #include "experiment/peers/training.h"
@@ -51,6 +53,7 @@ std::vector<PeerCase> paper_cases(std::uint64_t seed) {
   for (const Task& task : {dcnn_task("valid"), dcnn_task("same"), lstm_task(1), lstm_task(25)}) {
     cases.push_back({task.name, Network(task.layers, task.input, rng).folded()});
   }
+  cases.push_back({"lstm-25-online", cases.back().network.folded(), true});
   cases.push_back(shallow_case("ffnn-s", {20}, rng));
   cases.push_back(shallow_case("ffnn-m", {9, 6}, rng));
   return cases;
@@ -58,8 +61,17 @@ std::vector<PeerCase> paper_cases(std::uint64_t seed) {
 
 }  // namespace
 
+bool is_asked(const PeersRequest& request, const std::string& network) {
+  const auto& names = request.networks;
+  return names.empty() || std::ranges::find(names, network) != names.end();
+}
+
 std::vector<PeerCase> peer_cases(const PeersRequest& request, std::vector<std::string>& notes) {
-  if (request.models.empty()) return paper_cases(request.seed);
+  if (request.models.empty()) {
+    auto cases = paper_cases(request.seed);
+    std::erase_if(cases, [&](const PeerCase& c) { return !is_asked(request, c.name); });
+    return cases;
+  }
   std::vector<PeerCase> cases;
   for (const auto& path : request.models) {
     const Identifier identifier = read_identifier(path);
@@ -92,6 +104,17 @@ Tensor drawn_samples(const Network& network, Index samples, std::uint64_t seed) 
   Tensor x(shape);
   Rng rng({seed, 0x5a3});
   for (Real& value : x.values()) value = static_cast<Real>(rng.normal());
+  return x;
+}
+
+Tensor drawn_windows(const Network& network, Index samples, std::uint64_t seed) {
+  Tensor x = drawn_samples(network, samples, seed);
+  const Index cells = x.size() / samples, row = cells / network.input()[0];
+  for (Index k = row; k < cells; ++k) x.data()[k] = x.data()[k - row];
+  for (Index i = 1; i < samples; ++i) {
+    Real* window = x.data() + i * cells;
+    std::copy_n(window - cells + row, cells - row, window);
+  }
   return x;
 }
 

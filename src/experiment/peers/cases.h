@@ -13,11 +13,17 @@ namespace dcnn {
 struct PeerCase {
   std::string name;
   Network network;  ///< folded
+  /// The samples are a window (rows, …) that slides over a stream by one row a call, as it does
+  /// online; one sample a call alone.
+  bool slides = false;
 };
 
 /// The networks of the request's models, or those of the paper: dcnn valid, dcnn same, lstm (one
-/// row), lstm-25, ffnn-s, ffnn-m. A model without a plain network becomes a note.
+/// row), lstm-25, the same online, ffnn-s, ffnn-m. A model without a plain network becomes a note.
 std::vector<PeerCase> peer_cases(const PeersRequest& request, std::vector<std::string>& notes);
+
+/// Whether request.networks has this name, or none.
+bool is_asked(const PeersRequest& request, const std::string& network);
 
 /// Multiply-adds of one prediction; those with the zeros around an image and with the zero state
 /// before a window do not count.
@@ -25,6 +31,8 @@ double products(const Network& network);
 
 /// Standard normal inputs of so many samples.
 Tensor drawn_samples(const Network& network, Index samples, std::uint64_t seed);
+/// Windows that slide over standard normal rows, of which the first ones are all the same.
+Tensor drawn_windows(const Network& network, Index samples, std::uint64_t seed);
 
 /// Writes the files of a case into a folder: samples as floats, the network as ONNX and as tensors
 /// by their names with metadata `layers` and `input`.

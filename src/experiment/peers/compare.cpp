@@ -21,6 +21,7 @@ class Comparison {
       : request_(request), progress_(progress), threads_(threads()) {}
 
   Peers run() {
+    go_on();
     const auto cases = peer_cases(request_, result_.notes);
     helpers_ = open_helpers(request_.helpers, workplace_.path, result_.peers);
     prepare_hosts();
@@ -36,6 +37,10 @@ class Comparison {
   }
 
  private:
+  void go_on() const {
+    if (request_.stop_wanted && request_.stop_wanted()) fail(Exit::kFailure, "stopped");
+  }
+
   /// Those whose calls go through a host get a network that does nothing: one value flattened.
   void prepare_hosts() {
     Rng rng(0);
@@ -70,13 +75,16 @@ class Comparison {
 
   void compare(const PeerCase& what) {
     const double each = products(what.network);
-    const auto chosen = batches(each);
+    auto chosen = batches(each);
+    if (what.slides) std::erase_if(chosen, [](Index batch) { return batch != 1; });
     if (chosen.empty()) return;
     const Index most = std::max<Index>(kCompared, *std::ranges::max_element(chosen));
-    const Tensor x = drawn_samples(what.network, most, request_.seed);
+    const Tensor x =
+        (what.slides ? drawn_windows : drawn_samples)(what.network, most, request_.seed);
     write_case(workplace_.path, what.network, x);
     for (const Index batch : chosen) {
       for (const int threads : {1, threads_}) {
+        go_on();
         if (threads > 1 && batch < kThreadedBatch) continue;
         compare(what, x, batch, threads);
         if (threads_ == 1) break;
@@ -90,7 +98,7 @@ class Comparison {
     row.batch = batch;
     row.threads = threads;
     row.products = products(what.network) * static_cast<double>(batch);
-    Ours ours(what.network, x, batch, threads);
+    Ours ours(what, x, batch, threads);
     const std::vector<double> wanted = ours.outputs(kCompared);
     std::map<std::string, double> differences;
     guarded([&](const Helper& helper) {
@@ -152,7 +160,9 @@ class Comparison {
 
   void train() {
     for (const char* network : {"dcnn-valid", "dcnn-same", "lstm-1", "lstm-10", "lstm-25"}) {
+      if (!is_asked(request_, network)) continue;
       if (progress_) progress_(1.0, std::string("epochs of ") + network);
+      go_on();
       guarded([&](Helper& helper) {
         if (!helper.peer.trains) return;
         result_.epochs.push_back(

@@ -58,18 +58,20 @@ double median_of(std::vector<double> values) {
   return values.size() % 2 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-Ours::Ours(const Network& network, const Tensor& samples, Index batch, int threads)
+Ours::Ours(const PeerCase& what, const Tensor& samples, Index batch, int threads)
     : samples_(samples),
-      y_({batch, element_count(network.shapes().back())}),
-      plan_(network.plan()),
-      batch_plan_(network),
+      y_({batch, element_count(what.network.shapes().back())}),
+      plan_(what.network.plan()),
+      batch_plan_(what.network),
       batch_(batch),
       cells_(samples.size() / samples.dim(0)),
       calls_(std::min<Index>(kMostDistinctCalls, samples.dim(0) / batch)),
-      threads_(threads) {}
+      threads_(threads),
+      slides_(what.slides) {}
 
 const Real* Ours::call(Index k) {
   const Real* x = samples_.data() + k % calls_ * batch_ * cells_;
+  if (slides_) return plan_.slide(x, k % calls_ == 0);
   if (batch_ == 1) return plan_.run(x);
   batch_plan_.run(x, batch_, y_.data());
   return y_.data();

@@ -7,6 +7,7 @@
 #include "dcnn/core/tensor.h"
 #include "dcnn/experiment/peers.h"
 #include "dcnn/nn/batch_plan.h"
+#include "experiment/peers/cases.h"
 #include "experiment/peers/child.h"
 
 namespace dcnn {
@@ -27,7 +28,7 @@ class Contestant {
 /// through the plan for batches.
 class Ours final : public Contestant {
  public:
-  Ours(const Network& network, const Tensor& samples, Index batch, int threads);
+  Ours(const PeerCase& what, const Tensor& samples, Index batch, int threads);
   double run(Index calls) override;
   std::vector<double> each(Index calls) override;
   /// Of the first `count` samples.
@@ -41,6 +42,7 @@ class Ours final : public Contestant {
   BatchPlan batch_plan_;
   Index batch_, cells_, calls_;
   int threads_;
+  bool slides_;
 };
 
 class Theirs final : public Contestant {
