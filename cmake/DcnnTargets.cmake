@@ -57,14 +57,17 @@ function(dcnn_add_library target)
     COMPILE_OPTIONS "${OpenMP_CXX_FLAGS}" SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=.*undefined")
     # Clang takes minutes over UBSan's checks of every access in these unrolled loops; ASan's stay.
-    set_source_files_properties(${PROJECT_SOURCE_DIR}/src/nn/kernels/fixed_convolution.cpp PROPERTIES
-      COMPILE_OPTIONS -fno-sanitize=undefined)
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/src/nn/kernels/fixed_convolution.cpp
+      ${PROJECT_SOURCE_DIR}/src/nn/kernels/pair_convolution.cpp PROPERTIES COMPILE_OPTIONS -fno-sanitize=undefined)
   endif()
   # Fixed alignment: a consumer compiled with -march=native must agree with us about Eigen's memory.
   # Threads are ours alone, in fixed pieces: Eigen's own would make results depend on their number.
   target_compile_definitions(${target} PUBLIC EIGEN_MAX_ALIGN_BYTES=16 EIGEN_DONT_PARALLELIZE
     PRIVATE DCNN_VERSION="${PROJECT_VERSION}"
             "HWY_DISABLED_TARGETS=(${DCNN_DISABLED_TARGETS})")
+  if(NOT DCNN_DISABLED_TARGETS MATCHES "HWY_AVX3([|]|$)")
+    target_compile_definitions(${target} PRIVATE DCNN_WITH_VNNI)  # nn/kernels/pair_convolution.cpp
+  endif()
   target_compile_features(${target} PUBLIC cxx_std_20)
   dcnn_compile_options(${target})
   if(DCNN_UNITE_ROOMS)

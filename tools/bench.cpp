@@ -80,12 +80,14 @@ int main(int argc, char** argv) {
               "with --peers and no model: training epochs of each in turns, 0 for none")
       .between(0, 100)
       .with_default();
+  const PrecisionFlag precision(tool);
   const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {
     require(with_peers || !request.models.empty(), Exit::kUsage,
             "no model; give a file written by dcnn-train, or --peers");
     request.read = read.options();
+    request.precision = precision.value();
     request.seed = tool.common().seed.value_or(1);
     const bool quiet = tool.common().quiet;
     std::optional<Peers> peers;  // first, while this process is on all processors

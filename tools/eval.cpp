@@ -64,6 +64,7 @@ int main(int argc, char** argv) {
       .one_of({"features", "pose"})
       .with_default();
   tool.option("--out", out, "folder for report.html and evaluation.json");
+  const PrecisionFlag precision(tool);
   const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {
@@ -72,6 +73,7 @@ int main(int argc, char** argv) {
     if (noise_on == "pose") request.noise_on = NoiseSpec::Signal::kPose;
     request.seed = tool.common().seed.value_or(1);
     request.read = read.options();
+    request.precision = precision.value();
     Progress bar(tool.common().quiet);
     const Evaluation evaluation = evaluate(request, [&](int done, int total) {
       bar.update(double(done) / total,

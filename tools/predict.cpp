@@ -16,8 +16,8 @@ constexpr const char* kExamples =
     "simulator\n";
 
 Recording predict_with_model(const std::filesystem::path& model, const std::filesystem::path& data,
-                             ReadOptions read) {
-  const Identifier identifier = read_identifier(model);
+                             ReadOptions read, Precision precision) {
+  const Identifier identifier = read_identifier(model, precision);
   read.static_list = identifier.layout.dt == 0.0;  // it was learned from poses at rest
   Recording recording = read_recording(data, read, identifier.layout.system);
   const Eigen::MatrixXd predicted = identifier.predict(recording);
@@ -79,6 +79,7 @@ int main(int argc, char** argv) {
   tool.option("--onnx", onnx,
               "write the model as ONNX: features in SI units to targets in theirs, for other "
               "runtimes");
+  const PrecisionFlag precision(tool);
   const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {
@@ -89,8 +90,11 @@ int main(int argc, char** argv) {
     ReadOptions options = read.options();
     options.motion_only = true;
     const bool simulator = model.extension() == ".json";
-    const Recording recording = simulator ? predict_with_simulator(model, *data, options)
-                                          : predict_with_model(model, *data, options);
+    require(!simulator || precision.value() == Precision::kSingle, Exit::kUsage,
+            "--precision int16 is for a trained model; ", model.string(), " is a simulator");
+    const Recording recording = simulator
+                                    ? predict_with_simulator(model, *data, options)
+                                    : predict_with_model(model, *data, options, precision.value());
     for (const auto& note : recording.notes) tool.note(note);
     write_csv(*out, recording.table);
     const Json summary = {{"rows", recording.samples()}, {"file", out->string()}};

@@ -101,6 +101,7 @@ int main(int argc, char** argv) {
       .positive()
       .needs(rehearse_option)
       .with_default();
+  const PrecisionFlag precision(tool);
   listen.needs(peer).needs(key);
   peer.needs(listen);
   key.needs(listen);
@@ -124,9 +125,11 @@ int main(int argc, char** argv) {
     if (is_simulator(model)) {
       require(fallback.empty(), Exit::kUsage, "--fallback steps in for a trained model; ",
               model.string(), " is a simulator itself");
+      require(precision.value() == Precision::kSingle, Exit::kUsage,
+              "--precision int16 is for a trained model; ", model.string(), " is a simulator");
       physics = read_fallback(model, drifts, tool);
     } else {
-      identifier = read_identifier(model);
+      identifier = read_identifier(model, precision.value());
       if (!fallback.empty())
         physics = read_fallback(fallback, drifts, tool);
       else if (identifier->base)

@@ -166,7 +166,7 @@ Bench bench(const BenchRequest& request, const std::function<void(int, int)>& pr
   int done = 0;
   const int total = static_cast<int>(2 * request.models.size() * request.lengths.size());
   for (const auto& path : request.models) {
-    const Identifier identifier = read_identifier(path);
+    const Identifier identifier = read_identifier(path, request.precision);
     const std::string file = path.filename().string();
     const Input input =
         request.data ? recorded_input(identifier, request) : drawn_input(identifier, request);

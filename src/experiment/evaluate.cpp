@@ -211,7 +211,7 @@ Evaluation evaluate(const EvaluationRequest& request,
   for (const auto& level : request.levels) per_model += level ? request.runs : 1;
 
   for (const auto& path : request.models) {
-    const Identifier identifier = read_identifier(path);
+    const Identifier identifier = read_identifier(path, request.precision);
     check_targets(evaluation, identifier, path.string());
     const auto& data = recordings.get(identifier.layout);
     const TestSet set = thinned(make_test_set(identifier, data), request.every);

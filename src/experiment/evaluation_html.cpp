@@ -152,6 +152,7 @@ void add_settings(HtmlReport& page, const Evaluation& evaluation,
       {"of them near the Euler singularity", std::to_string(evaluation.singular_samples)},
       {"noise seed", std::to_string(request.seed)},
       {"noise draws per level", std::to_string(request.runs)},
+      {"precision", request.precision == Precision::kInt16 ? "int16" : "single"},
       {"noise on", evaluation.noise}};
   for (const auto& path : request.models) {
     const Identifier identifier = read_identifier(path);

@@ -113,8 +113,14 @@ Identifier unpack(const Container& file, const std::string& where) {
   return identifier;
 }
 
-Identifier read_identifier(const std::filesystem::path& path) {
-  return unpack(read_container(path), path.string());
+Identifier read_identifier(const std::filesystem::path& path, Precision precision) {
+  Identifier identifier = unpack(read_container(path), path.string());
+  try {
+    if (precision != Precision::kSingle) identifier.model->set_precision(precision);
+  } catch (const Error& error) {
+    fail(error.exit(), path.string(), ": ", error.what());
+  }
+  return identifier;
 }
 
 }  // namespace dcnn

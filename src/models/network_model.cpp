@@ -148,7 +148,13 @@ void NetworkModel::fit_skip(const Samples& training) {
   scale_ = {Eigen::VectorXd::Zero(training.y.cols()), skip_->residual()};
 }
 
-void NetworkModel::refold() { batches_ = std::make_unique<BatchPlan>(*network_); }
+void NetworkModel::refold() { batches_ = std::make_unique<BatchPlan>(*network_, precision_); }
+
+void NetworkModel::set_precision(Precision precision) {
+  if (!network_) return Model::set_precision(precision);
+  precision_ = precision;
+  refold();
+}
 
 Eigen::MatrixXd NetworkModel::predict(const Stream& stream) const {
   constexpr Index kBlock = 520;  // 40 pieces of 13: activations stay in the cache

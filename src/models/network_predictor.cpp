@@ -54,7 +54,7 @@ std::unique_ptr<Predictor> NetworkModel::predictor() const {
   std::optional<LinearSkip> skip;
   if (skip_) skip = *skip_;
   std::optional<Plan> plan;
-  if (network_) plan = network_->plan();
+  if (network_) plan = network_->plan(precision_);
   return std::make_unique<NetworkPredictor>(input_->streaming(map_), std::move(skip),
                                             std::move(plan), scale_);
 }

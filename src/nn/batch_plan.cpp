@@ -10,10 +10,13 @@ constexpr Index kShare =
 
 }  // namespace
 
-BatchPlan::BatchPlan(const Network& network)
+BatchPlan::BatchPlan(const Network& network, Precision precision)
     : network_(network.folded()),
       cells_(element_count(network.input())),
-      outputs_(element_count(network.shapes().back())) {}
+      outputs_(element_count(network.shapes().back())),
+      precision_(precision) {
+  give_back(take());  // what cannot be is refused now
+}
 
 void BatchPlan::run(const Real* x, Index n, Real* y) const {
   const Index pieces = std::clamp<Index>(n / kShare, 1, threads());
@@ -39,7 +42,7 @@ std::unique_ptr<Plan> BatchPlan::take() const {
       return plan;
     }
   }
-  return std::make_unique<Plan>(network_.plan());
+  return std::make_unique<Plan>(network_.plan(precision_));
 }
 
 void BatchPlan::give_back(std::unique_ptr<Plan> plan) const {

@@ -18,6 +18,7 @@ class Conv2dStep final : public PlanStep {
   bool absorb_linear(const Tensor& weight, const Tensor& bias) override {
     return relu_ && plan_.absorb(weight, bias);
   }
+  bool use_int16() override { return relu_ && plan_.use_int16(); }
 
  private:
   ConvolutionPlan plan_;

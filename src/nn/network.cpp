@@ -116,7 +116,7 @@ Network Network::folded() const {
   return network;
 }
 
-Plan Network::plan() const {
+Plan Network::plan(Precision precision) const {
   const Network network = folded();
   const NoGradient guard;
   Pass pass;
@@ -129,6 +129,9 @@ Plan Network::plan() const {
     x = layer->forward(x, pass);
     plan.add(std::move(step), x.size());
   }
+  require(precision == Precision::kSingle || plan.use_int16(), Exit::kUsage,
+          "no layer of this network multiplies in 16-bit integers: those of dcnn at the paper's "
+          "sizes do; leave the precision at single");
   return plan;
 }
 

@@ -23,6 +23,12 @@ void Plan::add(std::unique_ptr<PlanStep> step, Index outputs) {
   for (Tensor* memory : {&many_from_, &many_to_}) enlarge(*memory, together_ * most);
 }
 
+bool Plan::use_int16() {
+  bool any = false;
+  for (const auto& step : steps_) any = step->use_int16() || any;
+  return any;
+}
+
 /// All steps, the first one by first(step, x, y).
 template <class First>
 const Real* Plan::run_after(const Real* x, const First& first) noexcept {

@@ -14,6 +14,7 @@ struct Case {
   std::string name, kind;
   Json model = Json::object();
   double tolerance = 1e-5;  // relative; 1e-9 for what is double throughout
+  Precision precision = Precision::kSingle;
 };
 
 std::vector<Case> cases() {
@@ -27,6 +28,7 @@ std::vector<Case> cases() {
   all.push_back({"cf_fourier", "cf", {{"form", "fourier"}}, 1e-9});
   all.push_back({"rigid_filtered", "rigid", {{"filter_s", 0.05}}, 1e-9});
   all.push_back({"dcnn_valid", "dcnn", {{"padding", "valid"}}});
+  all.push_back({"dcnn_int16", "dcnn", {{"padding", "valid"}}, 1e-3, Precision::kInt16});
   all.push_back({"dcnn_other", "dcnn", {{"filters", {3, 20}}, {"padding", "valid"}}});
   all.push_back({"dcnn_t_linear", "dcnn-t", {{"body", "none"}}});
   all.push_back({"dcnn_t_fixed", "dcnn-t", {{"input", {{"kind", "lines"}, {"adaptive", false}}}}});
@@ -47,6 +49,7 @@ class EveryPredictor : public testing::TestWithParam<Case> {
     if (training.contains("epochs")) training["epochs"] = 2;
     if (training.contains("batch")) training["batch"] = 50;
     model_ = test::fitted(GetParam().kind, task_);
+    if (GetParam().precision != Precision::kSingle) model_->set_precision(GetParam().precision);
     // Two segments, the second long enough for the longest filter.
     const Samples other =
         test::samples_of(test::exact_recording(tool, "multisine", kRows, 4), task_.problem);

@@ -117,4 +117,16 @@ ReadOptions ReadFlags::options() const {
   return options;
 }
 
+PrecisionFlag::PrecisionFlag(Tool& tool) {
+  tool.option("--precision", word_,
+              "what the model's convolutions multiply in: int16 is half again as fast, within the "
+              "error of docs/performance.md")
+      .one_of({"single", "int16"})
+      .with_default();
+}
+
+Precision PrecisionFlag::value() const {
+  return word_ == "int16" ? Precision::kInt16 : Precision::kSingle;
+}
+
 }  // namespace dcnn

@@ -9,6 +9,7 @@
 
 #include "dcnn/core/json.h"
 #include "dcnn/data/recording.h"
+#include "dcnn/nn/plan.h"
 #include "support/option.h"
 
 namespace dcnn {
@@ -61,6 +62,16 @@ class ReadFlags {
   std::string position_unit_ = "m", angle_unit_ = "rad";
   double force_sign_ = 1.0, resample_hz_ = 0.0;
   std::optional<Option> resample_;
+};
+
+/// --precision.
+class PrecisionFlag {
+ public:
+  explicit PrecisionFlag(Tool& tool);
+  Precision value() const;
+
+ private:
+  std::string word_ = "single";
 };
 
 }  // namespace dcnn

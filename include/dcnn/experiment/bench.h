@@ -26,6 +26,7 @@ struct BenchRequest {
   Index warm_up = 1000;               ///< calls before the first one that counts
   std::uint64_t seed = 1;
   ReadOptions read;
+  Precision precision = Precision::kSingle;  ///< of the models' predictions
 };
 
 /// One model at one length; all times in seconds.

@@ -23,6 +23,7 @@ struct EvaluationRequest {
   NoiseSpec::Signal noise_on = NoiseSpec::Signal::kFeatures;
   Index every = 1;  ///< the first and every so manyth row after it are scored
   ReadOptions read;
+  Precision precision = Precision::kSingle;  ///< of the models' predictions
 };
 
 /// One model scored once.

@@ -35,6 +35,8 @@ Container pack(const Identifier& identifier);
 /// Error(kModel) where the container is not a complete identifier of a known kind and format
 /// version.
 Identifier unpack(const Container& file, const std::string& where);
-Identifier read_identifier(const std::filesystem::path& path);
+/// Predicting in this precision: Error(kUsage) where its model cannot.
+Identifier read_identifier(const std::filesystem::path& path,
+                           Precision precision = Precision::kSingle);
 
 }  // namespace dcnn

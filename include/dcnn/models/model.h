@@ -80,6 +80,12 @@ class Model {
   virtual std::unique_ptr<Predictor> predictor() const = 0;
   /// Every prediction depends on its own row alone, so that rows can be left out.
   virtual bool per_sample() const { return false; }
+  /// What predict() and the predictors made from now on multiply in; nothing that is saved. What
+  /// the model has no kernel for is Error(kUsage).
+  virtual void set_precision(Precision precision) {
+    require(precision == Precision::kSingle, Exit::kUsage,
+            "this kind of model has no network to multiply in 16-bit integers");
+  }
   virtual Index parameter_count() const = 0;
   /// Training statistics of the features: the power that test noise refers to.
   virtual const InputMap& map() const = 0;

@@ -49,6 +49,7 @@ class NetworkModel : public Model {
   bool fit(const Samples& training, const Samples& validation, FitSession& session) override;
   Eigen::MatrixXd predict(const Stream& stream) const override;
   std::unique_ptr<Predictor> predictor() const override;
+  void set_precision(Precision precision) override;
   bool per_sample() const override;
   Index parameter_count() const override;
   const InputMap& map() const override { return map_; }
@@ -68,6 +69,7 @@ class NetworkModel : public Model {
   std::string kind_;
   std::vector<std::string> units_;  // of the features
   std::unique_ptr<Network> network_;
+  Precision precision_ = Precision::kSingle;
   std::unique_ptr<BatchPlan> batches_;  // of the network as it is now
   InputMap::Spec map_spec_;
   InputMap map_;

@@ -13,7 +13,7 @@ namespace dcnn {
 /// sample gives does not depend on the others.
 class BatchPlan {
  public:
-  explicit BatchPlan(const Network& network);
+  explicit BatchPlan(const Network& network, Precision precision = Precision::kSingle);
   /// y (n, outputs) of x (n, input…). May be called by several threads.
   void run(const Real* x, Index n, Real* y) const;
 
@@ -24,6 +24,7 @@ class BatchPlan {
 
   Network network_;  // folded
   Index cells_, outputs_;
+  Precision precision_;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<Plan>> idle_;  // a plan is one thread's at a time
 };

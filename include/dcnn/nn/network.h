@@ -32,8 +32,9 @@ class Network {
   /// connected layer before it (y = (Wx + b - mean)·gamma/sqrt(var + eps) + beta).
   Network folded() const;
 
-  /// folded() for one sample after another.
-  Plan plan() const;
+  /// folded() for one sample after another. Error(kUsage) where no layer can multiply in what is
+  /// asked for.
+  Plan plan(Precision precision = Precision::kSingle) const;
 
  private:
   Json layers_;

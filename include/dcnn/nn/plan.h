@@ -8,6 +8,10 @@
 
 namespace dcnn {
 
+/// What a plan multiplies in. kInt16: DCNN's convolutions in 16-bit integers, everything else in
+/// single precision; docs/performance.md has its speed and its error.
+enum class Precision { kSingle, kInt16 };
+
 /// One operation with its shapes fixed, its weights packed and its working memory its own.
 class PlanStep {
  public:
@@ -28,6 +32,8 @@ class PlanStep {
   virtual bool absorb_tanh() { return false; }
   /// The same of a fully connected layer, weight (outputs, inputs) and bias (outputs).
   virtual bool absorb_linear(const Tensor& /*weight*/, const Tensor& /*bias*/) { return false; }
+  /// From now on multiplies in 16-bit integers; false where it cannot.
+  virtual bool use_int16() { return false; }
 };
 
 /// Made by Network::plan(). Holds copies of the weights.
@@ -37,6 +43,8 @@ class Plan {
   /// The next operation, which makes so many values; null where the layer does nothing.
   void add(std::unique_ptr<PlanStep> step, Index outputs);
   Index outputs() const { return outputs_; }
+  /// PlanStep::use_int16() of every step; false where none can.
+  bool use_int16();
   /// The network's output for one sample, valid until the next call.
   const Real* run(const Real* x) noexcept;
   /// y (n, outputs) of x (n, inputs): what run() gives for each.

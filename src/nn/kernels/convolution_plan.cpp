@@ -24,12 +24,18 @@ ConvolutionPlan::ConvolutionPlan(const ConvShape& shape, const Tensor& weights, 
 
 void ConvolutionPlan::run(const Real* x, bool relu, Real* y) const noexcept {
   if (fixed_ < 0 || !relu) return run_stretches(x, relu, y);
-  FixedConvolution convolution{x, weights_.data(), bias_.data(), y, shape_.in_h, {}};
+  FixedLinear linear;
   if (absorbed()) {
-    convolution.linear = {linear_weights_.data(), linear_bias_.data(), linear_sums_.data(),
-                          linear_weights_.dim(0), linear_weights_.dim(1)};
+    linear = {linear_weights_.data(), linear_bias_.data(), linear_sums_.data(),
+              linear_weights_.dim(0), linear_weights_.dim(1)};
   }
-  fixed_convolution(fixed_, convolution);
+  if (pairs_ && pairs_->run(x, bias_.data(), linear, y)) return;
+  fixed_convolution(fixed_, {x, weights_.data(), bias_.data(), y, shape_.in_h, linear});
+}
+
+bool ConvolutionPlan::use_int16() {
+  pairs_ = PairConvolution::make(shape_, weights_);
+  return pairs_ != nullptr;
 }
 
 bool ConvolutionPlan::absorb(const Tensor& weight, const Tensor& bias) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "nn/kernels/convolution.h"
+#include "nn/kernels/pair_convolution.h"
 #include "nn/kernels/tile.h"
 
 namespace dcnn {
@@ -18,6 +19,9 @@ class ConvolutionPlan {
   /// weights then meet the positive parts in registers, and come from the second cache while others
   /// multiply.
   bool absorb(const Tensor& weight, const Tensor& bias);
+  /// Multiplies in 16-bit integers where there is a kernel for that: false, and nothing changed,
+  /// where not. An image that is not finite goes the way of floats.
+  bool use_int16();
   bool absorbed() const { return linear_weights_.defined(); }
 
  private:
@@ -32,6 +36,7 @@ class ConvolutionPlan {
   int fixed_;  // which fixed_convolution() this is, -1 for none
   Tensor weights_, bias_;
   Tensor linear_weights_, linear_bias_, linear_sums_;  // of absorb()
+  std::unique_ptr<PairConvolution> pairs_;             // of use_int16()
   std::vector<Stretch> stretches_;
 };
 
