@@ -42,12 +42,44 @@ double chains(Index steps, Real* sink) {
   return static_cast<double>(steps) * kChains * static_cast<double>(hn::Lanes(d));
 }
 
+/// Adds up n values, a multiple of 16 vectors.
+void read_all(const Real* x, Index n, Real* sink) {
+  const hn::ScalableTag<Real> d;
+  const auto lanes = static_cast<Index>(hn::Lanes(d));
+  auto a = hn::Zero(d), b = a, c = a, e = a;
+  for (Index i = 0; i < n; i += 4 * lanes) {
+    a = hn::Add(a, hn::Load(d, x + i));
+    b = hn::Add(b, hn::Load(d, x + i + lanes));
+    c = hn::Add(c, hn::Load(d, x + i + 2 * lanes));
+    e = hn::Add(e, hn::Load(d, x + i + 3 * lanes));
+  }
+  sink[0] = hn::GetLane(hn::SumOfLanes(d, hn::Add(hn::Add(a, b), hn::Add(c, e))));
+}
+
 }  // namespace dcnn::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace dcnn {
 HWY_EXPORT(chains);
+HWY_EXPORT(read_all);
+
+double peak_read_bytes(int kilobytes, int repetitions) {
+  using Clock = std::chrono::steady_clock;
+  constexpr int kPasses = 50;
+  const Tensor values({Index{256} * kilobytes});  // of four bytes
+  Real sink[1] = {};
+  double best = 0;
+  for (int repetition = 0; repetition < repetitions; ++repetition) {
+    const auto begin = Clock::now();
+    for (int k = 0; k < kPasses; ++k) {
+      HWY_DYNAMIC_DISPATCH(read_all)(values.data(), values.size(), sink);
+    }
+    const std::chrono::duration<double> seconds = Clock::now() - begin;
+    best = std::max(best, kPasses * 1024.0 * kilobytes / seconds.count());
+  }
+  return best;
+}
 
 double peak_multiply_adds(int repetitions) {
   using Clock = std::chrono::steady_clock;
