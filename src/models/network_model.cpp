@@ -57,6 +57,7 @@ TrainingSpec TrainingSpec::parse(Options options) {
   spec.clip = options.number("clip", 0.0, 0.0, 1e6);
   spec.stride = options.get<Index>("stride", 1);
   if (spec.stride < 1) options.reject("stride", "must be at least 1, not ", spec.stride);
+  spec.shrink = options.number("shrink", 1.0, 0.01, 1.0);
   spec.keep_best = options.choice("keep", "best", {"best", "last"}) == "best";
   for (const char* key : {"lr", "schedule", "drop_factor", "drop_period"}) {
     if (const Json value = options.raw(key); !value.is_null()) spec.rate[key] = value;
@@ -140,7 +141,9 @@ bool NetworkModel::fit(const Samples& training, const Samples& validation, FitSe
   if (skip_) fit_skip(training);
   if (!network_) return true;
   Trainer trainer(*this, training, validation, session);
-  return trainer.run();
+  if (!trainer.run()) return false;
+  scale_.deviation *= training_.shrink;
+  return true;
 }
 
 void NetworkModel::fit_skip(const Samples& training) {

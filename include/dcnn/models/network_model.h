@@ -26,6 +26,7 @@ struct TrainingSpec {
   double ema = 0.0;             ///< decay of the weight average, 0 for none
   double clip = 0.0;      ///< most L2 norm of each parameter tensor's gradient, 0 for no limit
   Index stride = 1;       ///< an epoch sees every stride-th row, each epoch the next ones
+  double shrink = 1.0;    ///< of what the trained network says, this share counts
   bool keep_best = true;  ///< the epoch with the least validation RMSE, else the last one
   Json rate;              ///< lr, schedule, drop_factor, drop_period
 
