@@ -37,7 +37,7 @@ ReproductionPlan make_plan(const ReproductionRequest& request) {
 }
 
 double training_factor(const std::string& preset, const Entry& entry) {
-  if (preset == "quick") return entry.kind.find("fnn") != std::string::npos ? 0.02 : 0.17;
+  if (preset == "quick") return entry.kind.find("fnn") != std::string::npos ? 0.05 : 0.17;
   if (preset == "fair") return entry.kind == "dcnn" ? 5 : 2.5;
   if (preset == "paper") return entry.kind == "dcnn" ? 17 : 8;
   return 1;

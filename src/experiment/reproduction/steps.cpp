@@ -130,7 +130,8 @@ Step Workshop::training(const Training& what) {
 Step Workshop::scoring(const NoiseMode& mode, const Training& what) {
   Step step;
   step.name = what.series + "/" + what.entry->name + ": scoring, " + mode.name;
-  const double passes = 1.0 + 4.0 * mode.draws / static_cast<double>(mode.every);
+  const double share = what.entry->looks_back ? 1.0 : 1.0 / static_cast<double>(mode.every);
+  const double passes = 1.0 + 4.0 * mode.draws * share;
   step.seconds = what.entry->pass_s * passes;
   const auto file = layout_.scores(mode.name, what.series, what.entry->name);
   const bool traced = mode.name == "feature" && what.series == "A";
