@@ -85,12 +85,23 @@ Step Workshop::simulation() {
   return step;
 }
 
+/// Rigid-body frames are given to frame-tcn, how the sensor is mounted among them; all other kinds
+/// find it out.
+Json Workshop::features_of(const Entry& entry) const {
+  if (entry.kind != "frame-tcn" || !request_.data.empty()) return Json::object();
+  const Json scene = read_json(request_.scene, Exit::kUsage);
+  const Json simulator = scene.value("simulator", Json::object());
+  const Json sensor = simulator.value("sensor", Json::object());
+  if (!sensor.contains("rotation_rpy")) return Json::object();
+  return {{"features", {{"sensor_rotation_rpy", sensor["rotation_rpy"]}}}};
+}
+
 Json Workshop::configuration(const Training& what) const {
-  return merged(what.entry->configuration.is_null() ? Json::object() : what.entry->configuration,
-                {{"preset", request_.preset},
-                 {"model", {{"name", what.entry->kind}}},
-                 {"noise", what.noise},
-                 {"seed", what.seed}});
+  const Json own = what.entry->configuration.is_null() ? Json::object() : what.entry->configuration;
+  return merged(merged(own, features_of(*what.entry)), {{"preset", request_.preset},
+                                                        {"model", {{"name", what.entry->kind}}},
+                                                        {"noise", what.noise},
+                                                        {"seed", what.seed}});
 }
 
 std::string Workshop::training_inputs(const Training& what) {
