@@ -59,9 +59,11 @@ int main(int argc, char** argv) {
               "power of the noise: per feature, or as MATLAB's awgn 'measured'")
       .one_of({"feature", "matlab"})
       .with_default();
-  tool.option("--noise-on", noise_on,
-              "what the noise is added to: the features, or the pose they are derived from")
-      .one_of({"features", "pose"})
+  tool.option(
+          "--noise-on", noise_on,
+          "what the noise is added to: the features, the pose they are derived from, or (a leak) "
+          "the entries of X* of models that have them")
+      .one_of({"features", "pose", "entries"})
       .with_default();
   tool.option("--out", out, "folder for report.html and evaluation.json");
   const PrecisionFlag precision(tool);
@@ -71,6 +73,7 @@ int main(int argc, char** argv) {
     request.levels = parse_levels(levels);
     request.matlab_noise = noise_mode == "matlab";
     if (noise_on == "pose") request.noise_on = NoiseSpec::Signal::kPose;
+    request.noisy_entries = noise_on == "entries";
     request.seed = tool.common().seed.value_or(1);
     request.read = read.options();
     request.precision = precision.value();

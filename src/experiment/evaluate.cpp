@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "dcnn/data/pose_noise.h"
+#include "dcnn/models/network_model.h"
 
 namespace dcnn {
 namespace {
@@ -113,6 +114,9 @@ std::string describe(const EvaluationRequest& request) {
   if (request.noise_on == NoiseSpec::Signal::kPose) {
     return "pose before differentiation, variance of each coordinate over the training rows";
   }
+  if (request.noisy_entries) {
+    return "entries of X* where a model has them, each by itself (a leak), else features";
+  }
   return request.matlab_noise ? "features, mean square over the whole matrix (awgn 'measured')"
                               : "features, variance of each over the training rows";
 }
@@ -148,6 +152,15 @@ Eigen::MatrixXd noisy_features(const EvaluationRequest& request, const TestSet& 
   const auto deviation =
       noise_deviation(test_noise(request), identifier.model->map(), set.stream.x, level);
   return with_noise(set.stream.x, deviation, key);
+}
+
+/// Of the rows to be scored, with noise on the entries of X*; empty where the model has none.
+Eigen::MatrixXd predict_noisy_entries(const EvaluationRequest& request, const Model& model,
+                                      const Stream& stream, const SnrLevel& level, int run) {
+  const auto* network = dynamic_cast<const NetworkModel*>(&model);
+  if (!request.noisy_entries || !level || network == nullptr) return {};
+  return network->predict_with_noisy_entries({every_kth(stream.x, request.every), {}}, *level,
+                                             noise_key(request.seed, *level, run));
 }
 
 EvaluationSummary summarise(const std::vector<EvaluationRow>& rows) {
@@ -227,8 +240,12 @@ Evaluation evaluate(const EvaluationRequest& request,
       for (int run = 0; run < (level ? request.runs : 1); ++run) {
         const Stream stream{noisy_features(request, set, identifier, data, level, run),
                             set.stream.segments};
-        const Eigen::MatrixXd predicted =
-            predict_every(*identifier.model, stream, request.every) + set.base;
+        Eigen::MatrixXd predicted =
+            predict_noisy_entries(request, *identifier.model, set.stream, level, run);
+        if (predicted.size() == 0) {
+          predicted = predict_every(*identifier.model, stream, request.every);
+        }
+        predicted += set.base;
         if (run == 0) beyond = share_beyond(*identifier.model, stream);
         rows.push_back(
             {identifier.name, file, level, run, score(predicted, set.wanted, identifier.targets)});

@@ -57,6 +57,7 @@ TrainingSpec TrainingSpec::parse(Options options) {
   spec.clip = options.number("clip", 0.0, 0.0, 1e6);
   spec.stride = options.get<Index>("stride", 1);
   if (spec.stride < 1) options.reject("stride", "must be at least 1, not ", spec.stride);
+  spec.shrink = options.number("shrink", 1.0, 0.01, 1.0);
   spec.keep_best = options.choice("keep", "best", {"best", "last"}) == "best";
   for (const char* key : {"lr", "schedule", "drop_factor", "drop_period"}) {
     if (const Json value = options.raw(key); !value.is_null()) spec.rate[key] = value;
@@ -140,7 +141,9 @@ bool NetworkModel::fit(const Samples& training, const Samples& validation, FitSe
   if (skip_) fit_skip(training);
   if (!network_) return true;
   Trainer trainer(*this, training, validation, session);
-  return trainer.run();
+  if (!trainer.run()) return false;
+  scale_.deviation *= training_.shrink;
+  return true;
 }
 
 void NetworkModel::fit_skip(const Samples& training) {
@@ -157,19 +160,44 @@ void NetworkModel::set_precision(Precision precision) {
 }
 
 Eigen::MatrixXd NetworkModel::predict(const Stream& stream) const {
-  constexpr Index kBlock = 520;  // 40 pieces of 13: activations stay in the cache
-  NoGradient guard;
+  const PreparedStream prepared = input_->prepare(stream, map_);
+  return predict_rows(stream.rows(),
+                      [&](Index row, Real* out) { input_->write(prepared, map_, row, out); });
+}
+
+Eigen::MatrixXd NetworkModel::predict_with_noisy_entries(const Stream& stream, double snr,
+                                                         std::uint64_t key) const {
+  if (input_->to_json().at("kind") != "map") return {};
   const PreparedStream prepared = input_->prepare(stream, map_);
   const Index cells = element_count(input_->shape());
-  Eigen::MatrixXd result(stream.rows(), scale_.mean.size());
-  for (Index first = 0; first < stream.rows(); first += kBlock) {
-    const Index n = std::min(kBlock, stream.rows() - first);
+  Eigen::MatrixXd entries(stream.rows(), cells);
+  std::vector<Real> own(static_cast<std::size_t>(cells));
+  for (Index i = 0; i < stream.rows(); ++i) {
+    input_->write(prepared, map_, i, own.data());
+    entries.row(i) =
+        Eigen::Map<const Eigen::RowVector<Real, Eigen::Dynamic>>(own.data(), cells).cast<double>();
+  }
+  const Eigen::MatrixXd centred = entries.rowwise() - entries.colwise().mean();
+  const Eigen::VectorXd deviation =
+      std::pow(10.0, -snr / 20.0) * centred.array().square().colwise().mean().sqrt().matrix();
+  entries = with_noise(std::move(entries), deviation, key);
+  return predict_rows(stream.rows(), [&](Index row, Real* out) {
+    for (Index j = 0; j < cells; ++j) out[j] = static_cast<Real>(entries(row, j));
+  });
+}
+
+Eigen::MatrixXd NetworkModel::predict_rows(
+    Index rows, const std::function<void(Index row, Real* out)>& write) const {
+  constexpr Index kBlock = 520;  // 40 pieces of 13: activations stay in the cache
+  NoGradient guard;
+  const Index cells = element_count(input_->shape());
+  Eigen::MatrixXd result(rows, scale_.mean.size());
+  for (Index first = 0; first < rows; first += kBlock) {
+    const Index n = std::min(kBlock, rows - first);
     Shape shape = input_->shape();
     shape.insert(shape.begin(), n);
     Tensor inputs(std::move(shape));
-    for (Index i = 0; i < n; ++i) {
-      input_->write(prepared, map_, first + i, inputs.data() + i * cells);
-    }
+    for (Index i = 0; i < n; ++i) write(first + i, inputs.data() + i * cells);
     result.middleRows(first, n) = outputs(inputs);
   }
   return result;

@@ -71,7 +71,8 @@ const Json kClean = {{"noise", {{"levels_db", Json::array({nullptr})}}}};
 
 TEST(DcnnPlus, LinearPartIsRidgeRegressionOnTheEntries) {
   const Samples training = draw_samples(900, 1);
-  const Json patch = {{"noise", {{"levels_db", Json::array({nullptr})}}}, {"model", {{"body", "none"}}}};
+  const Json patch = {{"noise", {{"levels_db", Json::array({nullptr})}}},
+                      {"model", {{"body", "none"}}}};
   const auto model = trained("dcnn-plus", training, patch);
   // The same entries from their definition, without the shared code.
   const Index n = training.rows();
@@ -103,6 +104,22 @@ TEST(DcnnPlus, LearnsWhatTheLinearPartLeaves) {
   const auto whole = trained("dcnn-plus", training, patch);
   patch["model"] = {{"body", "none"}};
   EXPECT_LT(rmse(*whole, training), 0.8 * rmse(*trained("dcnn-plus", training, patch), training));
+}
+
+TEST(DcnnPlus, TrainedWithNoiseOnThePoseHalfOfWhatTheConvolutionsSayCounts) {
+  Samples training = draw_samples(600, 1);
+  training.pose_noise = {draw_samples(600, 2).x};
+  const auto predicted = [&](const char* body, const Json& more) {
+    Json patch = {{"noise", {{"on", "pose"}}}, {"model", {{"body", body}}}};
+    patch.update(more);
+    return trained("dcnn-t", training, patch)->predict(training);
+  };
+  const Eigen::MatrixXd linear = predicted("none", Json::object());
+  const Eigen::MatrixXd own = predicted("convolutions", Json::object()) - linear;
+  const Eigen::MatrixXd whole =
+      predicted("convolutions", {{"training", {{"shrink", 1.0}}}}) - linear;
+  EXPECT_GT(own.norm(), 0.0);
+  EXPECT_LT((own - 0.5 * whole).norm(), 1e-5 * whole.norm());
 }
 
 TEST(DcnnPlus, LoadedModelPredictsTheSameBits) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "models/frame_tcn/material.h"
 #include "models/frame_tcn/model.h"
@@ -8,17 +9,22 @@
 namespace dcnn::frame_tcn {
 namespace {
 
+struct Tone {
+  double hz, size;
+};
+
 /// Sines of several frequencies per coordinate, with their exact rates, and a made-up tool's force.
-Samples draw_motion(Index rows, double hz, std::uint64_t seed) {
+Samples draw_tones(Index rows, int tones, std::uint64_t seed,
+                   const std::function<Tone(int, Rng&)>& tone) {
   Rng rng(seed);
   Samples s;
   s.x = Eigen::MatrixXd::Zero(rows, kChannels);
   s.segments = {{0, rows / 2}, {rows / 2, rows}};
   for (Index j = 0; j < 6; ++j) {
     const Index value = j < 3 ? j : -1, rate = j < 3 ? 6 + j : j, second = j < 3 ? 12 + j : 6 + j;
-    for (int k = 0; k < 6; ++k) {
-      const double w = 6.283 * hz * (0.2 + 0.16 * k) * rng.uniform(0.9, 1.1);
-      const double phase = rng.uniform(0.0, 6.283), size = 0.3 / (1.0 + k);
+    for (int k = 0; k < tones; ++k) {
+      const auto [hz, size] = tone(k, rng);
+      const double w = 6.283 * hz, phase = rng.uniform(0.0, 6.283);
       for (Index i = 0; i < rows; ++i) {
         const double angle = w * 0.002 * static_cast<double>(i) + phase;
         if (value >= 0) s.x(i, value) += size * std::sin(angle);
@@ -36,6 +42,21 @@ Samples draw_motion(Index rows, double hz, std::uint64_t seed) {
         (f.to_sensor * world - f.alpha.cross(Eigen::Vector3d(0.01, -0.02, 0.1))).transpose();
   }
   return s;
+}
+
+Samples draw_motion(Index rows, double hz, std::uint64_t seed) {
+  return draw_tones(rows, 6, seed, [=](int k, Rng& rng) {
+    return Tone{hz * (0.2 + 0.16 * k) * rng.uniform(0.9, 1.1), 0.3 / (1.0 + k)};
+  });
+}
+
+/// Tones from 0.05 to 1.3 Hz, the slow ones wide: what a second of it is like, hardly says how fast
+/// it is.
+Samples draw_wide_band(Index rows, double pace, std::uint64_t seed) {
+  return draw_tones(rows, 9, seed, [=](int k, Rng& rng) {
+    const double hz = 0.05 * std::pow(26.0, (k + rng.uniform()) / 9.0);
+    return Tone{pace * hz, 0.02 * std::pow(hz, -0.9) * rng.uniform(0.8, 1.25)};
+  });
 }
 
 Problem problem(const Json& patch = Json::object()) {
@@ -187,6 +208,33 @@ TEST(FrameTcn, NoticesMotionFasterThanItsTraining) {
   EXPECT_LT((own.array() > 1.0).cast<double>().mean(), 0.01);
   const Eigen::VectorXd fast = trained().novelty(at_speed(training(), 2.0));
   EXPECT_GT((fast.array() > 1.0).cast<double>().mean(), 0.5);
+}
+
+/// With noise on it: exact rates of a faster motion would be told by their roughness alone.
+TEST(FrameTcn, NoticesAFasterWideBandWithinSeconds) {
+  FrameTcn model(problem());
+  FitSession session;
+  ASSERT_TRUE(model.fit(draw_wide_band(12000, 1.0, 1), {}, session));
+  const auto told = [&](Stream stream) -> Eigen::ArrayXd {
+    const auto deviation = noise_deviation({}, model.map(), stream.x, 20.0);
+    stream.x = with_noise(stream.x, deviation, 5);
+    return (model.novelty(stream).array() > 1.0).cast<double>();
+  };
+  EXPECT_LT(told(draw_wide_band(12000, 1.0, 2)).mean(), 0.01);
+  const Eigen::ArrayXd fast = told(draw_wide_band(12000, 1.7, 2));
+  EXPECT_GT(fast.segment(2000, 4000).mean(), 0.9);
+  EXPECT_GT(fast.segment(8000, 4000).mean(), 0.9);
+}
+
+TEST(FrameTcn, ThePaceIsJudgedByTheNearestLevelOfNoise) {
+  Pace pace(2);
+  const Eigen::MatrixXd clean = Eigen::MatrixXd::Constant(kChannels, 200, 1.0);
+  const Eigen::MatrixXd quiet = Eigen::MatrixXd::Constant(kChannels, 200, -1.0), loud = -quiet;
+  pace.learn(0, Pace::signs(clean), Pace::mean_levels(quiet));
+  pace.learn(1, Pace::signs(3.0 * clean), Pace::mean_levels(loud));
+  EXPECT_LT(pace.score(clean, quiet).maxCoeff(), 1.0);
+  EXPECT_GT(pace.score(3.0 * clean, quiet).tail(100).minCoeff(), 1.0);
+  EXPECT_LT(pace.score(3.0 * clean, loud).maxCoeff(), 1.0);
 }
 
 }  // namespace

@@ -92,6 +92,24 @@ TEST(NetworkModel, OneRowPredictsWhatItPredictsAmongOthers) {
   }
 }
 
+/// The leak of the paper's possible reading: five copies of a feature, each with noise of its own.
+TEST(NetworkModel, NoiseOnEveryEntryOfTheMapAveragesOut) {
+  const Samples training = draw_samples(3000, 1), test = draw_samples(500, 2);
+  const auto model = make();
+  FitSession session;
+  model->fit(training, {}, session);
+  const auto& network = dynamic_cast<const NetworkModel&>(*model);
+  const Eigen::MatrixXd clean = model->predict(test);
+  const auto moved = [&](double snr) {
+    return (network.predict_with_noisy_entries(test, snr, 5) - clean).norm();
+  };
+  const Eigen::VectorXd deviation = noise_deviation({}, model->map(), test.x, 10.0);
+  const Eigen::MatrixXd on_features = model->predict({with_noise(test.x, deviation, 5), {}});
+  EXPECT_LT(moved(10.0), 0.95 * (on_features - clean).norm());
+  EXPECT_GT(moved(10.0), 2.0 * moved(20.0));
+  EXPECT_LT(moved(200.0), 1e-4);
+}
+
 /// Stops a training in the middle of an epoch and goes on in a new object from the checkpoint
 /// alone.
 TEST(NetworkModel, GoesOnFromAnyStepToTheSameWeights) {

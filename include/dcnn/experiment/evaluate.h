@@ -21,6 +21,8 @@ struct EvaluationRequest {
       false;  ///< awgn(X, snr, 'measured'): one power over the whole matrix, with its mean
   /// kPose: on the pose before it is differentiated; the part of a base simulator stays clean.
   NoiseSpec::Signal noise_on = NoiseSpec::Signal::kFeatures;
+  /// On the entries of X* instead, of models on the map of Eq. 7: a leak. Others see it on X.
+  bool noisy_entries = false;
   Index every = 1;  ///< the first and every so manyth row after it are scored
   ReadOptions read;
   Precision precision = Precision::kSingle;  ///< of the models' predictions

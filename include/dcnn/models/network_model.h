@@ -1,6 +1,7 @@
 // A network of layers on some view of the features (network_input.h), trained with Adam.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,7 @@ struct TrainingSpec {
   double ema = 0.0;             ///< decay of the weight average, 0 for none
   double clip = 0.0;      ///< most L2 norm of each parameter tensor's gradient, 0 for no limit
   Index stride = 1;       ///< an epoch sees every stride-th row, each epoch the next ones
+  double shrink = 1.0;    ///< of what the trained network says, this share counts
   bool keep_best = true;  ///< the epoch with the least validation RMSE, else the last one
   Json rate;              ///< lr, schedule, drop_factor, drop_period
 
@@ -48,6 +50,11 @@ class NetworkModel : public Model {
 
   bool fit(const Samples& training, const Samples& validation, FitSession& session) override;
   Eigen::MatrixXd predict(const Stream& stream) const override;
+  /// With white noise at `snr` dB on every entry of the map of Eq. 7, relative to that entry's
+  /// variance over the stream: five copies of a feature whose noise averages out, which no sensor
+  /// gives. Empty where the inputs are no such map.
+  Eigen::MatrixXd predict_with_noisy_entries(const Stream& stream, double snr,
+                                             std::uint64_t key) const;
   std::unique_ptr<Predictor> predictor() const override;
   void set_precision(Precision precision) override;
   bool per_sample() const override;
@@ -61,6 +68,9 @@ class NetworkModel : public Model {
   void load_network(const Container& file, const std::string& where);
   /// Fits the skip and makes the scale that of its remainder.
   void fit_skip(const Samples& training);
+  /// Of rows whose inputs `write` writes.
+  Eigen::MatrixXd predict_rows(Index rows,
+                               const std::function<void(Index row, Real* out)>& write) const;
   /// Targets in their units from the network's inputs: the skip and the scaled-back network.
   Eigen::MatrixXd outputs(const Tensor& inputs) const;
   /// Rebuilds the network that predicts, after the weights changed.

@@ -22,6 +22,8 @@ std::vector<Assumption> of_the_data() {
       {"D9", "rate of the log", "500 Hz", kFree},
       {"D10", "split 41729/32045", "two recordings of different trajectories", kInferred},
       {"D30", "force range of the sensor", "sensor noise 0.04 N, no filter", kFree},
+      {"mounting", "who knows how the sensor is mounted",
+       "frame-tcn, to whose inputs rigid-body frames belong; no other", kFree},
   };
 }
 

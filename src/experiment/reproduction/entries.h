@@ -15,9 +15,10 @@ struct Entry {
   std::string kind;    ///< of the registry
   Json configuration;  ///< laid on the preset's
   Group group = Group::kOwn;
-  double training_s = 10;  ///< preset `standard`, on two cores
-  double pass_s = 0.5;     ///< one prediction of 32045 samples
-  int look = 13;           ///< in every figure
+  double training_s = 10;   ///< preset `standard`, on two cores
+  double pass_s = 0.5;      ///< one prediction of 32045 samples
+  int look = 13;            ///< in every figure
+  bool looks_back = false;  ///< every sample is predicted, also where few are scored
 };
 
 /// Prediction zero: nothing to train.

@@ -12,6 +12,7 @@ EvaluationRequest scoring_request(const NoiseMode& mode) {
   request.runs = mode.draws;
   request.every = mode.every;
   request.matlab_noise = mode.name == "matlab";
+  request.noisy_entries = mode.name == "entries";
   if (mode.name == "pose") request.noise_on = NoiseSpec::Signal::kPose;
   return request;
 }

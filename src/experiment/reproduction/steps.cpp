@@ -85,12 +85,23 @@ Step Workshop::simulation() {
   return step;
 }
 
+/// Rigid-body frames are given to frame-tcn, how the sensor is mounted among them; all other kinds
+/// find it out.
+Json Workshop::features_of(const Entry& entry) const {
+  if (entry.kind != "frame-tcn" || !request_.data.empty()) return Json::object();
+  const Json scene = read_json(request_.scene, Exit::kUsage);
+  const Json simulator = scene.value("simulator", Json::object());
+  const Json sensor = simulator.value("sensor", Json::object());
+  if (!sensor.contains("rotation_rpy")) return Json::object();
+  return {{"features", {{"sensor_rotation_rpy", sensor["rotation_rpy"]}}}};
+}
+
 Json Workshop::configuration(const Training& what) const {
-  return merged(what.entry->configuration.is_null() ? Json::object() : what.entry->configuration,
-                {{"preset", request_.preset},
-                 {"model", {{"name", what.entry->kind}}},
-                 {"noise", what.noise},
-                 {"seed", what.seed}});
+  const Json own = what.entry->configuration.is_null() ? Json::object() : what.entry->configuration;
+  return merged(merged(own, features_of(*what.entry)), {{"preset", request_.preset},
+                                                        {"model", {{"name", what.entry->kind}}},
+                                                        {"noise", what.noise},
+                                                        {"seed", what.seed}});
 }
 
 std::string Workshop::training_inputs(const Training& what) {
@@ -130,7 +141,8 @@ Step Workshop::training(const Training& what) {
 Step Workshop::scoring(const NoiseMode& mode, const Training& what) {
   Step step;
   step.name = what.series + "/" + what.entry->name + ": scoring, " + mode.name;
-  const double passes = 1.0 + 4.0 * mode.draws / static_cast<double>(mode.every);
+  const double share = what.entry->looks_back ? 1.0 : 1.0 / static_cast<double>(mode.every);
+  const double passes = 1.0 + 4.0 * mode.draws * share;
   step.seconds = what.entry->pass_s * passes;
   const auto file = layout_.scores(mode.name, what.series, what.entry->name);
   const bool traced = mode.name == "feature" && what.series == "A";

@@ -35,6 +35,7 @@ class Workshop {
   Step timing(const Entry& entry);
   Training further(const Entry& entry, int k) const;
 
+  Json features_of(const Entry& entry) const;
   Json configuration(const Training& what) const;
   std::string training_inputs(const Training& what);
   std::string code() const;

@@ -12,7 +12,7 @@ namespace dcnn {
 namespace frame_tcn {
 namespace {
 
-constexpr Index kMostExperts = 64, kMostClouds = 256, kMostEdge = 1000000;
+constexpr Index kMostExperts = 64, kMostClouds = 256, kMostLevels = 256, kMostEdge = 1000000;
 
 /// Row-major, as files hold matrices.
 StoredTensor stored(const std::string& name, const Eigen::MatrixXd& m) {
@@ -56,6 +56,7 @@ FrameTcn::FrameTcn(const Container& file, const std::string& where) {
   const auto experts = static_cast<Index>(options.number("experts", 0, 1, kMostExperts));
   const auto triples = static_cast<Index>(options.number("triples", 0, 1, 2));
   const auto clouds = static_cast<Index>(options.number("clouds", 0, 1, kMostClouds));
+  const auto levels = static_cast<Index>(options.number("levels", 0, 1, kMostLevels));
   const auto edge = static_cast<Index>(options.number("edge", 0, 0, kMostEdge));
   const bool saturation = options.get<bool>("saturation");
   const bool dense = options.get("dense", false);
@@ -71,6 +72,7 @@ FrameTcn::FrameTcn(const Container& file, const std::string& where) {
   net_.edge = edge;
   spread_ = Eigen::VectorXd::Ones(triples);
   novelty_ = Novelty(clouds);
+  pace_ = Pace(levels);
   auto all = slots();
   for (Slot& slot : all) slot.value = loaded(file, slot.name, slot.value, where);
   assign(all);
@@ -100,6 +102,8 @@ std::vector<FrameTcn::Slot> FrameTcn::slots() const {
   all.push_back({"novelty.mean", novelty_.mean});
   all.push_back({"novelty.whiten", novelty_.whiten});
   all.push_back({"novelty.limit", novelty_.limit});
+  all.push_back({"pace.level", pace_.level});
+  all.push_back({"pace.limit", pace_.limit});
   return all;
 }
 
@@ -121,6 +125,8 @@ void FrameTcn::assign(const std::vector<Slot>& all) {
   novelty_.mean = (next++)->value;
   novelty_.whiten = (next++)->value;
   novelty_.limit = (next++)->value;
+  pace_.level = (next++)->value;
+  pace_.limit = (next++)->value;
 }
 
 void FrameTcn::save(Container& file) const {
@@ -129,6 +135,7 @@ void FrameTcn::save(Container& file) const {
   Json plan{{"experts", net_.plan().experts},
             {"triples", net_.plan().triples},
             {"clouds", novelty_.clouds()},
+            {"levels", pace_.levels()},
             {"edge", net_.edge},
             {"saturation", net_.plan().saturation}};
   if (net_.plan().dense) plan["dense"] = true;
@@ -173,7 +180,30 @@ Eigen::MatrixXd FrameTcn::predict(const Stream& stream) const {
 }
 
 Eigen::VectorXd FrameTcn::novelty(const Stream& stream) const {
-  return novelty_.score(motion_signs(normalised(stream.x, net_.mean, net_.scale), stream.segments));
+  const Eigen::MatrixXd x = normalised(stream.x, net_.mean, net_.scale);
+  return novelty_.score(motion_signs(x, stream.segments)).cwiseMax(pace_score(x, stream.segments));
+}
+
+/// Each row has the score of the last one before it that was looked at.
+Eigen::VectorXd FrameTcn::pace_score(const Eigen::MatrixXd& x,
+                                     const std::vector<Segment>& segments) const {
+  Eigen::VectorXd score = Eigen::VectorXd::Zero(x.rows());
+  const BlockMeans blocks(x, segments);
+  const Eigen::MatrixXd rough = roughness(x, x, segments, net_.edge);
+  for (const Segment& s : stretches(x.rows(), segments)) {
+    const Index count = s.size() / Pace::kStride, first = s.begin + Pace::kStride - 1;
+    if (count == 0) continue;
+    Pass pass;
+    pass.levels = net_.standard_levels(rough(Eigen::all, Eigen::seqN(first, count, Pace::kStride)));
+    pass.experts.resize(kChannels * front_.experts, count);
+    for (Index k = 0; k < count; ++k) {
+      pass.experts.col(k) = front_.apply(blocks, first + k * Pace::kStride, 1);
+    }
+    net_.denoise(pass);
+    const Eigen::VectorXd own = pace_.score(pass.clean, pass.levels);
+    for (Index i = first; i < s.end; ++i) score[i] = own[(i - first) / Pace::kStride];
+  }
+  return score;
 }
 
 }  // namespace frame_tcn

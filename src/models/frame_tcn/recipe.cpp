@@ -58,6 +58,7 @@ bool Recipe::run() {
     if (!run_epoch()) return false;
   }
   model_.net_.parameters = adam_.average;
+  calibrate_pace();
   return true;
 }
 

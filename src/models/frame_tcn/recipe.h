@@ -12,6 +12,8 @@ namespace dcnn::frame_tcn {
 
 /// Bins of 5 dB from -5 dB on, of each kind of noise; one more is clean.
 constexpr Index kLevelBins = 16;
+/// Every so manyth row of the copies at other speeds is kept.
+constexpr Index kCopyStride = 4;
 
 class Recipe {
  public:
@@ -64,7 +66,10 @@ class Recipe {
   double head_step(Index step);
   bool run_epoch();
   void finish_epoch(double loss);
+  std::vector<Draw> noise_cases(double width) const;
   void calibrate_novelty();
+  Batch in_order(std::size_t source, Draw draw) const;
+  void calibrate_pace();
   Eigen::MatrixXd signs_at(const Eigen::MatrixXd& x, const std::vector<Segment>& segments,
                            Index first, const UnitNoise* noise, double snr) const;
   void save_checkpoint() const;

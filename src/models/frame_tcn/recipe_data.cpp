@@ -7,8 +7,7 @@
 namespace dcnn::frame_tcn {
 namespace {
 
-constexpr int kDraws = 3;  // of unit noise of each kind
-constexpr Index kCopyStride = 4;
+constexpr int kDraws = 3;             // of unit noise of each kind
 constexpr double kNoisiest = 5.0;     // dB above the least that are called so
 constexpr double kLeastShare = 0.01;  // of the largest scale among an axis' sisters
 constexpr double kBelow = 2.0, kAboveX = 8.0,
