@@ -86,6 +86,20 @@ std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& 
   return bands;
 }
 
+double loudest(const std::vector<BandTest>& bands) {
+  double loud = 1.0;
+  for (const BandTest& band : bands) {
+    if (band.stands_out()) loud = std::max(loud, band.loudness());
+  }
+  return loud;
+}
+
+double left_over(const std::vector<BandTest>& bands) {
+  double sum = 0.0;
+  for (const BandTest& band : bands) sum += band.stands_out() ? band.excess : 0.0;
+  return sum;
+}
+
 bool is_alarming(const std::vector<BandTest>& bands, double explained) {
   return std::any_of(bands.begin(), bands.end(), [&](const BandTest& band) {
     const bool much = band.excess > 0.004 * explained ||

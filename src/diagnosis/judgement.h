@@ -16,9 +16,16 @@ struct BandTest {
   double excess;  ///< sum - dof
 
   bool stands_out() const { return z > 5.0; }
+  /// Power over what the floor makes.
+  double loudness() const { return excess > 0.0 ? 1.0 + 2.0 * z * z / excess : 1.0; }
 };
 /// The floor comes from another band, so nothing has to be simulated for it.
 std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& residual);
+
+/// The greatest loudness of a band that stands out; 1 where none does.
+double loudest(const std::vector<BandTest>& bands);
+/// Their excess in all.
+double left_over(const std::vector<BandTest>& bands);
 
 /// Something is left that no member explains: above 5 deviations in a band, and more than a
 /// remainder of what was explained.
@@ -31,6 +38,8 @@ constexpr double kInconstant = 9.0;  ///< standard deviations of Constancy::z
 struct Constancy {
   double ratio = 1.0, z = 0.0, excess = 0.0;  ///< score over its degrees of freedom, and beyond
   bool refutes() const { return ratio > 2.5 && z > kInconstant; }
+  /// z where what is left is so many times as loud as the noise.
+  double above(double loud) const { return z * (ratio / loud - 1.0) / (ratio - 1.0); }
 };
 std::vector<Constancy> constancy(const Setting& setting, const JointFit& fit);
 

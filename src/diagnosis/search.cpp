@@ -12,11 +12,12 @@ namespace {
 
 constexpr double kLeastShare = 0.001;      // of what the model explains already
 constexpr int kMostRounds = 6;             // of exchanges
-constexpr int kMostSteps = 12;             // of growth: what is added may be left out again
+constexpr int kMostSteps = 30;             // of growth: what is added may be left out again
 constexpr double kLinearError = 0.01;      // of a gain that is estimated along a tangent
 constexpr double kRoundedError = 0.4;      // the same where rounding bends every tangent
 constexpr double kDegenerateError = 0.05;  // the same beside a law whose shape is at its bound
-constexpr std::size_t kMostMembers = 5;    // more only ever fed what is not in the catalogue
+// More only ever fed what is not in the catalogue; but friction acts in every direction.
+constexpr int kMostMembers = 5, kMostFrictions = 14;
 
 /// A shape as far as it goes: the law bends less, or more, than any of its kind, and another that
 /// has no such shape may do.
@@ -94,7 +95,11 @@ double Search::doubt(const Trial& trial) const {
 
 /// Adds the effect that gains most, if it gains enough.
 bool Search::grow() {
-  if (fit_.members.size() >= kMostMembers) return false;
+  const auto frictions =
+      std::count_if(fit_.members.begin(), fit_.members.end(),
+                    [](const Member& m) { return m.kind->axis == AxisRule::kLine; });
+  const auto others = static_cast<std::ptrdiff_t>(fit_.members.size()) - frictions;
+  if (others >= kMostMembers || frictions >= kMostFrictions) return false;
   say("looking for what is missing beside " + std::to_string(fit_.members.size()) + " effects");
   const auto trials = additions();
   if (trials.empty()) return false;

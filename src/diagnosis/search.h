@@ -89,6 +89,7 @@ class Search {
   void judge();
   void drop_minor();
   void keep_what_carries_over();
+  double rest_loudness() const;
   bool take_back_relatives();
   bool uncover_relatives();
   void say(const std::string& text) const;

@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kSlowestMode = 2.0;   // Hz
 constexpr double kLeastDoubt = 0.001;  // of a member's gain
+constexpr double kLittle = 0.05;       // of what was missing
+constexpr double kSlowPart = 0.7;      // of what is left
 
 }  // namespace
 
@@ -95,6 +97,14 @@ bool Search::is_alarming_now() {
   return !study_.without.omnibus && is_alarming(bands_, explained(true));
 }
 
+/// Where little is left, and slowly, the offset wanders as no drift does: that falls on all columns
+/// alike, and this is how loud it is. Else a wrong law may leave it, and 1.
+double Search::rest_loudness() const {
+  const double known = explained(false), left = left_over(bands_);
+  const bool slow = bands_.front().excess > kSlowPart * left;
+  return slow && left < kLittle * known ? loudest(bands_) : 1.0;
+}
+
 /// Takes back the member that is least the law it is named after: one that fits in some places and
 /// not in others, or whose strength depends on what its law does not know of.
 bool Search::take_back_relatives() {
@@ -105,15 +115,16 @@ bool Search::take_back_relatives() {
   const bool swings = std::any_of(bands_.begin(), bands_.end(), [](const BandTest& band) {
     return band.stands_out() && band.from_hz >= kSlowestMode;
   });
+  const double loud = rest_loudness();
   double most = 1.0;
   std::optional<std::size_t> worst;
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     if (fit_.members[m].fixed) continue;
     // A law that explains a thousand times what is wrong with it may be a little wrong.
     const double slack = kLeastDoubt * std::max(0.0, net_gain(m));
-    double apart = strengths[m] > slack ? strengths[m] / kModulated : 0.0;
+    double apart = strengths[m] > slack ? strengths[m] / (kModulated * loud) : 0.0;
     if (tests[m].refutes() && tests[m].excess > slack) {
-      apart = std::max(apart, tests[m].z / kInconstant);
+      apart = std::max(apart, tests[m].above(loud) / kInconstant);
     }
     // Motion that nobody sees rings in a mode here and there. One that leaves something where modes
     // are is one of several.
@@ -176,18 +187,20 @@ void Search::judge() {
 }
 
 /// Beside a remainder nobody can name, a name that explains less than what is left is more likely a
-/// part of it.
+/// part of it; where that is little, a name must stand out from it as it must from the noise.
 void Search::drop_minor() {
   while (true) {
     bands_ = band_tests(*setting_, fit_.residual);
-    double least = 0.0;
-    for (const BandTest& band : bands_) {
-      if (band.stands_out()) least += band.excess;
-    }
+    const double loud = rest_loudness(), left = left_over(bands_);
+    double most = 0.0;
     std::optional<std::size_t> worst;
     for (std::size_t m = 0; m < fit_.members.size(); ++m) {
-      if (fit_.members[m].fixed || net_gain(m) >= least) continue;
-      least = net_gain(m), worst = m;
+      const Member& member = fit_.members[m];
+      if (member.fixed) continue;
+      const double price = setting_->price * member.parameters();
+      const double noise = loud * (least_net_gain(*setting_) + price) - price;
+      const double needed = loud > 1.0 ? std::min(left, noise) : left;
+      if (needed - net_gain(m) > most) most = needed - net_gain(m), worst = m;
     }
     if (!worst) return;
     settle(members_without(*worst));
@@ -221,6 +234,8 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
     const JointFit& rest = without(m);
     const double net = net_gain(m), own_gain = rest.chi2 - fit_.chi2;
     for (const Trial& trial : others(m)) {
+      // What explains a remainder better than the member explains its own is none in its place.
+      if (remains_ && trial.member.axis != own.axis) continue;
       if (trial.member.kind == own.kind ||
           trial.net_gain() < net - std::max(0.4 * kNear * price, doubt(trial))) {
         continue;

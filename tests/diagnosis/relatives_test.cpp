@@ -59,6 +59,34 @@ TEST(Relatives, AnOffsetThatGrowsWithTheTimeIsADrift) {
   EXPECT_EQ(names(report), std::vector<std::string>{"linear_drift"}) << report["findings"].dump(1);
 }
 
+// More laws than any other search may add, and an offset that wanders as no drift does.
+TEST(Relatives, FrictionInEveryDirectionIsNamedBesideAWanderingOffset) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  Json frictions = Json::array();
+  for (const char* axis : {"base_x", "base_y", "base_z"}) {
+    frictions.push_back(hidden("coulomb_friction", axis, {{"fc_n", 0.2}, {"v0_mps", 0.01}}));
+    frictions.push_back(hidden("viscous_friction", axis, {{"c_nspm", 1.0}}));
+  }
+  const Bench bench(configuration(frictions));
+  change(bench, [](Recording& log) {
+    const Eigen::ArrayXd t = log.column("t").array();
+    const Eigen::ArrayXd wander = (0.9 * t).sin() + (0.37 * t + 1.0).sin() * (0.11 * t).cos();
+    log.set("fx", log.column("fx") + (0.012 * wander).matrix());
+  });
+  const Json report = bench.diagnose().report;
+  std::set<std::string> where;
+  for (const Json& f : report["findings"]) {
+    where.insert(f["effect"].get<std::string>() + " " +
+                 (f["axis"].is_string() ? f["axis"].get<std::string>() : ""));
+  }
+  for (const char* axis : {"base_x", "base_y", "base_z"}) {
+    EXPECT_EQ(where.count(std::string("coulomb_friction ") + axis), 1U)
+        << report["findings"].dump(1);
+    EXPECT_EQ(where.count(std::string("viscous_friction ") + axis), 1U)
+        << report["findings"].dump(1);
+  }
+}
+
 // The recordings begin in the midst of the motion, where nobody knows how the cable is bent.
 TEST(Relatives, AHysteresisMayBeginAnyhow) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
