@@ -14,7 +14,7 @@ namespace {
 constexpr double kShortest = 0.003;  // s, half of what a knock lasts in a recording
 constexpr double kSpread = 0.025;    // of a slide's duration: how well its end is foretold
 constexpr double kFirstGap = 0.001, kLastGap = 0.035, kNextGap = 1.06;  // m
-constexpr double kHeard = 5.3;            // deviations of the same sum at other times
+constexpr double kHeard = 6.0;            // deviations of the same sum at other times
 constexpr double kHeardWithoutOne = 2.5;  // the same without the loudest knock
 constexpr double kStandsOut = 1.5;        // over the greatest of them
 constexpr std::size_t kFewest = 4;        // ways from stop to stop
