@@ -32,8 +32,8 @@ class PairConvolution {
  private:
   PairConvolution(int kind, const ConvShape& shape, const Tensor& weights);
 
-  int kind_;
-  Index in_h_, cells_, products_;  // of an image; of an output
+  [[maybe_unused]] int kind_;
+  [[maybe_unused]] Index in_h_, cells_, products_;  // of an image; of an output
   Real most_;
   std::vector<std::int32_t> weights_;  // (2, 2, channels/2, filters) pairs
   std::vector<Real> units_;
