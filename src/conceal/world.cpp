@@ -11,7 +11,7 @@ using Eigen::Index;
 
 /// Tool and gravity as they are.
 Eigen::Vector3d apply_parameters(const std::vector<Hidden>& hidden, Tool& tool) {
-  Eigen::Vector3d gravity(0.0, 0.0, -9.81);
+  Eigen::Vector3d gravity = kGravity;
   for (const Hidden& h : hidden) {
     const Parameters& p = h.parameters;
     if (h.effect == "inertial_terms") tool.inertial = "full";

@@ -37,8 +37,9 @@ Path follow(double start, const Eigen::MatrixXd& pose, std::vector<Eigen::Matrix
 Path make_path(const std::string& family, double start, double seconds,
                const Eigen::Vector3d& mounting, std::uint64_t seed);
 
+inline const Eigen::Vector3d kGravity{0.0, 0.0, -9.81};  ///< in B [m/s^2]
 /// Gravity less the acceleration of the sensor's origin, in the sensor frame (T, 3) [m/s^2].
-Eigen::MatrixXd felt_field(const Path& path, const Eigen::Vector3d& gravity = {0.0, 0.0, -9.81});
+Eigen::MatrixXd felt_field(const Path& path, const Eigen::Vector3d& gravity = kGravity);
 /// Force on the sensor and what it makes of it, (T, 3), before noise and digits.
 Eigen::MatrixXd force(const Path& path, const Tool& tool, const std::vector<Hidden>& hidden);
 /// Clipping and rounding, in place.

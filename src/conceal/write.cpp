@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conceal/world.h"
 #include "dcnn/conceal/scenario.h"
 #include "dcnn/core/file.h"
 #include "dcnn/data/csv.h"
@@ -17,7 +18,7 @@ Json nominal(const Tool& tool) {
   Json sim;
   sim["tool"]["mass_kg"] = tool.mass;
   sim["tool"]["com_m"] = list(tool.com);
-  sim["gravity_mps2"] = {0.0, 0.0, -9.81};
+  sim["gravity_mps2"] = list(kGravity);
   sim["sensor"]["bias_n"] = list(tool.bias);
   if (!tool.mounting.isZero()) sim["sensor"]["rotation_rpy"] = list(tool.mounting);
   sim["model"]["inertial"] = tool.inertial;

@@ -70,11 +70,19 @@ bool needs(const std::vector<Block>& blocks, const Recording& recording, Quantit
   return false;
 }
 
-/// Multiplies every row by its own matrix.
+/// Multiplies every row of several matrices by its own 3x3 matrix, which costs more than the
+/// products.
 template <class MatrixOf>
-void turn_rows(MatrixXd& rows, const MatrixOf& matrix_of) {
-  for_each_row(rows.rows(),
-               [&](Index i) { rows.row(i) = (matrix_of(i) * rows.row(i).transpose()).eval(); });
+void turn_rows(const std::vector<MatrixXd*>& all, const MatrixOf& matrix_of) {
+  for_each_row(all.front()->rows(), [&](Index i) {
+    const Matrix3d R = matrix_of(i);
+    for (MatrixXd* rows : all) {
+      const Vector3d v((*rows)(i, 0), (*rows)(i, 1), (*rows)(i, 2));
+      for (Index k = 0; k < 3; ++k) {
+        (*rows)(i, k) = R(k, 0) * v[0] + R(k, 1) * v[1] + R(k, 2) * v[2];
+      }
+    }
+  });
 }
 
 /// The paper's set: Euler angles and their rates, linear rates in B.
@@ -97,13 +105,13 @@ Motion pose_motion(const Recording& recording, const FeatureLayout& layout,
     motion.angular_acceleration = std::move(rates.second);
   }
   const auto R_BS = [&](Index i) -> Matrix3d { return rotation_from_euler(euler_of(i)) * R_ES; };
-  if (recording.has_all(kV)) turn_rows(motion.velocity = recording.block(kV), R_BS);
-  if (recording.has_all(kA)) turn_rows(motion.acceleration = recording.block(kA), R_BS);
+  if (recording.has_all(kV)) turn_rows({&(motion.velocity = recording.block(kV))}, R_BS);
+  if (recording.has_all(kA)) turn_rows({&(motion.acceleration = recording.block(kA))}, R_BS);
   const auto to_rates = [&](Index i) -> Matrix3d {
     return regular_rate_matrix(euler_of(i)).inverse() * R_ES;
   };
   if (recording.has_all(kOmega))
-    turn_rows(motion.angular_velocity = recording.block(kOmega), to_rates);
+    turn_rows({&(motion.angular_velocity = recording.block(kOmega))}, to_rates);
   if (recording.has_all(kAlpha) && motion.angular_velocity.rows() > 0) {
     // alpha_E = W·accelerations + dW/dt·rates, in S as measured.
     MatrixXd alpha = recording.block(kAlpha);
@@ -112,24 +120,10 @@ Motion pose_motion(const Recording& recording, const FeatureLayout& layout,
       const Vector3d turning = euler_rate_matrix_derivative(euler_of(i), rates) * rates;
       alpha.row(i) -= (R_ES.transpose() * turning).transpose();
     });
-    turn_rows(alpha, to_rates);
+    turn_rows({&alpha}, to_rates);
     motion.angular_acceleration = alpha;
   }
   return motion;
-}
-
-/// The same for several at once: a matrix costs more than its products.
-template <class MatrixOf>
-void turn_rows(const std::vector<MatrixXd*>& all, const MatrixOf& matrix_of) {
-  for_each_row(all.front()->rows(), [&](Index i) {
-    const Matrix3d R = matrix_of(i);
-    for (MatrixXd* rows : all) {
-      const Vector3d v((*rows)(i, 0), (*rows)(i, 1), (*rows)(i, 2));
-      for (Index k = 0; k < 3; ++k) {
-        (*rows)(i, k) = R(k, 0) * v[0] + R(k, 1) * v[1] + R(k, 2) * v[2];
-      }
-    }
-  });
 }
 
 /// Into the first three columns of `rate`, derivatives of q.

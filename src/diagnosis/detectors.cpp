@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "diagnosis/candidates.h"
-#include "diagnosis/median.h"
 #include "diagnosis/spectral_lines.h"
 #include "physics/effect_law.h"
 

@@ -171,7 +171,6 @@ class Ear {
            heard.strength() > kStandsOut * most_elsewhere;
   }
 
-  Slug slug{};
   Evidence heard;
   std::vector<Knock> knocks;
   double most_elsewhere = 0.0;
@@ -204,7 +203,7 @@ class Ear {
     const std::vector<Knock> list = knocks_of(fields_, tried, dt_);
     const Evidence e = evidence(list, 0);
     tried_.push_back({tried.gap, e});
-    if (e.strength() > heard.strength()) slug = tried, heard = e, knocks = list;
+    if (e.strength() > heard.strength()) heard = e, knocks = list;
   }
 
   void weigh() {

@@ -100,9 +100,9 @@ bool Search::is_alarming_now() {
 /// Where little is left, and slowly, the offset wanders as no drift does: that falls on all columns
 /// alike, and this is how loud it is. Else a wrong law may leave it, and 1.
 double Search::rest_loudness() const {
-  const double known = explained(false), left = left_over(bands_);
+  const double left = left_over(bands_);
   const bool slow = bands_.front().excess > kSlowPart * left;
-  return slow && left < kLittle * known ? loudest(bands_) : 1.0;
+  return slow && left < kLittle * explained(false) ? loudest(bands_) : 1.0;
 }
 
 /// Takes back the member that is least the law it is named after: one that fits in some places and
