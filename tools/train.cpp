@@ -75,6 +75,15 @@ void print_summary(const Json& summary) {
               << summary["targets"][j].get<std::string>() << " RMSE " << rmse[j] << " "
               << summary["units"][j].get<std::string>() << "\n";
   }
+  if (summary.contains("trust")) {
+    const auto trust = summary["trust"].get<std::vector<double>>();
+    std::cout << "adds        of what it learned beside the simulator:";
+    for (std::size_t j = 0; j < trust.size(); ++j) {
+      std::cout << (j == 0 ? " " : ", ") << summary["targets"][j].get<std::string>() << " "
+                << trust[j];
+    }
+    std::cout << " (as far as the validation rows bear it out)\n";
+  }
   std::cout << "run         " << summary["run_directory"].get<std::string>() << "\n"
             << "next        dcnn-eval " << summary["file"].get<std::string>()
             << " --data TEST.csv\n";

@@ -9,6 +9,7 @@
 #include "dcnn/core/file.h"
 #include "experiment/run_directory.h"
 #include "experiment/splitter.h"
+#include "models/weighted_model.h"
 
 namespace dcnn {
 namespace {
@@ -150,6 +151,12 @@ class Learner {
   const Samples &training_, &validation_;
 };
 
+/// Errors that are further apart than the motion remembers.
+Index independent_rows(const FeatureLayout& layout) {
+  constexpr double kSeconds = 2.0;
+  return layout.dt > 0.0 ? static_cast<Index>(std::llround(kSeconds / layout.dt)) : 1;
+}
+
 }  // namespace
 
 std::filesystem::path run_directory(const std::filesystem::path& model) {
@@ -199,6 +206,12 @@ TrainingOutcome train(const TrainingRequest& request, const TrainingObserver& ob
                      {"run_directory", folder.string()}};
   if (outcome.finished) {
     const auto& layout = identifier.layout;
+    if (identifier.base && validation.rows() > 0) {
+      const Eigen::VectorXd weights =
+          trust(validation, identifier.model->predict(validation), independent_rows(layout));
+      identifier.model = weighted(std::move(identifier.model), weights);
+      outcome.summary["trust"] = std::vector<double>(weights.begin(), weights.end());
+    }
     if (layout.spec.derivative.kind == DerivativeSpec::Kind::kCausalSavitzkyGolay &&
         layout.spec.set != FeatureSpec::Set::kAxes) {
       identifier.online =

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "models/tensor_io.h"
+#include "models/weighted_model.h"
 
 namespace dcnn {
 namespace {
@@ -98,7 +99,8 @@ Identifier unpack(const Container& file, const std::string& where) {
   if (file.metadata.count("base")) {
     identifier.base = parse_simulator(parse_text(file, "base", where), where, Exit::kModel);
   }
-  identifier.model = model_kind(identifier.name, Exit::kModel).load(file, where);
+  identifier.model =
+      with_stored_weights(model_kind(identifier.name, Exit::kModel).load(file, where), file, where);
   require(identifier.model->map().features() == static_cast<Index>(identifier.layout.names.size()),
           Exit::kModel, where, ": its model has another number of rows than its features");
   if (file.metadata.count("online")) {
