@@ -34,14 +34,16 @@ std::vector<Coordinate> coordinates_of(const std::vector<Member>& members) {
   return list;
 }
 
+/// Friction that would rise with speed instead of falling is another law: fs >= fc.
+bool is_of_stribeck(const Member& member) { return member.name() == "stribeck_friction"; }
+
 void move(Member& member, const Coordinate& c, double step) {
   if (!c.is_shape) {
     double& amplitude = member.amplitudes(c.index);
     amplitude += step;
     // A law that only resists ends where it vanishes.
     if (member.form->non_negative) amplitude = std::max(0.0, amplitude);
-    // Friction that would rise with speed instead of falling is another law.
-    if (member.name() == "stribeck_friction") {
+    if (is_of_stribeck(member)) {
       member.amplitudes(1) = std::max(member.amplitudes(0), member.amplitudes(1));
     }
     return;
@@ -86,12 +88,11 @@ Eigen::MatrixXd derivatives(const Setting& setting, const Chain& chain,
 }
 
 /// The Gauss-Newton change of the coordinates. Amplitudes that it would make negative although they
-/// may not be go to zero, and the others are solved for beside that.
+/// may not be go to zero, and the others are solved for beside that; so does fs - fc.
 Eigen::VectorXd best_change(const std::vector<Member>& members,
-                            const std::vector<Coordinate>& coordinates,
-                            const Eigen::MatrixXd& tangent, const Eigen::VectorXd& left,
-                            bool shapes_stay) {
-  std::vector<Index> open(static_cast<std::size_t>(tangent.cols()));
+                            const std::vector<Coordinate>& coordinates, Eigen::MatrixXd tangent,
+                            const Eigen::VectorXd& left, bool shapes_stay) {
+  std::vector<Index> open(static_cast<std::size_t>(tangent.cols())), raised;
   std::iota(open.begin(), open.end(), 0);
   if (shapes_stay) {
     std::erase_if(open, [&](Index k) {
@@ -99,6 +100,19 @@ Eigen::VectorXd best_change(const std::vector<Member>& members,
       return at < coordinates.size() && coordinates[at].is_shape;
     });
   }
+  // In place of fs its height above fc, which then raises both.
+  for (std::size_t k = 0; k < coordinates.size(); ++k) {
+    const Coordinate& c = coordinates[k];
+    if (c.is_shape || c.index != 1 || !is_of_stribeck(members[c.member])) continue;
+    const auto fs = static_cast<Index>(k);
+    tangent.col(fs - 1) += tangent.col(fs);
+    raised.push_back(fs);
+  }
+  const auto now = [&](std::size_t k) {
+    const Eigen::VectorXd& amplitudes = members[coordinates[k].member].amplitudes;
+    const bool rise = std::count(raised.begin(), raised.end(), static_cast<Index>(k)) > 0;
+    return amplitudes(coordinates[k].index) - (rise ? amplitudes(0) : 0.0);
+  };
   Eigen::VectorXd change = Eigen::VectorXd::Zero(tangent.cols());
   for (bool settled = false; !settled;) {
     Eigen::VectorXd rest = left;
@@ -111,16 +125,15 @@ Eigen::VectorXd best_change(const std::vector<Member>& members,
     settled = true;
     for (std::size_t k = 0; k < coordinates.size(); ++k) {
       const Coordinate& c = coordinates[k];
-      const Member& member = members[c.member];
-      if (!is_open[k] || c.is_shape || !member.form->non_negative) continue;
+      if (!is_open[k] || c.is_shape || !members[c.member].form->non_negative) continue;
       const auto at = static_cast<Index>(k);
-      const double now = member.amplitudes(c.index);
-      if (now + change(at) >= 0.0) continue;
-      change(at) = -now;
+      if (now(k) + change(at) >= 0.0) continue;
+      change(at) = -now(k);
       open.erase(std::find(open.begin(), open.end(), at));
       settled = false;
     }
   }
+  for (const Index fs : raised) change(fs) += change(fs - 1);
   return change;
 }
 
@@ -178,11 +191,12 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   fit.chi2 = residual.squaredNorm();
   fit.tangent.resize(here.size(), free + extra);
   fit.tangent.rightCols(extra) = nuisance_columns;
+  bool shapes_stay = setting.study.without.refinement;
   for (int step = 0; step < kMostSteps; ++step) {
     fit.tangent.leftCols(free) = derivatives(setting, *chain, coordinates, here);
     if (free == 0) break;
-    const Eigen::VectorXd change = best_change(chain->members(), coordinates, fit.tangent,
-                                               wanted - here, setting.study.without.refinement);
+    const Eigen::VectorXd change =
+        best_change(chain->members(), coordinates, fit.tangent, wanted - here, shapes_stay);
     if (!change.allFinite()) break;  // whitened by a floor next to nothing, columns overflow
     const double before = fit.chi2;
     bool better = false, straight = false;
@@ -211,7 +225,13 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
       fit.chi2 = chi2;
       fit.nuisance = nuisance;
     }
+    // Far from the best amplitudes shapes may find no way down.
+    if (!better && !shapes_stay) {
+      shapes_stay = true;
+      continue;
+    }
     if (!better || straight || before - fit.chi2 < kSettled) break;
+    shapes_stay = setting.study.without.refinement;
   }
   fit.members = chain->members();
   fit.residual = std::move(residual);

@@ -61,7 +61,8 @@ std::vector<double> modulations(const Setting& setting, const JointFit& fit) {
           u.asDiagonal() * fit.tangent.middleCols(first, amplitudes > 0 ? amplitudes : count);
       c -= basis * (basis.transpose() * c);
       const Eigen::VectorXd match = c.transpose() * fit.residual;
-      most[m] = std::max(most[m], match.dot(least_squares(c, fit.residual)));
+      const double gain = match.dot(least_squares(c, fit.residual));
+      most[m] = std::max(most[m], gain - static_cast<double>(c.cols() - 1));
     }
   }
   return most;

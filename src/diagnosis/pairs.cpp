@@ -1,4 +1,4 @@
-// Two linear members at once against any one or two others: what a greedy search cannot see.
+// Two members at once, against one or two others: what a greedy search cannot see.
 #include <algorithm>
 
 #include "core/linear_algebra.h"
@@ -102,6 +102,36 @@ bool Search::replace_pairs() {
       if (base.chi2 - fit.chi2 - setting_->price * numbers < own + 0.2 * setting_->price) continue;
       settle(others);
       return true;
+    }
+  }
+  return false;
+}
+
+/// Dry friction and one that grows with the speed, in place of a Stribeck curve that bends to both.
+bool Search::split() {
+  const EffectKind& dry = *find_effect("coulomb_friction");
+  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+    const Member& curve = fit_.members[m];
+    if (curve.name() != "stribeck_friction") continue;
+    const JointFit& rest = without(m);
+    for (const char* effect : {"viscous_friction", "quadratic_drag"}) {
+      const EffectKind& growing = *find_effect(effect);
+      for (const double v0 : {0.005, 0.03}) {  // m/s or rad/s
+        std::vector<Member> members = rest.members;
+        members.push_back(make_member(dry, dry.fits[0], curve.axis, study_.has_torque(),
+                                      Eigen::VectorXd::Constant(1, v0)));
+        members.push_back(
+            make_member(growing, growing.fits[0], curve.axis, study_.has_torque(), {}));
+        int numbers = members.back().parameters();
+        numbers += members[members.size() - 2].parameters();
+        const JointFit fit = joint_fit(*setting_, members);
+        if (rest.chi2 - fit.chi2 - setting_->price * numbers <
+            net_gain(m) + 0.2 * setting_->price) {
+          continue;
+        }
+        settle(fit.members);
+        return true;
+      }
     }
   }
   return false;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "diagnosis/candidates.h"
 #include "diagnosis/detectors.h"
@@ -28,6 +30,13 @@ bool is_degenerate(const Member& member) {
     if (member.shapes(i) > shape.high - size) return true;
   }
   return false;
+}
+
+/// Which effects these are, and where.
+std::multiset<std::string> places_of(const std::vector<Member>& members) {
+  std::multiset<std::string> places;
+  for (const Member& m : members) places.insert(m.name() + " " + m.axis);
+  return places;
 }
 
 }  // namespace
@@ -148,8 +157,10 @@ bool Search::swap() {
       std::vector<Member> members = rest.members;
       members.push_back(trial.member);
       const JointFit other = joint_fit(*setting_, members);
-      if (rest.chi2 - other.chi2 - setting_->price * trial.member.parameters() >
-          own + 0.2 * setting_->price) {
+      const int fewer = fit_.members[m].parameters() - trial.member.parameters();
+      const bool gives_way = is_degenerate(fit_.members[m]) && fewer > 0;
+      const double least = own + setting_->price * (gives_way ? -fewer : 0.2);
+      if (rest.chi2 - other.chi2 - setting_->price * trial.member.parameters() > least) {
         settle(members);
         return true;
       }
@@ -162,13 +173,19 @@ bool Search::swap() {
 void Search::explore() {
   bool recut = false;
   for (int round = 0; round < kMostRounds; ++round) {
-    for (int steps = 0; steps < kMostSteps && grow(); ++steps) {
+    while (simplify()) {
+    }
+    for (int steps = 0; steps < kMostSteps; ++steps) {
+      const auto before = places_of(fit_.members);
+      if (!grow()) break;
       while (simplify()) {
       }
+      if (places_of(fit_.members) == before) break;  // what was added does not earn its numbers
+      if (fit_.members.size() == apart_.size() + 2 && !study_.without.exchange) replace_pairs();
     }
     if (fit_.members.empty() || fit_.members.size() == apart_.size()) return;
     say("trying other effects in place of those found");
-    if (!study_.without.exchange && (swap() || replace_pairs())) continue;
+    if (!study_.without.exchange && (swap() || split() || replace_pairs())) continue;
     if (recut || study_.is_static()) return;
     recut = true;
     const bool lag = std::any_of(fit_.members.begin(), fit_.members.end(),

@@ -76,6 +76,7 @@ class Search {
   bool grow();
   bool simplify();
   bool swap();
+  bool split();
   bool replace_pairs();
   void explore();
   void detect();
@@ -88,6 +89,7 @@ class Search {
   bool admit_flicker();
   void judge();
   void drop_minor();
+  void prefer_fewer_numbers();
   void keep_what_carries_over();
   double rest_loudness() const;
   bool take_back_relatives();

@@ -78,4 +78,30 @@ bool Search::admit_flicker() {
   return false;
 }
 
+/// Beside a slow remainder a law must gain by the numbers that a simpler relative lacks what it
+/// would have to in noise as loud.
+void Search::prefer_fewer_numbers() {
+  const double loud = rest_loudness();
+  if (loud == 1.0) return;
+  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+    const Member& own = fit_.members[m];
+    if (own.fixed) continue;
+    const std::string family = own.kind->kind;
+    const auto simpler = std::find_if(others(m).begin(), others(m).end(), [&](const Trial& trial) {
+      return trial.member.axis == own.axis && trial.member.kind->kind == family &&
+             trial.member.parameters() < own.parameters();
+    });
+    if (simpler == others(m).end()) continue;
+    std::vector<Member> members = without(m).members;
+    members.push_back(simpler->member);
+    const JointFit other = joint_fit(*setting_, members);
+    const int more = own.parameters() - simpler->member.parameters();
+    if (other.chi2 - fit_.chi2 > loud * (least_net_gain(*setting_) + setting_->price * more)) {
+      continue;
+    }
+    settle(other.members);
+    m = 0;
+  }
+}
+
 }  // namespace dcnn

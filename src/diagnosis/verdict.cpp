@@ -14,9 +14,21 @@ namespace dcnn {
 namespace {
 
 constexpr double kSlowestMode = 2.0;   // Hz
+constexpr double kUnseen = 0.05;       // of a mode's gain: ringing that nobody sees the cause of
 constexpr double kLeastDoubt = 0.001;  // of a member's gain
 constexpr double kLittle = 0.05;       // of what was missing
 constexpr double kSlowPart = 0.7;      // of what is left
+
+/// A cogging beside a spring, or a hysteresis, of its angle that would make less than a turn if it
+/// could: together they are a spring that bends.
+bool bends_a_spring(const Member& cogging, const std::vector<Member>& members) {
+  const bool least = cogging.name() == "cogging" && cogging.least_shapes.size() > 0 &&
+                     cogging.shapes(0) < 1.01 * cogging.least_shapes(0);
+  return least && std::any_of(members.begin(), members.end(), [&](const Member& m) {
+           const bool bends = m.name() == "cable_spring" || m.name() == "hysteresis";
+           return bends && m.axis == cogging.axis;
+         });
+}
 
 }  // namespace
 
@@ -100,6 +112,7 @@ bool Search::is_alarming_now() {
 /// Where little is left, and slowly, the offset wanders as no drift does: that falls on all columns
 /// alike, and this is how loud it is. Else a wrong law may leave it, and 1.
 double Search::rest_loudness() const {
+  if (study_.axis) return 1.0;
   const double left = left_over(bands_);
   const bool slow = bands_.front().excess > kSlowPart * left;
   return slow && left < kLittle * explained(false) ? loudest(bands_) : 1.0;
@@ -112,9 +125,10 @@ bool Search::take_back_relatives() {
   bands_ = band_tests(*setting_, fit_.residual);
   const auto tests = constancy(*setting_, fit_);
   const auto strengths = modulations(*setting_, fit_);
-  const bool swings = std::any_of(bands_.begin(), bands_.end(), [](const BandTest& band) {
-    return band.stands_out() && band.from_hz >= kSlowestMode;
-  });
+  double swings = 0.0;
+  for (const BandTest& band : bands_) {
+    if (band.stands_out() && band.from_hz >= kSlowestMode) swings += band.excess;
+  }
   const double loud = rest_loudness();
   double most = 1.0;
   std::optional<std::size_t> worst;
@@ -126,13 +140,27 @@ bool Search::take_back_relatives() {
     if (tests[m].refutes() && tests[m].excess > slack) {
       apart = std::max(apart, tests[m].above(loud) / kInconstant);
     }
+    if (bends_a_spring(fit_.members[m], fit_.members)) apart = kInfinity;
+    // Beside an offset that wanders a bias is its mean.
+    if (loud > 1.0 && fit_.members[m].name() == "bias") apart = 0.0;
     // Motion that nobody sees rings in a mode here and there. One that leaves something where modes
     // are is one of several.
-    if (fit_.members[m].kind->stage == Stage::kResonance) apart = swings ? kInfinity : 0.0;
+    if (fit_.members[m].kind->stage == Stage::kResonance) {
+      apart = swings > kUnseen * net_gain(m) ? kInfinity : 0.0;
+    }
     if (apart > most) most = apart, worst = m;
   }
-  if (worst) settle(members_without(*worst));
-  return worst.has_value();
+  if (!worst) return false;
+  std::vector<Member> rest = members_without(*worst);
+  // What is certain of a drift that is none is its mean.
+  const EffectKind& bias = *find_effect("bias");
+  const bool drifts = fit_.members[*worst].kind->stage == Stage::kOffset;
+  if (loud > 1.0 && drifts && is_listed(study_, bias) &&
+      std::none_of(rest.begin(), rest.end(), [&](const Member& m) { return m.kind == &bias; })) {
+    rest.push_back(make_member(bias, bias.fits[0], "", study_.has_torque(), {}));
+  }
+  settle(rest);
+  return true;
 }
 
 /// Leaves out a faint name that only makes up for what a relative of a stronger law leaves: without
@@ -184,6 +212,11 @@ void Search::judge() {
   }
   drop_coincidences();
   drop_minor();
+  prefer_fewer_numbers();
+  if (study_.is_static()) return;
+  choose_cutoff(fit_.members);  // beside what is no more another one was best
+  settle(fit_.members);
+  bands_ = band_tests(*setting_, fit_.residual);
 }
 
 /// Beside a remainder nobody can name, a name that explains less than what is left is more likely a
@@ -226,7 +259,7 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
   constexpr double kLeastOfMore = 0.5;  // of the price of a number
   constexpr double kBend = 0.06;        // of a gain: what another bend of a law is worth
   const auto kind_of = [](const Member& member) { return std::string(member.kind->kind); };
-  const double price = setting_->price;
+  const double price = setting_->price, loud = rest_loudness();
   std::vector<std::vector<std::string>> all(fit_.members.size());
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     const Member& own = fit_.members[m];
@@ -247,7 +280,7 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
       // nothing speaks for it.
       const int more = trial.member.parameters() - own.parameters();
       const double near = 0.1 * kNear * price;
-      double least = more > 0 ? kLeastOfMore * price * more : price * more - near;
+      double least = more > 0 ? kLeastOfMore * price * more * loud : price * more - near;
       // A small force hides how it bends.
       const bool same_family =
           trial.member.axis == own.axis && kind_of(trial.member) == kind_of(own);
