@@ -208,6 +208,9 @@ TEST_F(Tools, LearnsWhatABaseSimulatorLeaves) {
   const Json json = parse_json(result.out, "eval", Exit::kFailure);
   EXPECT_LT(json["summary"][0]["rmse_overall_mean"].get<double>(), 0.3)
       << "friction and noise are all that is left";
+  const Result onnx = run("predict", {at("rest.dcnn"), "--onnx", at("rest.onnx")});
+  EXPECT_EQ(onnx.exit_code, 2);
+  EXPECT_NE(onnx.err.find("adds to a simulator"), std::string::npos) << onnx.err;
 }
 
 TEST_F(Tools, AddsNothingToASimulatorThatLeavesNothing) {

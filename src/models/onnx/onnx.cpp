@@ -145,6 +145,8 @@ std::string to_onnx(const Network& network) {
 }
 
 std::string to_onnx(const Identifier& identifier) {
+  require(!identifier.base, Exit::kUsage,
+          "this model adds to a simulator, which ONNX does not hold; train it without --base");
   const std::optional<Network> network = identifier.model->network();
   require(network.has_value(), Exit::kUsage, "a ", identifier.name,
           " is no plain network and cannot be written as ONNX; kinds that can: dcnn, lstm, "
