@@ -123,8 +123,10 @@ void Search::settle(const std::vector<Member>& members) {
   left_ = difference(study_, predict(study_, fit_.members));
   // A machine always leaves something that no effect explains, far above its sensor's noise: there
   // a number counts that takes off a share of what is left.
-  constexpr double kMachineShare = 0.04;
+  constexpr double kMachineShare = 0.04, kSlowNoisePrice = 20.0;
   if (study_.axis) setting_->price = std::max(10.0, kMachineShare * fit_.chi2);
+  // Of noise that rises as 1/f the next recording would show another slope.
+  if (!flicker_.empty()) setting_->price = kSlowNoisePrice;
   forget_places();
 }
 
