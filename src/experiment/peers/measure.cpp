@@ -67,11 +67,12 @@ Ours::Ours(const PeerCase& what, const Tensor& samples, Index batch, int threads
       cells_(samples.size() / samples.dim(0)),
       calls_(std::min<Index>(kMostDistinctCalls, samples.dim(0) / batch)),
       threads_(threads),
-      slides_(what.slides) {}
+      succession_(what.succession) {}
 
 const Real* Ours::call(Index k) {
   const Real* x = samples_.data() + k % calls_ * batch_ * cells_;
-  if (slides_) return plan_.slide(x, k % calls_ == 0);
+  if (succession_ == Succession::kSlides) return plan_.slide(x, k % calls_ == 0);
+  if (succession_ == Succession::kCarries) return plan_.carry(x, k % calls_ == 0);
   if (batch_ == 1) return plan_.run(x);
   batch_plan_.run(x, batch_, y_.data());
   return y_.data();

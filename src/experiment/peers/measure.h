@@ -42,7 +42,7 @@ class Ours final : public Contestant {
   BatchPlan batch_plan_;
   Index batch_, cells_, calls_;
   int threads_;
-  bool slides_;
+  Succession succession_;
 };
 
 class Theirs final : public Contestant {
