@@ -185,7 +185,7 @@ void add_to(HtmlReport& page, const Peers& peers) {
                  "net", "net of least", "difference"});
     add_columns(page, calls,
                 {"network", "batch", "threads", "library", "p50 [us]", "p99 [us]", "max [us]",
-                 "G products/s", "of peak"});
+                 "p99/p50", "of a loop", "G products/s", "of peak"});
     page.paragraph(kCallNote);
   }
   if (!peers.epochs.empty()) {

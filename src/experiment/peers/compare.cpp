@@ -115,6 +115,7 @@ class Comparison {
     const Turns& own = measured.contestants[0];
     row.peak = measured.peak;
     row.ours = own.times;
+    row.loop_tail = measured.loop_tail;
     for (std::size_t i = 0; i < helpers_.size(); ++i) {
       row.peers.push_back(result_of(helpers_[i].peer.name, own, measured.contestants[i + 1]));
       row.peers.back().difference = differences[helpers_[i].peer.name];
