@@ -148,8 +148,9 @@ void add_panels(HtmlReport& page, const Peers& peers,
   if (!charts.empty()) page.panels(std::move(charts), caption);
 }
 
-/// Those columns alone: all of them are wider than the page.
-void add_columns(HtmlReport& page, const PeerTable& table, const std::vector<std::string>& names) {
+/// Whose row it is and those columns: all of them are wider than the page.
+void add_columns(HtmlReport& page, const PeerTable& table, std::vector<std::string> names) {
+  names.insert(names.begin(), {"network", "batch", "threads", "library"});
   std::vector<std::vector<std::string>> rows(table.rows.size());
   for (const std::string& name : names) {
     const auto column = std::ranges::find(table.header, name) - table.header.begin();
@@ -180,12 +181,9 @@ void add_to(HtmlReport& page, const Peers& peers) {
   if (!peers.epochs.empty()) page.chart(epoch_chart(peers), "time of a training epoch");
   if (!peers.rows.empty()) {
     const PeerTable calls = call_table(peers);
-    add_columns(page, calls,
-                {"network", "batch", "threads", "library", "call [us]", "ratio", "overhead [us]",
-                 "net", "net of least", "difference"});
-    add_columns(page, calls,
-                {"network", "batch", "threads", "library", "p50 [us]", "p99 [us]", "max [us]",
-                 "p99/p50", "of a loop", "G products/s", "of peak"});
+    add_columns(page, calls, {"call [us]", "ratio", "overhead [us]", "net", "net of least"});
+    add_columns(page, calls, {"p50 [us]", "p99 [us]", "max [us]", "p99/p50", "of a loop"});
+    add_columns(page, calls, {"G products/s", "of peak", "difference"});
     page.paragraph(kCallNote);
   }
   if (!peers.epochs.empty()) {
