@@ -17,19 +17,30 @@ namespace {
 
 /// Multiply-adds of `same` padding without those of its zeros, which spec 2.0 counts.
 constexpr double kSameProducts = 443592;
+/// Of a row whose window has a state before it.
+constexpr double kStepProducts = 15 * 600 + 150 * 600 + 3 * 150;
 constexpr int kTurns = 8, kPredictions = 10;
 constexpr double kTurn = 0.02;  // s, without the peak
 
-/// Seconds of one prediction in the best of some stretches; of the next row of a window where it
-/// slides.
-double best_seconds(Plan& plan, const Tensor& x, bool slides) {
-  const auto predict = [&] { return slides ? plan.slide(x.data(), false) : plan.run(x.data()); };
+/// What comes in: a sample alone, a window that slides by a row, a row that the state goes on from.
+enum class Input { kSample, kSlides, kCarries };
+
+const Real* predict(Plan& plan, const Tensor& x, Input input, bool begins) {
+  if (input == Input::kSlides) return plan.slide(x.data(), begins);
+  if (input == Input::kCarries) return plan.carry(x.data(), begins);
+  return plan.run(x.data());
+}
+
+/// Seconds of one prediction in the best of some stretches.
+double best_seconds(Plan& plan, const Tensor& x, Input input) {
   using Clock = std::chrono::steady_clock;
   double best = 1e9;
   const auto start = Clock::now();
   while (std::chrono::duration<double>(Clock::now() - start).count() < kTurn) {
     const auto begin = Clock::now();
-    for (int i = 0; i < kPredictions; ++i) benchmark::DoNotOptimize(predict());
+    for (int i = 0; i < kPredictions; ++i) {
+      benchmark::DoNotOptimize(predict(plan, x, input, false));
+    }
     const std::chrono::duration<double> seconds = Clock::now() - begin;
     best = std::min(best, seconds.count() / kPredictions);
   }
@@ -39,21 +50,21 @@ double best_seconds(Plan& plan, const Tensor& x, bool slides) {
 constexpr int kLstmKilobytes = 396;  // of its weights
 
 /// `products`: of one prediction.
-void online(benchmark::State& state, const Task& task, double products, bool slides = false,
-            Precision precision = Precision::kSingle) {
-  const bool streams_weights = task.name.starts_with("lstm") && !slides;
+void online(benchmark::State& state, const Task& task, double products,
+            Input input = Input::kSample, Precision precision = Precision::kSingle) {
+  const bool streams_weights = task.name.starts_with("lstm") && input != Input::kSlides;
   set_threads(1);
   Rng rng(1);
   Plan plan = Network(task.layers, task.input, rng).plan(precision);
   Tensor x(task.input);
   for (Real& value : x.values()) value = static_cast<Real>(rng.normal());
-  if (slides) plan.slide(x.data(), true);
+  predict(plan, x, input, true);
   double peak = 0.0, best = 1e9, read = 0.0;
   for (auto _ : state) {
     for (int turn = 0; turn < kTurns; ++turn) {
       peak = std::max(peak, peak_multiply_adds());
       if (streams_weights) read = std::max(read, peak_read_bytes(kLstmKilobytes));
-      best = std::min(best, best_seconds(plan, x, slides));
+      best = std::min(best, best_seconds(plan, x, input));
     }
   }
   set_threads(0);
@@ -102,13 +113,14 @@ void batch(benchmark::State& state, const Task& task, double products) {
 
 BENCHMARK_CAPTURE(online, valid, kValid, kValid.products)->Iterations(1);
 BENCHMARK_CAPTURE(online, same, kSame, kSameProducts)->Iterations(1);
-BENCHMARK_CAPTURE(online, valid_int16, kValid, kValid.products, false, Precision::kInt16)
+BENCHMARK_CAPTURE(online, valid_int16, kValid, kValid.products, Input::kSample, Precision::kInt16)
     ->Iterations(1);
-BENCHMARK_CAPTURE(online, same_int16, kSame, kSameProducts, false, Precision::kInt16)
+BENCHMARK_CAPTURE(online, same_int16, kSame, kSameProducts, Input::kSample, Precision::kInt16)
     ->Iterations(1);
 BENCHMARK_CAPTURE(online, lstm, kLstm, kLstm.products)->Iterations(1);
+BENCHMARK_CAPTURE(online, lstm_step, kLstm, kStepProducts, Input::kCarries)->Iterations(1);
 BENCHMARK_CAPTURE(online, lstm_25, kLstm25, kLstm25.products)->Iterations(1);
-BENCHMARK_CAPTURE(online, lstm_25_slides, kLstm25, kLstm25.products, true)->Iterations(1);
+BENCHMARK_CAPTURE(online, lstm_25_slides, kLstm25, kLstm25.products, Input::kSlides)->Iterations(1);
 
 BENCHMARK_CAPTURE(batch, valid, kValid, kValid.products)->Arg(10)->Arg(32045)->Iterations(1);
 BENCHMARK_CAPTURE(batch, same, kSame, kSameProducts)->Arg(10)->Iterations(1);

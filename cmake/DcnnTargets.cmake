@@ -62,12 +62,15 @@ function(dcnn_add_library target)
   endif()
   # Fixed alignment: a consumer compiled with -march=native must agree with us about Eigen's memory.
   # Threads are ours alone, in fixed pieces: Eigen's own would make results depend on their number.
-  target_compile_definitions(${target} PUBLIC EIGEN_MAX_ALIGN_BYTES=16 EIGEN_DONT_PARALLELIZE
-    PRIVATE DCNN_VERSION="${PROJECT_VERSION}"
-            "HWY_DISABLED_TARGETS=(${DCNN_DISABLED_TARGETS})")
-  if(NOT DCNN_DISABLED_TARGETS MATCHES "HWY_AVX3([|]|$)")
+  set(disabled ${DCNN_DISABLED_TARGETS})
+  if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    # Kernels keep arrays of vectors, so their length must be known: on ARM that is NEON.
+    string(APPEND disabled "|HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV")
+  elseif(NOT DCNN_DISABLED_TARGETS MATCHES "HWY_AVX3([|]|$)")
     target_compile_definitions(${target} PRIVATE DCNN_WITH_VNNI)  # nn/kernels/pair_convolution.cpp
   endif()
+  target_compile_definitions(${target} PUBLIC EIGEN_MAX_ALIGN_BYTES=16 EIGEN_DONT_PARALLELIZE
+    PRIVATE DCNN_VERSION="${PROJECT_VERSION}" "HWY_DISABLED_TARGETS=(${disabled})")
   target_compile_features(${target} PUBLIC cxx_std_20)
   dcnn_compile_options(${target})
   if(DCNN_UNITE_ROOMS)

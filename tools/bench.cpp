@@ -71,8 +71,8 @@ int main(int argc, char** argv) {
   tool.option("--networks", peers_request.networks,
               "with --peers and no model: these of the paper's networks and trainings alone")
       .separated_by_commas()
-      .one_of({"dcnn-valid", "dcnn-same", "lstm-1", "lstm-10", "lstm-25", "lstm-25-online",
-               "ffnn-s", "ffnn-m"});
+      .one_of({"dcnn-valid", "dcnn-same", "lstm-1", "lstm-step", "lstm-10", "lstm-25",
+               "lstm-25-online", "ffnn-s", "ffnn-m"});
   tool.option("--rounds", peers_request.rounds, "with --peers: turns of every library in a row")
       .between(1, 1000)
       .with_default();

@@ -8,13 +8,6 @@
 
 namespace dcnn {
 
-std::uint64_t mix_bits(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15ULL;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-  return x ^ (x >> 31);
-}
-
 Rng::Rng(std::initializer_list<std::uint64_t> key) {
   std::uint64_t hash = 0;
   for (const auto word : key) hash = mix_bits(hash ^ mix_bits(word));

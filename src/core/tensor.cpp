@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <new>
+#include <unordered_map>
 #include <unordered_set>
 
 namespace dcnn {
@@ -11,6 +12,31 @@ namespace {
 constexpr std::align_val_t kAlignment{64};  // a cache line and the widest vector
 
 thread_local bool no_gradient = false;
+
+/// Blocks of memory by their number of values; null where none are kept.
+using Spares = std::unordered_map<Index, std::vector<Real*>>;
+thread_local Spares* spares = nullptr;
+
+Real* take_memory(Index size) {
+  if (spares) {
+    std::vector<Real*>& fitting = (*spares)[size];
+    if (!fitting.empty()) {
+      Real* block = fitting.back();
+      fitting.pop_back();
+      return block;
+    }
+  }
+  const auto bytes = static_cast<std::size_t>(size) * sizeof(Real);
+  return static_cast<Real*>(::operator new(bytes, kAlignment));
+}
+
+void give_memory(Real* block, Index size) {
+  if (spares) {
+    (*spares)[size].push_back(block);
+  } else {
+    ::operator delete(block, kAlignment);
+  }
+}
 thread_local std::uint64_t last_order = 0;
 
 }  // namespace
@@ -29,18 +55,16 @@ std::string to_string(const Shape& shape) {
 
 /// Values and their gradient, shared by a tensor and its reshaped views.
 struct Buffer {
-  struct FreeAligned {
-    void operator()(Real* data) const { ::operator delete(data, kAlignment); }
+  struct Give {
+    Index size;
+    void operator()(Real* data) const { give_memory(data, size); }
   };
-  using Storage = std::unique_ptr<Real[], FreeAligned>;
+  using Storage = std::unique_ptr<Real[], Give>;
 
-  static Storage allocate(Index size) {
-    const auto bytes = static_cast<std::size_t>(size) * sizeof(Real);
-    return Storage(static_cast<Real*>(::operator new(bytes, kAlignment)));
-  }
+  static Storage allocate(Index size) { return Storage(take_memory(size), Give{size}); }
 
   Index size = 0;
-  Storage values, gradient;
+  Storage values{nullptr, Give{0}}, gradient{nullptr, Give{0}};
   bool has_gradient = false;
 };
 
@@ -167,6 +191,18 @@ Tensor record(Tensor out, std::vector<Tensor> inputs,
 bool recording(std::initializer_list<Tensor> inputs) {
   return !no_gradient && std::any_of(inputs.begin(), inputs.end(),
                                      [](const Tensor& input) { return input.wants_gradient(); });
+}
+
+KeptMemory::KeptMemory() : outermost_(spares == nullptr) {
+  if (outermost_) spares = new Spares;
+}
+
+KeptMemory::~KeptMemory() {
+  if (!outermost_) return;
+  const std::unique_ptr<Spares> kept(std::exchange(spares, nullptr));
+  for (const auto& [size, blocks] : *kept) {
+    for (Real* block : blocks) give_memory(block, size);
+  }
 }
 
 NoGradient::NoGradient() : before_(no_gradient) { no_gradient = true; }

@@ -25,10 +25,11 @@ struct Weights {
   Eigen::VectorXd first, second;
 };
 
+constexpr Index kTile = 8, kBlock = 1024 * kTile;
+
 /// first[i] = sum_k w.first[k]·x[i + k], the same for second. Eight results at a time stay in
 /// registers.
-void slide(const Weights& w, const double* x, Index count, double* first, double* second) {
-  constexpr Index kTile = 8;
+void slide_block(const Weights& w, const double* x, Index count, double* first, double* second) {
   using Tile = Eigen::Array<double, kTile, 1>;
   Index i = 0;
   for (; i + kTile <= count; i += kTile) {
@@ -46,6 +47,13 @@ void slide(const Weights& w, const double* x, Index count, double* first, double
     first[i] = w.first.dot(part);
     second[i] = w.second.dot(part);
   }
+}
+
+void slide(const Weights& w, const double* x, Index count, double* first, double* second) {
+  for_each_piece((count + kBlock - 1) / kBlock, [&](Index k) {
+    const Index i = k * kBlock;
+    slide_block(w, x + i, std::min(kBlock, count - i), first + i, second + i);
+  });
 }
 
 /// Centred fits; at the ends the outermost fit evaluated off-centre.
@@ -156,17 +164,18 @@ Eigen::VectorXd savitzky_golay_weights(int window, int order, int derivative, do
   return weights / std::pow(half, derivative);
 }
 
-Derivatives differentiate(const Eigen::MatrixXd& signals, const Recording& recording,
+Derivatives differentiate(Eigen::MatrixXd signals, const Recording& recording,
                           const DerivativeSpec& spec) {
   check_lengths(recording, spec);
   const double dt = recording.dt;
   const int window = spec.window(dt);
-  const Eigen::VectorXd t = recording.column("t");
+  Eigen::VectorXd t;
+  if (spec.kind == Kind::kSpline) t = recording.column("t");
   Derivatives out{Eigen::MatrixXd(signals.rows(), signals.cols()),
-                  Eigen::MatrixXd(signals.rows(), signals.cols()), signals};
-  for_each_piece(signals.cols(), [&](Index column) {
+                  Eigen::MatrixXd(signals.rows(), signals.cols()), std::move(signals)};
+  const auto one_column = [&](Index column) {
     for (const Segment& s : recording.segments) {
-      const auto x = signals.col(column).segment(s.begin, s.size());
+      auto x = out.value.col(column).segment(s.begin, s.size());
       auto first = out.first.col(column).segment(s.begin, s.size());
       auto second = out.second.col(column).segment(s.begin, s.size());
       switch (spec.kind) {
@@ -183,7 +192,7 @@ Derivatives differentiate(const Eigen::MatrixXd& signals, const Recording& recor
           const Smoothed smoothed = smooth(x, dt, spec.cutoff_hz);
           first = smoothed.first;
           second = smoothed.second;
-          out.value.col(column).segment(s.begin, s.size()) = smoothed.value;
+          x = smoothed.value;
           break;
         }
         case Kind::kCentral:
@@ -192,7 +201,13 @@ Derivatives differentiate(const Eigen::MatrixXd& signals, const Recording& recor
           break;
       }
     }
-  });
+  };
+  const bool slides = spec.kind == Kind::kSavitzkyGolay || spec.kind == Kind::kCausalSavitzkyGolay;
+  if (slides) {  // whose blocks are shared among the threads: columns are few
+    for (Index column = 0; column < out.value.cols(); ++column) one_column(column);
+  } else {
+    for_each_piece(out.value.cols(), one_column);
+  }
   return out;
 }
 

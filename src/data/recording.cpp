@@ -34,6 +34,13 @@ bool has_whole(const Recording& recording, const Names& columns, const std::stri
   return true;
 }
 
+Index place_in(const Recording& recording, const std::string& column) {
+  const Index k = find(recording.table, column);
+  require(k >= 0, Exit::kData, recording.name, ":1: column '", column,
+          "' is missing; add it to the log");
+  return k;
+}
+
 void require_column(const Recording& recording, const std::string& name, const std::string& axis,
                     const std::string& file) {
   require(name.empty() || recording.has(name), Exit::kData, file, ":1: column '", name,
@@ -127,16 +134,14 @@ bool Recording::has_all(const Names& columns) const {
 }
 
 Eigen::VectorXd Recording::column(const std::string& column_name) const {
-  const Index k = find(table, column_name);
-  require(k >= 0, Exit::kData, name, ":1: column '", column_name,
-          "' is missing; add it to the log");
-  return table.values.col(k);
+  return table.values.col(place_in(*this, column_name));
 }
 
 Eigen::MatrixXd Recording::block(const Names& columns) const {
   Eigen::MatrixXd out(samples(), static_cast<Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    out.col(static_cast<Index>(k)) = column(columns[k]);
+  for_each_piece(out.cols(), [&](Index k) {
+    out.col(k) = table.values.col(place_in(*this, columns[static_cast<std::size_t>(k)]));
+  });
   return out;
 }
 

@@ -114,6 +114,7 @@ void Trainer::weigh_rows(const std::vector<std::size_t>& level_of) {
 }
 
 bool Trainer::run_steps() {
+  const KeptMemory kept;
   while (step_ < steps_per_epoch_) {
     if (session_.stop_wanted && session_.stop_wanted()) return false;
     step();

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <optional>
 
 #include "dcnn/nn/layer.h"
 #include "nn/init.h"
 #include "nn/kernels/channels.h"
 #include "nn/kernels/convolution_plan.h"
+#include "nn/normalisation.h"
 #include "nn/pieces.h"
 
 namespace dcnn {
@@ -33,17 +35,32 @@ class Conv2d final : public Layer {
   Conv2d(const ConvShape& shape, Tensor weight, Tensor bias)
       : shape_(shape), weight_(std::move(weight)), bias_(std::move(bias)) {}
 
-  Tensor forward(const Tensor& x, Pass&) const override {
-    const ConvShape& s = shape_;
-    Tensor y = Tensor::uninitialised({x.dim(0), s.out_h, s.out_w, s.out_c});
-    for_each_part(x.dim(0), [&](Index, Index begin, Index samples) {
-      convolve(s, samples, x.data() + begin * s.in_size(), weight_.data(), bias_.data(),
-               y.data() + begin * s.out_size(), false);
-    });
-    return record(y, {x, weight_, bias_},
-                  [s, x, weight = weight_, bias = bias_](const Tensor& out) {
-                    backward(s, x, weight, bias, out.gradient_data());
+  Tensor forward(const Tensor& x, Pass& pass) const override {
+    Tensor z = Tensor::uninitialised({x.dim(0), shape_.out_h, shape_.out_w, shape_.out_c});
+    const auto convolve_piece = [&](Index begin, Index samples) {
+      convolve(shape_, samples, x.data() + begin * shape_.in_size(), weight_.data(), bias_.data(),
+               z.data() + begin * shape_.out_size(), false);
+    };
+    if (norm_) return forward_normalised(x, pass, z, convolve_piece);
+    for_each_part(x.dim(0),
+                  [&](Index, Index begin, Index samples) { convolve_piece(begin, samples); });
+    return record(z, {x, weight_, bias_},
+                  [s = shape_, x, weight = weight_, bias = bias_](const Tensor& out) {
+                    WayBack back(s, x, weight, bias, out.gradient_data());
+                    for_each_part(x.dim(0), [&](Index piece, Index begin, Index samples) {
+                      back.piece(piece, begin, samples);
+                    });
+                    back.finish();
                   });
+  }
+  bool absorb_norm(const Normalisation& norm) override {
+    if (norm_) return false;
+    norm_ = norm;
+    return true;
+  }
+  bool absorb_relu() override {
+    if (norm_) norm_->absorb_relu();
+    return norm_.has_value();
   }
 
   std::unique_ptr<PlanStep> plan(const Shape&, PlanStep*) const override {
@@ -56,30 +73,66 @@ class Conv2d final : public Layer {
   }
 
  private:
-  static void backward(const ConvShape& s, const Tensor& x, const Tensor& weight,
-                       const Tensor& bias, const Real* dy) {
-    PieceSums dweight(x.dim(0), weight.size()), dbias(x.dim(0), s.out_c);
-    Tensor flipped;
-    Tensor::GradientSlot dx{};
-    if (x.wants_gradient()) {
-      flipped = Tensor::uninitialised(weight.shape());
-      flip_weights(s, weight.data(), flipped.data());
-      dx = x.gradient_slot();
+  /// From dLoss/dz, piece by piece.
+  class WayBack {
+   public:
+    WayBack(const ConvShape& s, const Tensor& x, const Tensor& weight, const Tensor& bias,
+            const Real* dz)
+        : s_(s),
+          x_(x),
+          weight_(weight),
+          bias_(bias),
+          dz_(dz),
+          dweight_(x.dim(0), weight.size()),
+          dbias_(x.dim(0), s.out_c) {
+      if (!x.wants_gradient()) return;
+      flipped_ = Tensor::uninitialised(weight.shape());
+      flip_weights(s, weight.data(), flipped_.data());
+      dx_ = x.gradient_slot();
     }
-    for_each_part(x.dim(0), [&](Index piece, Index begin, Index samples) {
-      const Real* dy_piece = dy + begin * s.out_size();
-      weight_gradient(s, samples, x.data() + begin * s.in_size(), dy_piece, dweight.of(piece));
-      channel_sums(dy_piece, samples * s.out_h * s.out_w, s.out_c, dbias.of(piece));
-      if (!dx.data) return;
-      convolve(transposed(s), samples, dy_piece, flipped.data(), nullptr,
-               dx.data + begin * s.in_size(), dx.add);
-    });
-    sum_pieces(dweight, weight);
-    sum_pieces(dbias, bias);
+    void piece(Index piece, Index begin, Index samples) {
+      const Real* dz = dz_ + begin * s_.out_size();
+      weight_gradient(s_, samples, x_.data() + begin * s_.in_size(), dz, dweight_.of(piece));
+      channel_sums(dz, samples * s_.out_h * s_.out_w, s_.out_c, dbias_.of(piece));
+      if (!dx_.data) return;
+      convolve(transposed(s_), samples, dz, flipped_.data(), nullptr,
+               dx_.data + begin * s_.in_size(), dx_.add);
+    }
+    void finish() {
+      sum_pieces(dweight_, weight_);
+      sum_pieces(dbias_, bias_);
+    }
+
+   private:
+    const ConvShape& s_;
+    const Tensor &x_, &weight_, &bias_;
+    const Real* dz_;
+    PieceSums dweight_, dbias_;
+    Tensor flipped_;
+    Tensor::GradientSlot dx_{};
+  };
+
+  /// On the way back dLoss/dz takes the place of z.
+  template <class Convolve>
+  Tensor forward_normalised(const Tensor& x, const Pass& pass, const Tensor& z,
+                            const Convolve& convolve_piece) const {
+    Normalisation::Statistics s;
+    const Tensor y = norm_->forward(z, pass, convolve_piece, s);
+    return record(y, {x, weight_, bias_, norm_->gamma(), norm_->beta()},
+                  [shape = shape_, x, weight = weight_, bias = bias_, norm = *norm_, z,
+                   s = std::move(s)](const Tensor& out) {
+                    WayBack back(shape, x, weight, bias, z.data());
+                    norm.backward(z, s, out, {z.data(), false},
+                                  [&](Index piece, Index begin, Index samples) {
+                                    back.piece(piece, begin, samples);
+                                  });
+                    back.finish();
+                  });
   }
 
   ConvShape shape_;
   Tensor weight_, bias_;
+  std::optional<Normalisation> norm_;  // of what it makes
 };
 
 /// `window`: [height, width], each from 1 to the input's.

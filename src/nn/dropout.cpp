@@ -32,13 +32,18 @@ class Dropout final : public Layer {
 
  private:
   void draw(std::uint64_t key, Index begin, Index count, Real* mask) const {
-    const auto drop_below = static_cast<std::uint64_t>(rate_ * 0x1p32);
-    const Real kept[2] = {static_cast<Real>(1 / (1 - rate_)), 0};
-    for (Index i = begin; i < begin + count; ++i) {
-      const std::uint64_t word = mix_bits(key + static_cast<std::uint64_t>(i / 2));
-      const std::uint64_t draw = (i % 2 ? word >> 32 : word & 0xffffffffU);
-      mask[i] = kept[draw < drop_below];
-    }
+    const auto key_of = [&](Index pair) { return key + static_cast<std::uint64_t>(pair); };
+    const auto drop_below = static_cast<std::uint32_t>(rate_ * 0x1p32);
+    const auto kept = static_cast<Real>(1 / (1 - rate_));
+    const auto one = [&](Index i) {  // whose neighbour is another piece's
+      Real both[2];
+      dropout_mask({key_of(i / 2), drop_below, kept}, 1, both);
+      mask[i] = both[i % 2];
+    };
+    const Index end = begin + count, first = (begin + 1) / 2, last = std::max(first, end / 2);
+    if (begin % 2 != 0 && count > 0) one(begin);
+    dropout_mask({key_of(first), drop_below, kept}, last - first, mask + 2 * first);
+    if (end % 2 != 0 && end > 2 * first) one(end - 1);
   }
 
   double rate_;

@@ -28,7 +28,7 @@ class Lstm final : public Layer {
     const Tensor trace = Tensor::uninitialised({keep ? x.dim(0) : 0, cells});
     Tensor y = Tensor::uninitialised(s.sequence ? Shape{x.dim(0), s.steps, s.units}
                                                 : Shape{x.dim(0), s.units});
-    const Panels both = joined_weights(s, w);
+    const Panels both = joined_weights(s, w, s.steps > 1);
     for_each_part(x.dim(0), [&](Index, Index begin, Index samples) {
       const Tensor own = Tensor::uninitialised({keep ? 0 : samples, cells});
       const LstmTrace part(s, samples, kept, keep ? trace.data() + begin * cells : own.data());
@@ -41,7 +41,7 @@ class Lstm final : public Layer {
   }
 
   std::unique_ptr<PlanStep> plan(const Shape&, PlanStep*) const override {
-    return make_lstm_step(shape_, joined_weights(shape_, weights_), weights_.bias);
+    return make_lstm_step(shape_, joined_weights(shape_, weights_, true), weights_.bias);
   }
 
   std::vector<NamedTensor> state() const override {
@@ -51,11 +51,12 @@ class Lstm final : public Layer {
   }
 
  private:
-  /// Both weights, one above the other, as factors of x_t | h_(t-1).
-  static Panels joined_weights(const LstmShape& s, const Weights& w) {
+  /// Both weights, one above the other, as factors of x_t | h_(t-1); of one step alone from no
+  /// state those of h are not needed.
+  static Panels joined_weights(const LstmShape& s, const Weights& w, bool recurs) {
     Panels both(s.joined(), s.gates());
     both.set(0, s.inputs, w.input.data(), s.gates(), 1);
-    if (s.steps > 1) both.set(s.inputs, s.units, w.recurrent.data(), s.gates(), 1);
+    if (recurs) both.set(s.inputs, s.units, w.recurrent.data(), s.gates(), 1);
     return both;
   }
 
@@ -65,6 +66,10 @@ class Lstm final : public Layer {
     PieceSums input, recurrent;
     Sums(const LstmShape& s, Index groups, const Weights& w)
         : input(groups, w.input.size()), recurrent(s.steps > 1 ? groups : 0, w.recurrent.size()) {}
+    void clear(Index group) {
+      std::fill_n(input.of(group), input.size(), Real(0));
+      if (group < recurrent.pieces()) std::fill_n(recurrent.of(group), recurrent.size(), Real(0));
+    }
   };
 
   static void backward(const LstmShape& s, const Tensor& x, const Weights& w, const Tensor& memory,
@@ -78,6 +83,7 @@ class Lstm final : public Layer {
     const Tensor::GradientSlot dx = x.wants_gradient() ? x.gradient_slot() : Tensor::GradientSlot{};
     if (dx.data) input.set(0, s.gates(), w.input.data(), 1, s.gates());
     for_each_piece(groups, [&](Index group) {
+      sums.clear(group);
       for (Index k = piece_begin(pieces, groups, group); k < piece_begin(pieces, groups, group + 1);
            ++k) {
         const Index begin = piece_begin(x.dim(0), pieces, k);

@@ -8,8 +8,9 @@ namespace dcnn {
 namespace {
 
 /// A window of T rows takes T products with all weights, which stream from the second cache each
-/// time. Of a window that slides, all T windows in which the newest row takes part are therefore
-/// held and advanced by it together: as many products, but the weights are read once.
+/// time; only those with the rows themselves are made together. Of a window that slides, all T
+/// windows in which the newest row takes part are therefore held and advanced by it together: as
+/// many products, but the weights are read once.
 class LstmStep final : public PlanStep {
  public:
   LstmStep(const LstmShape& shape, Panels weights, const Tensor& bias)
@@ -31,10 +32,21 @@ class LstmStep final : public PlanStep {
   void run(const Real* x, Real* y) noexcept override {
     begin();
     for (Index t = 0; t < shape_.steps; ++t) {
-      advance(x + t * shape_.inputs, t > 0);
+      const Index place = t % kTogether, left = std::min(kTogether, shape_.steps - t);
+      if (place == 0) add_inputs(x + t * shape_.inputs, left, gates_.data());
+      advance(gates_.data() + place * gates_row(), t > 0);
       if (shape_.sequence) put_h(y + t * shape_.units);
     }
     if (!shape_.sequence) put_h(y);
+  }
+
+  void carry(const Real* x, bool begins, Real* y) noexcept override {
+    if (begins) begin();
+    std::copy_n(x, shape_.inputs, joined_.data());
+    multiply({joined_.data(), 0, 1, 0, begins ? shape_.inputs : shape_.joined()}, bias_.data(), 0,
+             gates_.data());
+    apply_cell(gates_.data());
+    put_h(y);
   }
 
   Index together() const override { return kTogether; }
@@ -68,23 +80,41 @@ class LstmStep final : public PlanStep {
   static constexpr Index kTogether = 26;
 
   bool slides() const { return shape_.steps > 1 && !shape_.sequence; }
+  Index gates_row() const { return weights_.padded_columns(); }
   Real* h() { return joined_.data() + shape_.inputs; }
   void put_h(Real* y) { std::copy_n(h(), shape_.units, y); }
   void begin() { std::fill_n(c_.data(), shape_.units, Real(0)); }
 
-  /// One window by the row x; its h lies beside the row, so that both are one factor.
-  void advance(const Real* x, bool recurs) {
-    std::copy_n(x, shape_.inputs, joined_.data());
-    weights_.multiply({.a = joined_.data(),
-                       .a_row = shape_.joined(),
-                       .rows = 1,
-                       .depth = recurs ? shape_.joined() : shape_.inputs,
-                       .out = gates_.data(),
-                       .out_row = weights_.padded_columns(),
-                       .start = bias_.data(),
-                       .start_row = 0,
+  /// Rows of a left factor and the rows of the weights that they meet.
+  struct Factor {
+    const Real* a;
+    Index a_row, rows, first, depth;
+  };
+  /// gates = start + the products.
+  void multiply(const Factor& f, const Real* start, Index start_row, Real* gates) {
+    weights_.multiply({.a = f.a,
+                       .a_row = f.a_row,
+                       .rows = f.rows,
+                       .depth = f.depth,
+                       .out = gates,
+                       .out_row = gates_row(),
+                       .start = start,
+                       .start_row = start_row,
+                       .first = f.first,
                        .padded = true});
-    lstm_online({1, shape_.units, gates_.data(), weights_.padded_columns(), c_.data(), h(), row_});
+  }
+  /// gates = bias + the products of rows of x alone.
+  void add_inputs(const Real* x, Index rows, Real* gates) {
+    multiply({x, shape_.inputs, rows, 0, shape_.inputs}, bias_.data(), 0, gates);
+  }
+
+  /// One window by the row of which `gates` has the products.
+  void advance(Real* gates, bool recurs) {
+    if (recurs) multiply({h(), 0, 1, shape_.inputs, shape_.units}, gates, 0, gates);
+    apply_cell(gates);
+  }
+  void apply_cell(const Real* gates) {
+    lstm_online({1, shape_.units, gates, gates_row(), c_.data(), h(), row_});
   }
 
   /// n samples by the row x of each, the weights read once for all.
@@ -94,17 +124,10 @@ class LstmStep final : public PlanStep {
     for (Index i = 0; i < n; ++i) {
       std::copy_n(x + i * shape_.steps * inputs, inputs, joined + i * row);
     }
-    weights_.multiply({.a = joined,
-                       .a_row = row,
-                       .rows = n,
-                       .depth = recurs ? shape_.joined() : inputs,
-                       .out = gates_.data(),
-                       .out_row = weights_.padded_columns(),
-                       .start = bias_.data(),
-                       .start_row = 0,
-                       .padded = true});
-    lstm_online({n, shape_.units, gates_.data(), weights_.padded_columns(), many_c_.data(),
-                 joined + inputs, row});
+    multiply({joined, row, n, 0, recurs ? shape_.joined() : inputs}, bias_.data(), 0,
+             gates_.data());
+    lstm_online(
+        {n, shape_.units, gates_.data(), gates_row(), many_c_.data(), joined + inputs, row});
   }
 
   /// All rows of x are the same: a younger window has seen what an older one had seen earlier.
@@ -113,7 +136,8 @@ class LstmStep final : public PlanStep {
     oldest_ = 0;
     clear(shape_.steps - 1);
     for (Index t = 0; t < shape_.steps; ++t) {
-      advance(x, t > 0);
+      add_inputs(x, 1, gates_.data());
+      advance(gates_.data(), t > 0);
       const Index window = shape_.steps - 2 - t;
       if (window < 0) continue;
       put_h(window_h_.data() + window * row_);
@@ -129,32 +153,14 @@ class LstmStep final : public PlanStep {
   }
 
   void advance_windows(const Real* x) {
-    const Index units = shape_.units, padded = weights_.padded_columns();
-    weights_.multiply({.a = x,
-                       .a_row = shape_.inputs,
-                       .rows = 1,
-                       .depth = shape_.inputs,
-                       .out = input_.data(),
-                       .out_row = padded,
-                       .start = bias_.data(),
-                       .start_row = 0,
-                       .padded = true});
+    add_inputs(x, 1, input_.data());
     const Index pieces = (shape_.steps + kTogether - 1) / kTogether;
     for (Index k = 0; k < pieces; ++k) {
       const Index begin = shape_.steps * k / pieces;
       const Index count = shape_.steps * (k + 1) / pieces - begin;
-      Real *h = window_h_.data() + begin * row_, *gates = gates_.data();
-      weights_.multiply({.a = h,
-                         .a_row = row_,
-                         .rows = count,
-                         .depth = units,
-                         .out = gates,
-                         .out_row = padded,
-                         .start = input_.data(),
-                         .start_row = 0,
-                         .first = shape_.inputs,
-                         .padded = true});
-      lstm_online({count, units, gates, padded, window_c_.data() + begin * row_, h, row_});
+      Real *h = window_h_.data() + begin * row_, *c = window_c_.data() + begin * row_;
+      multiply({h, row_, count, shape_.inputs, shape_.units}, input_.data(), 0, gates_.data());
+      lstm_online({count, shape_.units, gates_.data(), gates_row(), c, h, row_});
     }
   }
 

@@ -54,12 +54,15 @@ Network::Network(const Json& layers, const Shape& input, Rng& rng)
           "layers: must be a list of at least one layer");
   const NoGradient guard;
   Tensor x(with_batch(input));
+  Layer* before = nullptr;  // the last one that does its work itself
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const std::string place = "layer " + std::to_string(i);
     Options options(layers[i], place, Exit::kUsage);
     const auto& kind = find_kind(options.get<std::string>("kind"), place);
     stack_.push_back(kind.make(options, shapes_.back(), rng));
     options.finish();
+    absorbed_.push_back(before && stack_.back()->join(*before));
+    if (!absorbed_.back()) before = stack_.back().get();
     require(i < kMostLayers && parameter_count() <= kMostWeights, Exit::kUsage, place,
             ": more than ", kMostLayers, " layers or ", kMostWeights,
             " weights; use a smaller network");
@@ -75,7 +78,9 @@ Network::Network(const Json& layers, const Shape& input, Rng& rng)
 
 Tensor Network::forward(const Tensor& x, Pass& pass) const {
   Tensor y = x;
-  for (const auto& layer : stack_) y = layer->forward(y, pass);
+  for (std::size_t i = 0; i < stack_.size(); ++i) {
+    if (!absorbed_[i]) y = stack_[i]->forward(y, pass);
+  }
   return y;
 }
 

@@ -39,6 +39,20 @@ double clip_factor(const Tensor& parameter, double most) {
   return length > most ? most / length : 1;
 }
 
+/// At step t.
+AdamStep coefficients_of(const NamedTensor& parameter, const Adam::Settings& settings, double rate,
+                         double t) {
+  const double correction1 = 1 - std::pow(settings.beta1, t);
+  const double correction2 = 1 - std::pow(settings.beta2, t);
+  return {.beta1 = static_cast<Real>(settings.beta1),
+          .beta2 = static_cast<Real>(settings.beta2),
+          .rate = static_cast<Real>(rate / correction1),
+          .root_scale = static_cast<Real>(1 / std::sqrt(correction2)),
+          .epsilon = static_cast<Real>(settings.epsilon),
+          .l2 = static_cast<Real>(parameter.role == Role::kWeight ? settings.l2 : 0.0),
+          .gradient_scale = static_cast<Real>(clip_factor(parameter.tensor, settings.clip))};
+}
+
 }  // namespace
 
 Adam::Adam(std::vector<NamedTensor> parameters, Settings settings)
@@ -51,23 +65,30 @@ Adam::Adam(std::vector<NamedTensor> parameters, Settings settings)
 
 void Adam::step(double rate) {
   ++steps_;
-  const double t = static_cast<double>(steps_);
-  const double correction1 = 1 - std::pow(settings_.beta1, t);
-  const double correction2 = 1 - std::pow(settings_.beta2, t);
-  for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    const Tensor& parameter = parameters_[i].tensor;
-    const AdamStep coefficients{
-        .beta1 = static_cast<Real>(settings_.beta1),
-        .beta2 = static_cast<Real>(settings_.beta2),
-        .rate = static_cast<Real>(rate / correction1),
-        .root_scale = static_cast<Real>(1 / std::sqrt(correction2)),
-        .epsilon = static_cast<Real>(settings_.epsilon),
-        .l2 = static_cast<Real>(parameters_[i].role == Role::kWeight ? settings_.l2 : 0.0),
-        .gradient_scale = static_cast<Real>(clip_factor(parameter, settings_.clip))};
-    adam(coefficients, parameter.size(), parameter.gradient_data(), first_[i].data(),
-         second_[i].data(), parameter.data());
-    parameter.clear_gradient();
+  std::vector<AdamStep> coefficients;
+  for (const NamedTensor& parameter : parameters_) {
+    parameter.tensor.gradient_data();  // zeros, where nothing was
+    coefficients.push_back(
+        coefficients_of(parameter, settings_, rate, static_cast<double>(steps_)));
   }
+  Index total = 0;
+  for (const NamedTensor& parameter : parameters_) total += parameter.tensor.size();
+  constexpr Index kPieces = 4;  // of all parameters one behind the other
+  for_each_piece(kPieces, [&](Index k) {
+    const Index begin = piece_begin(total, kPieces, k), end = piece_begin(total, kPieces, k + 1);
+    Index start = 0;
+    for (std::size_t i = 0; i < parameters_.size(); ++i) {
+      const Tensor& parameter = parameters_[i].tensor;
+      const Index first = std::max<Index>(begin - start, 0);
+      const Index count = std::min(end - start, parameter.size()) - first;
+      if (count > 0) {
+        adam(coefficients[i], count, parameter.gradient_data() + first, first_[i].data() + first,
+             second_[i].data() + first, parameter.data() + first);
+      }
+      start += parameter.size();
+    }
+  });
+  for (const NamedTensor& parameter : parameters_) parameter.tensor.clear_gradient();
 }
 
 std::vector<NamedTensor> Adam::state() const {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
 
 #include "dcnn/core/parallel.h"
 #include "dcnn/core/tensor.h"
@@ -29,12 +28,12 @@ void for_each_range(const Tensor& x, const Work& work) {
   });
 }
 
-/// An array per piece, to be added up in the order of the pieces: the same sum for any number of
-/// threads.
+/// An array per piece, which work on it writes, to be added up in the order of the pieces: the same
+/// sum for any number of threads.
 class PieceSums {
  public:
   PieceSums(Index n, Index size)
-      : pieces_(piece_count(n)), size_(size), values_(static_cast<std::size_t>(pieces_ * size)) {}
+      : pieces_(piece_count(n)), size_(size), values_(Tensor::uninitialised({pieces_, size})) {}
   Real* of(Index piece) { return values_.data() + piece * size_; }
   const Real* data() const { return values_.data(); }
   Index pieces() const { return pieces_; }
@@ -42,7 +41,7 @@ class PieceSums {
 
  private:
   Index pieces_, size_;
-  std::vector<Real> values_;
+  Tensor values_;
 };
 
 /// Gives the sum to the gradient of `of`.

@@ -29,17 +29,13 @@ bool Plan::use_int16() {
   return any;
 }
 
-/// All steps, the first one by first(step, x, y).
-template <class First>
-const Real* Plan::run_after(const Real* x, const First& first) noexcept {
+/// All steps by each(step, x, y, whether it is the first).
+template <class Each>
+const Real* Plan::run_each(const Real* x, const Each& each) noexcept {
   const Real* from = x;
   Real *to = to_.data(), *other = from_.data();
   for (const auto& step : steps_) {
-    if (from == x) {
-      first(*step, x, to);
-    } else {
-      step->run(from, to);
-    }
+    each(*step, from, to, from == x);
     from = to;
     std::swap(to, other);
   }
@@ -47,7 +43,7 @@ const Real* Plan::run_after(const Real* x, const First& first) noexcept {
 }
 
 const Real* Plan::run(const Real* x) noexcept {
-  return run_after(x, [](PlanStep& step, const Real* in, Real* y) { step.run(in, y); });
+  return run_each(x, [](PlanStep& step, const Real* in, Real* y, bool) { step.run(in, y); });
 }
 
 void Plan::run_many(const Real* x, Index n, Real* y) noexcept {
@@ -80,8 +76,14 @@ void Plan::run_together(const Real* x, Index n, Real* y) noexcept {
 }
 
 const Real* Plan::slide(const Real* x, bool begins) noexcept {
-  return run_after(
-      x, [begins](PlanStep& step, const Real* in, Real* y) { step.slide(in, begins, y); });
+  return run_each(x, [begins](PlanStep& step, const Real* in, Real* y, bool first) {
+    first ? step.slide(in, begins, y) : step.run(in, y);
+  });
+}
+
+const Real* Plan::carry(const Real* x, bool begins) noexcept {
+  return run_each(
+      x, [begins](PlanStep& step, const Real* in, Real* y, bool) { step.carry(in, begins, y); });
 }
 
 }  // namespace dcnn

@@ -31,6 +31,8 @@ class Relu final : public Layer {
     });
   }
 
+  bool join(Layer& before) const override { return before.absorb_relu(); }
+
   std::unique_ptr<PlanStep> plan(const Shape& sample, PlanStep* before) const override {
     if (before && before->absorb_relu()) return nullptr;
     return std::make_unique<ReluStep>(element_count(sample));

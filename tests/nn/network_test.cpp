@@ -1,6 +1,7 @@
 #include "dcnn/nn/network.h"
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include <algorithm>
 #include <cstring>
@@ -93,6 +94,41 @@ TEST_P(Dcnn, LearnsALinearTarget) {
   EXPECT_LT(last, 0.5 * first);
 }
 
+/// Output, gradients and statistics of one batch.
+std::vector<Real> one_pass(const Network& network, Pass::Mode mode) {
+  const Tensor x = Tensor::from({30, 5, 4, 2}, random_batch({30, 5, 4, 2}, 4).values(), true);
+  Pass pass{.mode = mode};
+  const Tensor y = network.forward(x, pass);
+  std::vector<Real> all(y.values().begin(), y.values().end());
+  half_mean_squared_error(y, random_batch(y.shape(), 5)).backward();
+  all.insert(all.end(), x.gradient().begin(), x.gradient().end());
+  for (const auto& named : network.state()) {
+    const auto values =
+        named.tensor.wants_gradient() ? named.tensor.gradient() : named.tensor.values();
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  return all;
+}
+
+TEST(Network, LayersThatTheOneBeforeTakesGiveTheirBits) {
+  const Json nothing = {{"kind", "dropout"}, {"rate", 0}};  // none before it takes what is behind
+  Json joined = Json::array(), apart = Json::array();
+  for (const char* text :
+       {R"({"kind": "conv2d", "filters": 3})", R"({"kind": "batch_norm"})", R"({"kind": "relu"})",
+        R"({"kind": "batch_norm"})", R"({"kind": "relu"})", R"({"kind": "conv2d", "filters": 16})",
+        R"({"kind": "batch_norm"})", R"({"kind": "conv2d", "filters": 5})", R"({"kind": "relu"})",
+        R"({"kind": "flatten"})", R"({"kind": "linear", "outputs": 3})"}) {
+    joined.push_back(Json::parse(text));
+    apart.push_back(joined.back());
+    apart.push_back(nothing);
+  }
+  for (const auto mode : {Pass::Mode::kTrain, Pass::Mode::kCollect, Pass::Mode::kInfer}) {
+    Rng rng(3), same(3);
+    const auto wanted = one_pass(Network(apart, {5, 4, 2}, rng), mode);
+    EXPECT_EQ(one_pass(Network(joined, {5, 4, 2}, same), mode), wanted) << static_cast<int>(mode);
+  }
+}
+
 std::string refusal(const Json& layers, const Shape& input) {
   try {
     Rng rng(1);
@@ -130,6 +166,29 @@ TEST(Network, DropoutDependsOnThePassAlone) {
   EXPECT_EQ(drop(1), drop(1));
   EXPECT_NE(drop(1), drop(2));
   EXPECT_NEAR(static_cast<double>(std::ranges::count(drop(1), Real(0))), 2500, 150);
+}
+
+TEST(Network, DropoutDrawsTheSameByEveryInstructionSet) {
+  for (const Index width : {1, 2, 7, 33, 64}) {
+    Rng rng(1);
+    const Network network(Json::parse(R"([{"kind": "dropout", "rate": 0.4}])"), {width}, rng);
+    Tensor x({29, width});  // pieces that begin anywhere
+    std::ranges::fill(x.values(), Real(1));
+    const std::uint64_t key = Rng(6).bits();
+    for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+      hwy::SetSupportedTargetsForTest(target);
+      Pass pass{.mode = Pass::Mode::kTrain, .rng = Rng(6)};
+      const Tensor y = network.forward(x, pass);
+      for (Index i = 0; i < y.size(); ++i) {
+        const std::uint64_t word = mix_bits(key + static_cast<std::uint64_t>(i / 2));
+        const auto drawn = static_cast<std::uint32_t>(i % 2 ? word >> 32 : word);
+        const Real wanted =
+            drawn < static_cast<std::uint32_t>(0.4 * 0x1p32) ? Real(0) : Real(1 / 0.6);
+        ASSERT_EQ(y.data()[i], wanted) << width << ", " << i << ", " << hwy::TargetName(target);
+      }
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
 }
 
 }  // namespace

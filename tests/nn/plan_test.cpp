@@ -133,6 +133,33 @@ TEST(Plan, AWindowThatSlidesGivesTheBitsOfTheWindowAlone) {
   hwy::SetSupportedTargetsForTest(0);
 }
 
+TEST(Plan, AStateThatIsCarriedGivesTheBitsOfTheWindowSoFar) {
+  constexpr Index kInputs = 4, kRows = 30;
+  Tensor x({kRows, kInputs});
+  Rng draw(9);
+  for (Real& value : x.values()) value = static_cast<Real>(2 * draw.normal());
+  const auto of_window = [](Index rows) {  // the same weights, whatever the length
+    Rng rng(10);
+    return Network({{{"kind", "lstm"}, {"units", 19}, {"sequence", true}},
+                    {{"kind", "lstm"}, {"units", 37}},
+                    {{"kind", "linear"}, {"outputs", 3}}},
+                   {rows, kInputs}, rng);
+  };
+  for (const auto target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    for (const Index length : {Index{1}, kRows}) {  // of the plan's own windows: all the same
+      Plan plan = of_window(length).plan();
+      for (Index k = 0; k < 2 * kRows; ++k) {
+        Plan window = of_window(k % kRows + 1).plan();
+        const Real *wanted = window.run(x.data()),
+                   *y = plan.carry(x.data() + k % kRows * kInputs, k % kRows == 0);
+        for (Index i = 0; i < 3; ++i) ASSERT_EQ(y[i], wanted[i]) << "row " << k;
+      }
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
 TEST(Plan, ForgetsWhatWasNotFinite) {
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   Rng rng(6);

@@ -44,15 +44,25 @@ Layer linear(const ExportedNetwork& network, Index layer, const Shape& image) {
   return [=](const Tensor& x) { return torch::linear(x, weight, bias); };
 }
 
-Layer lstm(const ExportedNetwork& network, Index layer) {
+/// h and c of an LSTM after a call, undefined before the first.
+struct State {
+  Tensor h, c;
+};
+
+/// From `state`, which is then that after it; null: from zero.
+Layer lstm(const ExportedNetwork& network, Index layer, State* state) {
   const Tensor input = stored(network, layer, "input_weight").t().contiguous();
   const Tensor recurrent = stored(network, layer, "recurrent_weight").t().contiguous();
   const Tensor bias = stored(network, layer, "bias");
   const std::vector<Tensor> weights{input, recurrent, bias, torch::zeros_like(bias)};
   return [=, units = recurrent.size(1)](const Tensor& x) {
-    const Tensor zero = torch::zeros({1, x.size(0), units});
-    const auto result = torch::lstm(x, {zero, zero}, weights, true, 1, 0.0, false, false, true);
-    return std::get<1>(result).squeeze(0);
+    State before;
+    if (state) before = *state;
+    if (!before.h.defined()) before.h = before.c = torch::zeros({1, x.size(0), units});
+    const auto [all, h, c] =
+        torch::lstm(x, {before.h, before.c}, weights, true, 1, 0.0, false, false, true);
+    if (state) *state = {h, c};
+    return h.squeeze(0);
   };
 }
 
@@ -73,7 +83,7 @@ class TorchRunner final : public Runner {
       if (kind == "conv2d") image = after_convolution(network, i, image);
       if (kind == "linear") layers_.push_back(linear(network, i, image));
       if (kind == "linear") image.clear();
-      if (kind == "lstm") layers_.push_back(lstm(network, i));
+      if (kind == "lstm") layers_.push_back(lstm(network, i, network.carries ? &state_ : nullptr));
       if (kind == "relu") layers_.push_back([](Tensor x) { return x.relu_(); });
       if (kind == "tanh") layers_.push_back([](Tensor x) { return x.tanh_(); });
       if (kind == "flatten") layers_.push_back([](const Tensor& x) { return x.flatten(1); });
@@ -91,6 +101,7 @@ class TorchRunner final : public Runner {
     return y_.data_ptr<float>();
   }
   Index outputs() const override { return outputs_; }
+  void begin() override { state_ = {}; }
 
  private:
   static Shape after_convolution(const ExportedNetwork& network, Index layer, Shape image) {
@@ -104,6 +115,7 @@ class TorchRunner final : public Runner {
   }
 
   std::vector<std::int64_t> shape_;
+  State state_;
   std::vector<Layer> layers_;
   Tensor y_;
   Index outputs_ = 0;

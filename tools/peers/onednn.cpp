@@ -40,14 +40,27 @@ class OneDnnRunner final : public Runner {
     input_.set_data_handle(const_cast<float*>(samples));
     for (const Step& step : steps_) step.primitive.execute(stream_, step.arguments);
     stream_.wait();
+    for (const State& state : states_) state.go_on();
     return steps_.empty() ? samples : static_cast<const float*>(flow_.get_data_handle());
   }
   Index outputs() const override { return outputs_; }
+  void begin() override {
+    for (const State& state : states_) state.clear();
+  }
 
  private:
   struct Step {
     dnnl::primitive primitive;
     std::unordered_map<int, memory> arguments;
+  };
+
+  /// Of an LSTM before and after a call; the primitive does not work in place.
+  struct State {
+    memory before, after;
+    void clear() const { std::memset(before.get_data_handle(), 0, before.get_desc().get_size()); }
+    void go_on() const {
+      std::memcpy(before.get_data_handle(), after.get_data_handle(), before.get_desc().get_size());
+    }
   };
 
   void add_layer() {
@@ -152,13 +165,14 @@ class OneDnnRunner final : public Runner {
     const Index steps = network_.input[0];
     const Dims input{1, 1, inputs, 4, units}, recurrent{1, 1, units, 4, units};
     using Lstm = dnnl::lstm_forward;
-    const memory::desc none;
+    const memory::desc none, carried = described({1, 1, batch_, units}, Tag::ldnc);
+    const memory::desc& iter = network_.carries ? carried : none;
     const Lstm::primitive_desc chosen(
         Lstm::desc(
             dnnl::prop_kind::forward_inference, dnnl::rnn_direction::unidirectional_left2right,
-            described({steps, batch_, inputs}, Tag::tnc), none, none, described(input, Tag::any),
+            described({steps, batch_, inputs}, Tag::tnc), iter, iter, described(input, Tag::any),
             described(recurrent, Tag::any), described({1, 1, 4, units}, Tag::ldgo),
-            described({steps, batch_, units}, Tag::tnc), none, none),
+            described({steps, batch_, units}, Tag::tnc), iter, iter),
         engine_);
     const memory from = reordered(flow_, chosen.src_layer_desc(), false);
     memory all(chosen.dst_layer_desc(), engine_);
@@ -171,10 +185,21 @@ class OneDnnRunner final : public Runner {
            weights("recurrent_weight", recurrent, Tag::ldigo, chosen.weights_iter_desc())},
           {DNNL_ARG_BIAS, weights("bias", {1, 1, 4, units}, Tag::ldgo, chosen.bias_desc())},
           {DNNL_ARG_DST_LAYER, all}}});
+    if (network_.carries) {
+      carry(carried, DNNL_ARG_SRC_ITER, DNNL_ARG_DST_ITER);
+      carry(carried, DNNL_ARG_SRC_ITER_C, DNNL_ARG_DST_ITER_C);
+    }
     kept_.push_back(all);
     auto* newest = static_cast<float*>(all.get_data_handle()) + (steps - 1) * batch_ * units;
     flow_ = memory(described({batch_, units}, Tag::nc), engine_, newest);
     outputs_ = units;
+  }
+
+  /// A state that the newest step reads as `from` and writes as `to`.
+  void carry(const memory::desc& desc, int from, int to) {
+    const State state{memory(desc, engine_), memory(desc, engine_)};
+    steps_.back().arguments.insert({{from, state.before}, {to, state.after}});
+    states_.push_back(state);
   }
 
   void finish() {
@@ -191,6 +216,7 @@ class OneDnnRunner final : public Runner {
   memory::desc given_;
   memory input_, flow_;
   std::vector<memory> kept_;
+  std::vector<State> states_;
   std::vector<Step> steps_;
 };
 

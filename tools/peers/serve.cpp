@@ -23,6 +23,7 @@ ExportedNetwork read_network(const std::string& path) {
   network.file = read_container(path);
   network.layers = Json::parse(network.file.metadata.at("layers"));
   network.input = Json::parse(network.file.metadata.at("input")).get<Shape>();
+  network.carries = Json::parse(network.file.metadata.at("carries")).get<bool>();
   return network;
 }
 
@@ -78,7 +79,10 @@ class Session {
     return {{"outputs", runner_->outputs()}};
   }
 
-  const float* call(Index k) { return runner_->run(samples_.data() + k % calls_ * call_size_); }
+  const float* call(Index k) {
+    if (k % calls_ == 0) runner_->begin();
+    return runner_->run(samples_.data() + k % calls_ * call_size_);
+  }
 
   Json outputs(Index count) {
     std::vector<double> values;

@@ -16,6 +16,7 @@ namespace dcnn::peers {
 struct ExportedNetwork {
   Json layers;
   Shape input;
+  bool carries;  ///< the state of an LSTM goes on from call to call
   Container file;
 
   /// A tensor of layer `layer`: weight, bias, …
@@ -30,6 +31,8 @@ class Runner {
   /// Outputs (batch, outputs) of samples (batch, input…), valid until the next call.
   virtual const float* run(const float* samples) = 0;
   virtual Index outputs() const = 0;
+  /// From here on with no state.
+  virtual void begin() {}
 };
 
 /// A network in training on data of its own.

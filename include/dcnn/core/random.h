@@ -31,7 +31,12 @@ class Rng {
 };
 
 /// One step of splitmix64: a 64-bit mix in which every input bit reaches every output bit.
-std::uint64_t mix_bits(std::uint64_t x);
+inline std::uint64_t mix_bits(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
 
 /// 0 … n-1 in random order (Fisher and Yates).
 std::vector<std::int64_t> permutation(std::int64_t n, Rng& rng);

@@ -86,6 +86,19 @@ class NoGradient {
   bool before_;
 };
 
+/// While alive, this thread keeps the memory of tensors that are gone for tensors of the same size:
+/// every step of a training asks for the same ones, and the system clears what it is given back.
+class KeptMemory {
+ public:
+  KeptMemory();
+  ~KeptMemory();
+  KeptMemory(const KeptMemory&) = delete;
+  KeptMemory& operator=(const KeptMemory&) = delete;
+
+ private:
+  bool outermost_;
+};
+
 /// Whether record() would do anything here: an operation that no one will ask for a gradient need
 /// not keep what its backward pass reads.
 bool recording(std::initializer_list<Tensor> inputs);

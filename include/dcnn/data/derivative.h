@@ -47,7 +47,7 @@ struct Derivatives {
 
 /// Derivatives of every column, segment by segment. A segment shorter than the window is an
 /// Error(kData) that names the recording, the rows and the remedy.
-Derivatives differentiate(const Eigen::MatrixXd& signals, const Recording& recording,
+Derivatives differentiate(Eigen::MatrixXd signals, const Recording& recording,
                           const DerivativeSpec& spec);
 
 }  // namespace dcnn

@@ -63,6 +63,9 @@ struct PeersRow {
   double products = 0.0;  ///< multiply-adds of a call, those with zeros of padding left out
   double peak = 0.0;  ///< multiply-adds per second of so many threads, measured in the same turns
   CallTimes ours;
+  /// p99 over p50 of a loop of arithmetic as long as our call, right after our single calls: what
+  /// the machine adds.
+  double loop_tail = 0.0;
   std::vector<PeerResult> peers;
 
   double rate() const { return products / ours.median; }

@@ -14,8 +14,9 @@ inline constexpr int kOnnxOpset = 13, kOnnxIrVersion = 7;
 /// The network at inference, batch norm folded: the bytes of an ONNX model from "input" (N,
 /// sample…) to "output" (N, outputs). Images are channels-first there, (N, C, H, W): for one
 /// channel the same values in the same order as ours. A layer ONNX has no counterpart for is
-/// Error(kUsage).
-std::string to_onnx(const Network& network);
+/// Error(kUsage). `carries`, for networks with one LSTM: its state goes on from call to call, "h"
+/// and "c" (1, N, units) are further inputs and what they become further outputs.
+std::string to_onnx(const Network& network, bool carries = false);
 
 /// A trained model from "features" in SI units, (N, F), or (N, T, F) where it reads the last T
 /// rows, to "targets" (N, targets) in their units: Eq. 7 or the standardisation is inside, making

@@ -38,10 +38,17 @@ struct NamedTensor {
   Role role;
 };
 
+class Normalisation;
+
 class Layer {
  public:
   virtual ~Layer() = default;
   virtual Tensor forward(const Tensor& x, Pass& pass) const = 0;
+  /// Lets the layer before do in forward() what this one does; false where that cannot.
+  virtual bool join(Layer& /*before*/) const { return false; }
+  /// From now on forward() does a batch norm or a ReLU, too; false where it cannot.
+  virtual bool absorb_norm(const Normalisation& /*norm*/) { return false; }
+  virtual bool absorb_relu() { return false; }
   /// The layer at inference as a step for one sample of this shape, given the step before it (null
   /// for the first); null where it does nothing then, or where that step does it too.
   virtual std::unique_ptr<PlanStep> plan(const Shape& sample, PlanStep* before) const = 0;

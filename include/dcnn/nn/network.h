@@ -40,6 +40,7 @@ class Network {
   Json layers_;
   Shape input_;
   std::vector<LayerPtr> stack_;
+  std::vector<bool> absorbed_;  // of each layer: one before it does what it does
   std::vector<NamedTensor> state_;
   std::vector<Shape> shapes_;
 };

@@ -22,6 +22,10 @@ class PlanStep {
   /// `begins`, else the window of the call before without its oldest row and with a new one. A step
   /// that keeps what it computed of the others gives the same bits.
   virtual void slide(const Real* x, bool /*begins*/, Real* y) noexcept { run(x, y); }
+  /// run() where x is the next row alone of a stream that the state goes along with: what a window
+  /// of all rows since `begins` gives. run() in between disturbs it. A step without state has none
+  /// to carry, and must not see windows.
+  virtual void carry(const Real* x, bool /*begins*/, Real* y) noexcept { run(x, y); }
   /// y (n, outputs) of x (n, inputs), n up to together() where that is more than one; false where
   /// samples are best taken one by one. What a sample gives does not depend on the others.
   virtual bool run_many(const Real* /*x*/, Index /*n*/, Real* /*y*/) noexcept { return false; }
@@ -51,11 +55,13 @@ class Plan {
   void run_many(const Real* x, Index n, Real* y) noexcept;
   /// run() for a window that slides (PlanStep::slide()); run() in between does not disturb it.
   const Real* slide(const Real* x, bool begins) noexcept;
+  /// The next row of a stream, of which nothing is forgotten (PlanStep::carry()).
+  const Real* carry(const Real* x, bool begins) noexcept;
 
  private:
   void run_together(const Real* x, Index n, Real* y) noexcept;
-  template <class First>
-  const Real* run_after(const Real* x, const First& first) noexcept;
+  template <class Each>
+  const Real* run_each(const Real* x, const Each& each) noexcept;
 
   std::vector<std::unique_ptr<PlanStep>> steps_;
   std::vector<Index> outputs_of_;  // of each step

@@ -5,6 +5,7 @@
 #include "dcnn/core/file.h"
 #include "dcnn/models/onnx.h"
 #include "experiment/peers/training.h"
+#include "models/onnx/graph.h"
 #include "models/shallow_network.h"
 #include "models/tensor_io.h"
 
@@ -31,9 +32,10 @@ double convolution_products(const Json& layer, const Shape& in, const Shape& out
                              taps_inside(in[1], out[1], window[1], before_w) * in[2] * out[2]);
 }
 
-double lstm_products(const Shape& in, Index units) {
+double lstm_products(const Shape& in, Index units, bool carries) {
   const double t = static_cast<double>(in[0]), gates = 4.0 * static_cast<double>(units);
-  return gates * (t * static_cast<double>(in[1]) + (t - 1) * static_cast<double>(units));
+  const double recurrent = carries ? t : t - 1;
+  return gates * (t * static_cast<double>(in[1]) + recurrent * static_cast<double>(units));
 }
 
 /// Tanh layers and a linear one, as FFNN-S and FFNN-M have them.
@@ -53,10 +55,20 @@ std::vector<PeerCase> paper_cases(std::uint64_t seed) {
   for (const Task& task : {dcnn_task("valid"), dcnn_task("same"), lstm_task(1), lstm_task(25)}) {
     cases.push_back({task.name, Network(task.layers, task.input, rng).folded()});
   }
-  cases.push_back({"lstm-25-online", cases.back().network.folded(), true});
+  cases.push_back({"lstm-25-online", cases.back().network.folded(), Succession::kSlides});
+  cases.push_back({"lstm-step", cases[2].network.folded(), Succession::kCarries});
   cases.push_back(shallow_case("ffnn-s", {20}, rng));
   cases.push_back(shallow_case("ffnn-m", {9, 6}, rng));
   return cases;
+}
+
+/// As ONNX: one value, and the state of an LSTM, as they were.
+std::string nothing(bool carries) {
+  onnx::Graph graph;
+  for (const char* state : {"h", "c"}) {
+    if (carries) graph.carry(state, kLstmUnits, graph.node("Identity", {state}));
+  }
+  return graph.file("input", {1}, "input", "output", {1});
 }
 
 }  // namespace
@@ -85,14 +97,14 @@ std::vector<PeerCase> peer_cases(const PeersRequest& request, std::vector<std::s
   return cases;
 }
 
-double products(const Network& network) {
+double products(const Network& network, bool carries) {
   double sum = 0.0;
   for (std::size_t i = 0; i < network.layers().size(); ++i) {
     const Json& layer = network.layers()[i];
     const Shape &in = network.shapes()[i], &out = network.shapes()[i + 1];
     const auto kind = layer.at("kind").get<std::string>();
     if (kind == "conv2d") sum += convolution_products(layer, in, out);
-    if (kind == "lstm") sum += lstm_products(in, layer.value("units", out.back()));
+    if (kind == "lstm") sum += lstm_products(in, layer.value("units", out.back()), carries);
     if (kind == "linear") sum += static_cast<double>(element_count(in) * element_count(out));
   }
   return sum;
@@ -118,14 +130,18 @@ Tensor drawn_windows(const Network& network, Index samples, std::uint64_t seed) 
   return x;
 }
 
-void write_case(const std::filesystem::path& folder, const Network& network, const Tensor& x) {
+void write_case(const std::filesystem::path& folder, const PeerCase& what, const Tensor& x) {
+  const Network& network = what.network;
+  const bool carries = what.succession == Succession::kCarries;
   const std::vector<float> values(x.values().begin(), x.values().end());
   write_file(folder / kSamplesFile,
              {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
-  write_file(folder / kOnnxFile, to_onnx(network));
+  write_file(folder / kOnnxFile, to_onnx(network, carries));
+  write_file(folder / kNothingFile, nothing(carries));
   Container file;
   file.metadata["layers"] = network.layers().dump();
   file.metadata["input"] = Json(network.input()).dump();
+  file.metadata["carries"] = Json(carries).dump();
   store_tensors(network.state(), "", file);
   write_container(folder / kNetworkFile, file);
 }

@@ -107,6 +107,17 @@ Chart thread_chart(const Peers& peers, const std::string& network) {
   return chart;
 }
 
+/// Ours is 0; every library looks alike in all charts.
+int look_of(const Peers& peers, const std::string& library) {
+  int look = 0;
+  for (const Peer& peer : peers.peers) {
+    if (!peer.missing.empty()) continue;
+    ++look;
+    if (peer.name == library) return look;
+  }
+  return 0;
+}
+
 Chart epoch_chart(const Peers& peers) {
   Chart chart;
   chart.title = "training";
@@ -119,6 +130,7 @@ Chart epoch_chart(const Peers& peers) {
     for (const auto& [library, seconds] :
          {std::pair{std::string("dcnn"), row.ours}, std::pair{row.peer, row.theirs}}) {
       Series& series = series_of(chart, library, Series::Style::kMarkers);
+      series.look = look_of(peers, library);
       series.x.push_back(place);
       series.y.push_back(seconds);
     }
@@ -136,21 +148,42 @@ void add_panels(HtmlReport& page, const Peers& peers,
   if (!charts.empty()) page.panels(std::move(charts), caption);
 }
 
+/// Whose row it is and those columns: all of them are wider than the page.
+void add_columns(HtmlReport& page, const PeerTable& table, std::vector<std::string> names) {
+  names.insert(names.begin(), {"network", "batch", "threads", "library"});
+  std::vector<std::vector<std::string>> rows(table.rows.size());
+  for (const std::string& name : names) {
+    const auto column = std::ranges::find(table.header, name) - table.header.begin();
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      rows[k].push_back(table.rows[k][static_cast<std::size_t>(column)]);
+    }
+  }
+  page.table(names, rows);
+}
+
 }  // namespace
 
 void add_to(HtmlReport& page, const Peers& peers) {
   page.heading("Beside other libraries");
-  for (const std::string& line : peer_lines(peers)) page.paragraph(line + ".");
+  std::string libraries;
+  for (const std::string& line : peer_lines(peers)) {
+    libraries += (libraries.empty() ? "" : "; ") + line;
+  }
+  page.paragraph(libraries + ".");
   const Chart latency = latency_chart(peers);
   if (!latency.categories.empty()) {
-    page.chart(latency, "time of one prediction, calls of every library in turns");
+    page.chart(latency,
+               "time of one prediction, calls of every library in turns, through its host where it "
+               "has one");
   }
   add_panels(page, peers, batch_chart, "time per sample over the samples of a call");
   add_panels(page, peers, thread_chart, "gain by threads over the samples of a call");
   if (!peers.epochs.empty()) page.chart(epoch_chart(peers), "time of a training epoch");
   if (!peers.rows.empty()) {
     const PeerTable calls = call_table(peers);
-    page.table(calls.header, calls.rows);
+    add_columns(page, calls, {"call [us]", "ratio", "overhead [us]", "net", "net of least"});
+    add_columns(page, calls, {"p50 [us]", "p99 [us]", "max [us]", "p99/p50", "of a loop"});
+    add_columns(page, calls, {"G products/s", "of peak", "difference"});
     page.paragraph(kCallNote);
   }
   if (!peers.epochs.empty()) {

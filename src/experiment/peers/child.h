@@ -10,7 +10,8 @@
 
 namespace dcnn {
 
-/// Calls go through the samples in turn, over so many calls' worth of them at most.
+/// Calls go through the samples in turn, over so many calls' worth of them at most; a state that is
+/// carried is zero whenever they begin again.
 inline constexpr int kMostDistinctCalls = 1000;
 
 /// The protocol, line by line, words separated by spaces. It runs in the folder of the files:

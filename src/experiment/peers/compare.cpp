@@ -24,7 +24,6 @@ class Comparison {
     go_on();
     const auto cases = peer_cases(request_, result_.notes);
     helpers_ = open_helpers(request_.helpers, workplace_.path, result_.peers);
-    prepare_hosts();
     for (const Helper& helper : helpers_) result_.peers.push_back(helper.peer);
     double done = 0.0;
     for (const PeerCase& what : cases) {
@@ -39,16 +38,6 @@ class Comparison {
  private:
   void go_on() const {
     if (request_.stop_wanted && request_.stop_wanted()) fail(Exit::kFailure, "stopped");
-  }
-
-  /// Those whose calls go through a host get a network that does nothing: one value flattened.
-  void prepare_hosts() {
-    Rng rng(0);
-    const Network nothing(Json{{{"kind", "flatten"}}}, {1}, rng);
-    write_case(workplace_.path, nothing, drawn_samples(nothing, 1, request_.seed));
-    guarded([](const Helper& helper) {
-      if (!helper.peer.host.empty()) helper.load_nothing();
-    });
   }
 
   /// Does this for every library; one that fails is left out from then on, with a note.
@@ -74,30 +63,34 @@ class Comparison {
   }
 
   void compare(const PeerCase& what) {
-    const double each = products(what.network);
+    const double each = products(what.network, what.succession == Succession::kCarries);
     auto chosen = batches(each);
-    if (what.slides) std::erase_if(chosen, [](Index batch) { return batch != 1; });
+    if (what.succession != Succession::kNone)
+      std::erase_if(chosen, [](Index batch) { return batch != 1; });
     if (chosen.empty()) return;
     const Index most = std::max<Index>(kCompared, *std::ranges::max_element(chosen));
-    const Tensor x =
-        (what.slides ? drawn_windows : drawn_samples)(what.network, most, request_.seed);
-    write_case(workplace_.path, what.network, x);
+    const bool slides = what.succession == Succession::kSlides;
+    const Tensor x = (slides ? drawn_windows : drawn_samples)(what.network, most, request_.seed);
+    write_case(workplace_.path, what, x);
+    guarded([](const Helper& helper) {
+      if (!helper.peer.host.empty()) helper.load_nothing();
+    });
     for (const Index batch : chosen) {
       for (const int threads : {1, threads_}) {
         go_on();
         if (threads > 1 && batch < kThreadedBatch) continue;
-        compare(what, x, batch, threads);
+        compare(what, x, each, batch, threads);
         if (threads_ == 1) break;
       }
     }
   }
 
-  void compare(const PeerCase& what, const Tensor& x, Index batch, int threads) {
+  void compare(const PeerCase& what, const Tensor& x, double each, Index batch, int threads) {
     PeersRow row;
     row.network = what.name;
     row.batch = batch;
     row.threads = threads;
-    row.products = products(what.network) * static_cast<double>(batch);
+    row.products = each * static_cast<double>(batch);
     Ours ours(what, x, batch, threads);
     const std::vector<double> wanted = ours.outputs(kCompared);
     std::map<std::string, double> differences;
@@ -122,6 +115,7 @@ class Comparison {
     const Turns& own = measured.contestants[0];
     row.peak = measured.peak;
     row.ours = own.times;
+    row.loop_tail = measured.loop_tail;
     for (std::size_t i = 0; i < helpers_.size(); ++i) {
       row.peers.push_back(result_of(helpers_[i].peer.name, own, measured.contestants[i + 1]));
       row.peers.back().difference = differences[helpers_[i].peer.name];

@@ -49,8 +49,7 @@ void Helper::load(Index batch, int threads) const {
 }
 
 void Helper::load_nothing() const {
-  child->ask(std::string("nothing ") + kSamplesFile + " " +
-             (reads_onnx ? kOnnxFile : kNetworkFile));
+  child->ask(std::string("nothing ") + kSamplesFile + " " + kNothingFile);
 }
 
 std::vector<double> Helper::outputs(Index count) const {

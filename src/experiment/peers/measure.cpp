@@ -40,10 +40,31 @@ Index stretch_calls(Contestant& contestant, double& seconds) {
   }
 }
 
+Index single_count(double seconds) {
+  return std::clamp(static_cast<Index>(kSingle / seconds), kFewestSingle, kMostSingle);
+}
+
+/// p99 over p50 of a loop that needs nothing but the processor and takes so long.
+double loop_tail(double seconds) {
+  volatile double sink = 1.0;
+  const auto loop = [&](Index steps) {
+    const auto begin = Clock::now();
+    double x = sink;
+    for (Index k = 0; k < steps; ++k) x = 0.999 * x + 0.001;
+    sink = x;
+    return seconds_since(begin);
+  };
+  constexpr Index kTrial = 100000;
+  const double step = std::min({loop(kTrial), loop(kTrial), loop(kTrial)}) / kTrial;
+  const auto steps = static_cast<Index>(seconds / step);
+  std::vector<double> times(static_cast<std::size_t>(single_count(seconds)));
+  for (double& time : times) time = loop(steps);
+  std::ranges::sort(times);
+  return quantile(times, 0.99) / quantile(times, 0.5);
+}
+
 void single_calls(Contestant& contestant, CallTimes& times) {
-  const double wanted = kSingle / times.median;
-  const Index calls = std::clamp(static_cast<Index>(wanted), kFewestSingle, kMostSingle);
-  std::vector<double> seconds = contestant.each(calls);
+  std::vector<double> seconds = contestant.each(single_count(times.median));
   std::ranges::sort(seconds);
   times.p50 = quantile(seconds, 0.5);
   times.p99 = quantile(seconds, 0.99);
@@ -67,11 +88,12 @@ Ours::Ours(const PeerCase& what, const Tensor& samples, Index batch, int threads
       cells_(samples.size() / samples.dim(0)),
       calls_(std::min<Index>(kMostDistinctCalls, samples.dim(0) / batch)),
       threads_(threads),
-      slides_(what.slides) {}
+      succession_(what.succession) {}
 
 const Real* Ours::call(Index k) {
   const Real* x = samples_.data() + k % calls_ * batch_ * cells_;
-  if (slides_) return plan_.slide(x, k % calls_ == 0);
+  if (succession_ == Succession::kSlides) return plan_.slide(x, k % calls_ == 0);
+  if (succession_ == Succession::kCarries) return plan_.carry(x, k % calls_ == 0);
   if (batch_ == 1) return plan_.run(x);
   batch_plan_.run(x, batch_, y_.data());
   return y_.data();
@@ -152,6 +174,7 @@ Measured measure(const std::vector<Contestant*>& contestants, int rounds, int th
     turns.times.least = *std::ranges::min_element(turns.calls);
     settle(threads);
     single_calls(*contestants[i], turns.times);
+    if (i == 0) result.loop_tail = loop_tail(turns.times.p50);
   }
   return result;
 }

@@ -42,7 +42,7 @@ class Ours final : public Contestant {
   BatchPlan batch_plan_;
   Index batch_, cells_, calls_;
   int threads_;
-  bool slides_;
+  Succession succession_;
 };
 
 class Theirs final : public Contestant {
@@ -68,6 +68,7 @@ struct Turns {
 struct Measured {
   std::vector<Turns> contestants;
   double peak = 0.0;
+  double loop_tail = 0.0;  ///< PeersRow::loop_tail
 };
 Measured measure(const std::vector<Contestant*>& contestants, int rounds, int threads);
 

@@ -26,6 +26,8 @@ Json call_json(const PeersRow& row) {
                {"peak_products_per_s", row.peak},
                {"share_of_peak", row.rate() / row.peak},
                {"ours", times_json(row.ours)},
+               {"p99_over_p50", row.ours.p99 / row.ours.p50},
+               {"p99_over_p50_of_a_loop", row.loop_tail},
                {"peers", Json::array()}};
   for (const PeerResult& peer : row.peers) {
     Json result = {{"peer", peer.peer}};

@@ -28,6 +28,8 @@ std::vector<std::string> cells(const PeersRow& row, const std::string& name,
           in_us(times.p50),
           in_us(times.p99),
           in_us(times.maximum),
+          significant(times.p99 / times.p50, 3),
+          name == kOurs ? significant(row.loop_tail, 3) : "-",
           significant(1e-9 * rate, 3),
           significant(rate / row.peak, 2)};
 }
@@ -47,10 +49,10 @@ std::vector<std::string> peer_lines(const Peers& peers) {
 }
 
 PeerTable call_table(const Peers& peers) {
-  PeerTable table{
-      {"network", "batch", "threads", "library", "call [us]", "p50 [us]", "p99 [us]", "max [us]",
-       "G products/s", "of peak", "ratio", "overhead [us]", "net", "net of least", "difference"},
-      {}};
+  PeerTable table{{"network", "batch", "threads", "library", "call [us]", "p50 [us]", "p99 [us]",
+                   "max [us]", "p99/p50", "of a loop", "G products/s", "of peak", "ratio",
+                   "overhead [us]", "net", "net of least", "difference"},
+                  {}};
   for (const PeersRow& row : peers.rows) {
     auto ours = cells(row, kOurs, row.ours);
     ours.insert(ours.end(), {"1", "-", "1", "1", "-"});

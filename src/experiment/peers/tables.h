@@ -14,7 +14,8 @@ struct PeerTable {
 };
 
 inline constexpr const char* kCallNote =
-    "Times of a call: medians of stretches in turns (call) and single calls (p50, p99, max). "
+    "Times of a call: medians of stretches in turns (call) and single calls (p50, p99, max); of a "
+    "loop: p99/p50 of one that needs the processor alone and takes as long, right after ours. "
     "ratio: median over turns of a library's time over ours; overhead: of a call through its host "
     "that does nothing, in the same turns; net: the ratio without it; net of least: the same of "
     "the least times. difference: of its outputs from ours, the greatest over the greatest output.";

@@ -74,6 +74,7 @@ class Training {
   }
 
   void epoch() {
+    const KeptMemory kept;
     for (Index first = 0; first + batch_ <= kSamples; first += batch_) {
       Pass pass{.mode = Pass::Mode::kTrain, .rng = Rng({1, static_cast<std::uint64_t>(first)})};
       const Tensor loss =

@@ -14,11 +14,13 @@ static_assert(std::endian::native == std::endian::little, "ONNX's raw data is li
 constexpr int kFloat = 1, kInt64 = 7;                                     // TensorProto.DataType
 constexpr int kAttributeInt = 2, kAttributeText = 3, kAttributeInts = 7;  // AttributeProto
 
-/// A type and a shape that begins with the free number of samples.
+constexpr Index kFree = -1;  // the number of samples
+
 Message value_info(const std::string& name, const std::vector<Index>& shape) {
   Message dimensions;
-  dimensions.message(1, Message().bytes(2, "N"));
-  for (const Index extent : shape) dimensions.message(1, Message().number(1, extent));
+  for (const Index extent : shape) {
+    dimensions.message(1, extent == kFree ? Message().bytes(2, "N") : Message().number(1, extent));
+  }
   const Message tensor = Message().number(1, kFloat).message(2, dimensions);
   return Message().bytes(1, name).message(2, Message().message(1, tensor));
 }
@@ -67,16 +69,23 @@ std::string Graph::constant(const std::string& hint, const std::vector<Index>& v
 
 std::string Graph::node(const std::string& type, const std::vector<std::string>& inputs,
                         const std::vector<Message>& attributes) {
-  return node_output(type, 0, inputs, attributes);
+  return node_outputs(type, 0, 1, inputs, attributes).front();
 }
 
-std::string Graph::node_output(const std::string& type, std::size_t place,
-                               const std::vector<std::string>& inputs,
-                               const std::vector<Message>& attributes) {
-  std::vector<std::string> outputs(place);
-  outputs.push_back(fresh("y"));
+std::vector<std::string> Graph::node_outputs(const std::string& type, std::size_t first,
+                                             std::size_t count,
+                                             const std::vector<std::string>& inputs,
+                                             const std::vector<Message>& attributes) {
+  std::vector<std::string> outputs(first), wanted;
+  for (std::size_t k = 0; k < count; ++k) wanted.push_back(fresh("y"));
+  outputs.insert(outputs.end(), wanted.begin(), wanted.end());
   add(type, inputs, outputs, attributes);
-  return outputs.back();
+  return wanted;
+}
+
+void Graph::carry(const std::string& name, Index units, const std::string& next) {
+  states_.message(11, value_info(name, {1, kFree, units}));
+  states_.message(12, value_info(next, {1, kFree, units}));
 }
 
 void Graph::add(const std::string& type, const std::vector<std::string>& inputs,
@@ -93,8 +102,15 @@ std::string Graph::file(const std::string& input, const std::vector<Index>& in,
                         const std::string& result, const std::string& output,
                         const std::vector<Index>& out) {
   add("Identity", {result}, {output}, {});
+  const auto of_samples = [](std::vector<Index> shape) {
+    shape.insert(shape.begin(), kFree);
+    return shape;
+  };
   Message graph = nodes_and_constants_;
-  graph.bytes(2, "dcnn").message(11, value_info(input, in)).message(12, value_info(output, out));
+  graph.bytes(2, "dcnn")
+      .message(11, value_info(input, of_samples(in)))
+      .message(12, value_info(output, of_samples(out)))
+      .append(states_);
   Message model;
   model.number(1, kOnnxIrVersion).bytes(2, "dcnn").bytes(3, DCNN_VERSION).message(7, graph);
   return model.message(8, Message().bytes(1, "").number(2, kOnnxOpset)).str();

@@ -24,10 +24,14 @@ class Graph {
   /// Adds a node; returns the name of its output. An empty input is one left out.
   std::string node(const std::string& type, const std::vector<std::string>& inputs,
                    const std::vector<Message>& attributes = {});
-  /// The same for a node whose output of the given place is wanted, those before it unnamed.
-  std::string node_output(const std::string& type, std::size_t place,
-                          const std::vector<std::string>& inputs,
-                          const std::vector<Message>& attributes);
+  /// The same for a node of which the `count` outputs from `first` on are wanted.
+  std::vector<std::string> node_outputs(const std::string& type, std::size_t first,
+                                        std::size_t count, const std::vector<std::string>& inputs,
+                                        const std::vector<Message>& attributes);
+
+  /// A state that goes on from call to call: the file has a float tensor `name` (1, N, units) more
+  /// as its input, and another one as its output, the value named `next`.
+  void carry(const std::string& name, Index units, const std::string& next);
 
   /// The whole file: float tensors `input` (N, in…) and `output` (N, out…), whose value is the one
   /// named `result`.
@@ -40,7 +44,7 @@ class Graph {
   void add(const std::string& type, const std::vector<std::string>& inputs,
            const std::vector<std::string>& outputs, const std::vector<Message>& attributes);
 
-  Message nodes_and_constants_;
+  Message nodes_and_constants_, states_;
   int names_ = 0;
 };
 

@@ -16,6 +16,7 @@ struct Flow {
   /// (H, W, C) of a flattened image whose values lie channels-first still; empty where they lie as
   /// ours do.
   Shape unordered;
+  bool carries = false;  ///< the state of an LSTM goes on from call to call
 };
 
 using Weights = std::map<std::string, Tensor>;
@@ -115,18 +116,24 @@ void add_lstm(const Json& layer, const Weights& weights, Graph& graph, Flow& flo
   std::vector<float> bias = gate_rows(weights.at("bias"), 1);
   bias.resize(static_cast<std::size_t>(2 * gates));  // ONNX adds a second one to the recurrent part
   const auto steps_first = graph.node("Transpose", {flow.value}, {wholes("perm", {1, 0, 2})});
-  const std::vector<std::string> inputs{
+  std::vector<std::string> inputs{
       steps_first,
       graph.constant("weight", {1, gates, input.dim(0)}, gate_rows(input, input.dim(0))),
       graph.constant("recurrent", {1, gates, units}, gate_rows(recurrent, units)),
       graph.constant("bias", {1, 2 * gates}, bias)};
   const std::vector<Message> size{whole("hidden_size", units)};
-  if (layer.value("sequence", false)) {
+  if (flow.carries) {
+    inputs.insert(inputs.end(), {"", "h", "c"});
+    const auto next = graph.node_outputs("LSTM", 1, 2, inputs, size);  // (1, N, H) both
+    graph.carry("h", units, next[0]);
+    graph.carry("c", units, next[1]);
+    flow.value = graph.node("Squeeze", {next[0], graph.constant("axis", {0})});
+  } else if (layer.value("sequence", false)) {
     const auto all = graph.node("LSTM", inputs, size);  // (T, 1, N, H)
     const auto squeezed = graph.node("Squeeze", {all, graph.constant("axis", {1})});
     flow.value = graph.node("Transpose", {squeezed}, {wholes("perm", {1, 0, 2})});
   } else {
-    const auto newest = graph.node_output("LSTM", 1, inputs, size);  // (1, N, H)
+    const auto newest = graph.node_outputs("LSTM", 1, 1, inputs, size)[0];  // (1, N, H)
     flow.value = graph.node("Squeeze", {newest, graph.constant("axis", {0})});
   }
 }
@@ -169,9 +176,10 @@ Shape sample_shape(const Network& network) {
   return shape;
 }
 
-std::string add_layers(const Network& whole_network, Graph& graph, const std::string& input) {
+std::string add_layers(const Network& whole_network, Graph& graph, const std::string& input,
+                       bool carries) {
   const Network network = whole_network.folded();
-  Flow flow{input, network.input(), {}};
+  Flow flow{input, network.input(), {}, carries};
   for (Index i = 0; i < static_cast<Index>(network.layers().size()); ++i) {
     const std::string prefix = std::to_string(i) + ".";
     Weights weights;

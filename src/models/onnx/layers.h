@@ -9,8 +9,9 @@
 namespace dcnn::onnx {
 
 /// Adds the layers of network.folded() behind the value `input`, (N, sample…) with images
-/// channels-first; returns the name of the result (N, outputs).
-std::string add_layers(const Network& network, Graph& graph, const std::string& input);
+/// channels-first; returns the name of the result (N, outputs). `carries`: see to_onnx().
+std::string add_layers(const Network& network, Graph& graph, const std::string& input,
+                       bool carries = false);
 
 /// The shape of one sample there: (C, H, W) of an image.
 Shape sample_shape(const Network& network);

@@ -23,6 +23,11 @@ class Message {
     return *this;
   }
   Message& message(int field, const Message& value) { return bytes(field, value.bytes_); }
+  /// The fields of another one.
+  Message& append(const Message& other) {
+    bytes_ += other.bytes_;
+    return *this;
+  }
   const std::string& str() const { return bytes_; }
 
  private:

@@ -137,9 +137,9 @@ class Around {
 
 }  // namespace
 
-std::string to_onnx(const Network& network) {
+std::string to_onnx(const Network& network, bool carries) {
   Graph graph;
-  const std::string result = onnx::add_layers(network, graph, "input");
+  const std::string result = onnx::add_layers(network, graph, "input", carries);
   return graph.file("input", onnx::sample_shape(network), result, "output",
                     network.shapes().back());
 }

@@ -54,55 +54,61 @@ HWY_INLINE void for_blocks(const Blocks& blocks, const Map& map) {
   for (Index i = blocks.whole; i < blocks.size; ++i) map.at(One(), i % blocks.period)(i);
 }
 
-/// sums[c] of term(d, channel position, i); four sums per vector hide the latency of addition.
-template <class Term>
+/// Sums of kTerms terms, sums[term·channels + c] of what term(d, channel position, i, out) puts
+/// into out; four sums per vector and term hide the latency of addition.
+template <int kTerms, class Term>
 HWY_INLINE void sum_blocks(const Blocks& blocks, Index channels, const Term& term, Real* sums) {
+  using V = hn::Vec<Full>;
   const Full d;
-  std::fill_n(sums, channels, Real(0));
+  std::fill_n(sums, kTerms * channels, Real(0));
   std::vector<Real> lanes(static_cast<std::size_t>(kLanes));
   for (Index v = 0; v < blocks.period; v += kLanes) {
-    hn::Vec<Full> sum[4] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    V sum[4][kTerms];
+    for (auto& part : sum) {
+      for (V& s : part) s = hn::Zero(d);
+    }
+    const auto add = [&](V* part, Index i) HWY_ATTR {
+      V values[kTerms];
+      term(d, v, i, values);
+      for (int k = 0; k < kTerms; ++k) part[k] = hn::Add(part[k], values[k]);
+    };
     Index i = v;
     for (; i + 3 * blocks.period < blocks.whole; i += 4 * blocks.period) {
-      sum[0] = hn::Add(sum[0], term(d, v, i));
-      sum[1] = hn::Add(sum[1], term(d, v, i + blocks.period));
-      sum[2] = hn::Add(sum[2], term(d, v, i + 2 * blocks.period));
-      sum[3] = hn::Add(sum[3], term(d, v, i + 3 * blocks.period));
+      for (Index part = 0; part < 4; ++part) add(sum[part], i + part * blocks.period);
     }
-    for (; i < blocks.whole; i += blocks.period) sum[0] = hn::Add(sum[0], term(d, v, i));
-    hn::StoreU(hn::Add(hn::Add(sum[0], sum[1]), hn::Add(sum[2], sum[3])), d, lanes.data());
-    for (Index lane = 0; lane < kLanes; ++lane) {
-      sums[(v + lane) % channels] += lanes[static_cast<std::size_t>(lane)];
+    for (; i < blocks.whole; i += blocks.period) add(sum[0], i);
+    for (int k = 0; k < kTerms; ++k) {
+      hn::StoreU(hn::Add(hn::Add(sum[0][k], sum[1][k]), hn::Add(sum[2][k], sum[3][k])), d,
+                 lanes.data());
+      for (Index lane = 0; lane < kLanes; ++lane) {
+        sums[k * channels + (v + lane) % channels] += lanes[static_cast<std::size_t>(lane)];
+      }
     }
   }
   for (Index i = blocks.whole; i < blocks.size; ++i) {
-    sums[i % channels] += hn::GetLane(term(One(), i % blocks.period, i));
+    hn::Vec<One> values[kTerms];
+    term(One(), i % blocks.period, i, values);
+    for (int k = 0; k < kTerms; ++k) sums[k * channels + i % channels] += hn::GetLane(values[k]);
   }
 }
 
 void channel_sums_target(const Real* x, Index rows, Index channels, Real* sums) {
-  const auto term = [=](auto d, Index, Index i) HWY_ATTR { return hn::LoadU(d, x + i); };
-  sum_blocks(Blocks(rows, channels), channels, term, sums);
+  const auto term = [=](auto d, Index, Index i, auto* out) HWY_ATTR { *out = hn::LoadU(d, x + i); };
+  sum_blocks<1>(Blocks(rows, channels), channels, term, sums);
 }
 
-void channel_products_target(const Real* x, const Real* mean, const Real* factor, Index rows,
-                             Index channels, Real* sums) {
+void channel_deviations_target(const Real* x, const Real* mean, Index rows, Index channels,
+                               Real* sums) {
   const Blocks blocks(rows, channels);
   const Repeated means(mean, channels, blocks.period);
-  if (factor) {
-    const auto term = [&](auto d, Index v, Index i) HWY_ATTR {
-      return hn::Mul(hn::Sub(hn::LoadU(d, x + i), means.at(d, v)), hn::LoadU(d, factor + i));
-    };
-    sum_blocks(blocks, channels, term, sums);
-  } else {
-    const auto term = [&](auto d, Index v, Index i) HWY_ATTR {
-      const auto centred = hn::Sub(hn::LoadU(d, x + i), means.at(d, v));
-      return hn::Mul(centred, centred);
-    };
-    sum_blocks(blocks, channels, term, sums);
-  }
+  const auto term = [&](auto d, Index v, Index i, auto* out) HWY_ATTR {
+    const auto centred = hn::Sub(hn::LoadU(d, x + i), means.at(d, v));
+    *out = hn::Mul(centred, centred);
+  };
+  sum_blocks<1>(blocks, channels, term, sums);
 }
 
+template <bool kRelu>
 struct Affine {
   const Real* x;
   const Repeated &mean, &scale, &shift;
@@ -110,21 +116,54 @@ struct Affine {
   template <class D>
   HWY_INLINE auto at(D d, Index v) const {
     return [this, d, m = mean.at(d, v), a = scale.at(d, v), b = shift.at(d, v)](Index i) HWY_ATTR {
-      hn::StoreU(hn::MulAdd(hn::Sub(hn::LoadU(d, x + i), m), a, b), d, y + i);
+      const auto sum = hn::MulAdd(hn::Sub(hn::LoadU(d, x + i), m), a, b);
+      hn::StoreU(kRelu ? hn::Max(sum, hn::Zero(d)) : sum, d, y + i);
     };
   }
 };
 
 void channel_affine_target(const Real* x, const Real* mean, const Real* scale, const Real* shift,
-                           Index rows, Index channels, Real* y) {
+                           Index rows, Index channels, bool relu, Real* y) {
   const Blocks blocks(rows, channels);
   const Repeated m(mean, channels, blocks.period), a(scale, channels, blocks.period),
       b(shift, channels, blocks.period);
-  for_blocks(blocks, Affine{x, m, a, b, y});
+  if (relu) {
+    for_blocks(blocks, Affine<true>{x, m, a, b, y});
+  } else {
+    for_blocks(blocks, Affine<false>{x, m, a, b, y});
+  }
 }
 
+/// What arrives before the ReLU.
+template <bool kRelu, class D>
+HWY_INLINE hn::Vec<D> before_relu(D d, const OutputGradient& gradient, Index i) {
+  const auto dy = hn::LoadU(d, gradient.dy + i);
+  if constexpr (!kRelu) return dy;
+  return hn::IfThenElseZero(hn::Gt(hn::LoadU(d, gradient.y + i), hn::Zero(d)), dy);
+}
+
+template <bool kRelu>
+void gradient_sums(const OutputGradient& gradient, const Real* x, const Real* mean, Index rows,
+                   Index channels, Real* sums) {
+  const Blocks blocks(rows, channels);
+  const Repeated means(mean, channels, blocks.period);
+  const auto term = [&](auto d, Index v, Index i, auto* out) HWY_ATTR {
+    out[0] = before_relu<kRelu>(d, gradient, i);
+    out[1] = hn::Mul(hn::Sub(hn::LoadU(d, x + i), means.at(d, v)), out[0]);
+  };
+  sum_blocks<2>(blocks, channels, term, sums);
+}
+
+void channel_gradient_sums_target(const OutputGradient& gradient, const Real* x, const Real* mean,
+                                  Index rows, Index channels, Real* sums) {
+  (gradient.y ? gradient_sums<true> : gradient_sums<false>)(gradient, x, mean, rows, channels,
+                                                            sums);
+}
+
+template <bool kRelu>
 struct Gradient {
-  const Real *dy, *x;
+  const OutputGradient& gradient;
+  const Real* x;
   const Repeated &scale, &mean, &slope, &shift;
   Tensor::GradientSlot slot;
   template <class D>
@@ -133,19 +172,23 @@ struct Gradient {
             c = shift.at(d, v)](Index i) HWY_ATTR {
       const auto start = slot.add ? hn::Add(c, hn::LoadU(d, slot.data + i)) : c;
       const auto centred = hn::Sub(hn::LoadU(d, x + i), m);
-      const auto sum = hn::MulAdd(centred, b, hn::MulAdd(hn::LoadU(d, dy + i), a, start));
-      hn::StoreU(sum, d, slot.data + i);
+      const auto dy = before_relu<kRelu>(d, gradient, i);
+      hn::StoreU(hn::MulAdd(centred, b, hn::MulAdd(dy, a, start)), d, slot.data + i);
     };
   }
 };
 
-void channel_gradient_target(const Real* dy, const Real* scale, const Real* x, const Real* mean,
-                             const Real* slope, const Real* shift, Index rows, Index channels,
-                             Tensor::GradientSlot slot) {
+void channel_gradient_target(const OutputGradient& gradient, const Real* scale, const Real* x,
+                             const Real* mean, const Real* slope, const Real* shift, Index rows,
+                             Index channels, Tensor::GradientSlot slot) {
   const Blocks blocks(rows, channels);
   const Repeated a(scale, channels, blocks.period), m(mean, channels, blocks.period),
       b(slope, channels, blocks.period), c(shift, channels, blocks.period);
-  for_blocks(blocks, Gradient{dy, x, a, m, b, c, slot});
+  if (gradient.y) {
+    for_blocks(blocks, Gradient<true>{gradient, x, a, m, b, c, slot});
+  } else {
+    for_blocks(blocks, Gradient<false>{gradient, x, a, m, b, c, slot});
+  }
 }
 
 }  // namespace dcnn::HWY_NAMESPACE
@@ -154,29 +197,34 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace dcnn {
 HWY_EXPORT(channel_sums_target);
-HWY_EXPORT(channel_products_target);
+HWY_EXPORT(channel_deviations_target);
 HWY_EXPORT(channel_affine_target);
+HWY_EXPORT(channel_gradient_sums_target);
 HWY_EXPORT(channel_gradient_target);
 
 void channel_sums(const Real* x, Index rows, Index channels, Real* sums) {
   HWY_DYNAMIC_DISPATCH(channel_sums_target)(x, rows, channels, sums);
 }
 
-void channel_products(const Real* x, const Real* mean, const Real* factor, Index rows,
-                      Index channels, Real* sums) {
-  HWY_DYNAMIC_DISPATCH(channel_products_target)(x, mean, factor, rows, channels, sums);
+void channel_deviations(const Real* x, const Real* mean, Index rows, Index channels, Real* sums) {
+  HWY_DYNAMIC_DISPATCH(channel_deviations_target)(x, mean, rows, channels, sums);
 }
 
 void channel_affine(const Real* x, const Real* mean, const Real* scale, const Real* shift,
-                    Index rows, Index channels, Real* y) {
-  HWY_DYNAMIC_DISPATCH(channel_affine_target)(x, mean, scale, shift, rows, channels, y);
+                    Index rows, Index channels, bool relu, Real* y) {
+  HWY_DYNAMIC_DISPATCH(channel_affine_target)(x, mean, scale, shift, rows, channels, relu, y);
 }
 
-void channel_gradient(const Real* dy, const Real* scale, const Real* x, const Real* mean,
-                      const Real* slope, const Real* shift, Index rows, Index channels,
-                      Tensor::GradientSlot slot) {
+void channel_gradient_sums(const OutputGradient& gradient, const Real* x, const Real* mean,
+                           Index rows, Index channels, Real* sums) {
+  HWY_DYNAMIC_DISPATCH(channel_gradient_sums_target)(gradient, x, mean, rows, channels, sums);
+}
+
+void channel_gradient(const OutputGradient& gradient, const Real* scale, const Real* x,
+                      const Real* mean, const Real* slope, const Real* shift, Index rows,
+                      Index channels, Tensor::GradientSlot slot) {
   HWY_DYNAMIC_DISPATCH(channel_gradient_target)
-  (dy, scale, x, mean, slope, shift, rows, channels, slot);
+  (gradient, scale, x, mean, slope, shift, rows, channels, slot);
 }
 }  // namespace dcnn
 #endif

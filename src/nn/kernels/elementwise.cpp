@@ -1,5 +1,7 @@
 #include "nn/kernels/elementwise.h"
 
+#include "dcnn/core/random.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "nn/kernels/elementwise.cpp"
 #include <hwy/foreach_target.h>
@@ -38,6 +40,30 @@ void sum_arrays_target(const Real* arrays, Index count, Index n, Tensor::Gradien
     for (Index k = 1; k < count; ++k) sum = hn::Add(sum, hn::LoadU(d, arrays + k * n + i));
     put(d, sum, out, i);
   });
+}
+
+void dropout_mask_target(const DropoutMask& draw, Index pairs, Real* mask) {
+  Index k = 0;
+#if !defined(DCNN_DOUBLE) && HWY_TARGET != HWY_SCALAR
+  const hn::Repartition<std::uint64_t, Full> wide;
+  const hn::RebindToUnsigned<Full> half;
+  const auto lanes = static_cast<Index>(hn::Lanes(wide));
+  for (; k + lanes <= pairs; k += lanes) {  // mix_bits()
+    auto x = hn::Iota(wide, draw.key + static_cast<std::uint64_t>(k) + 0x9e3779b97f4a7c15ULL);
+    x = hn::Mul(hn::Xor(x, hn::ShiftRight<30>(x)), hn::Set(wide, 0xbf58476d1ce4e5b9ULL));
+    x = hn::Mul(hn::Xor(x, hn::ShiftRight<27>(x)), hn::Set(wide, 0x94d049bb133111ebULL));
+    x = hn::Xor(x, hn::ShiftRight<31>(x));
+    const auto drops = hn::Lt(hn::BitCast(half, x), hn::Set(half, draw.drop_below));
+    hn::StoreU(hn::IfThenZeroElse(hn::RebindMask(Full(), drops), hn::Set(Full(), draw.kept)),
+               Full(), mask + 2 * k);
+  }
+#endif
+  const Real factors[2] = {draw.kept, 0};
+  for (; k < pairs; ++k) {
+    const std::uint64_t word = mix_bits(draw.key + static_cast<std::uint64_t>(k));
+    mask[2 * k] = factors[(word & 0xffffffffU) < draw.drop_below];
+    mask[2 * k + 1] = factors[word >> 32 < draw.drop_below];
+  }
 }
 
 void adam_target(const AdamStep& s, Index n, const Real* gradient, Real* first, Real* second,
@@ -121,6 +147,7 @@ HWY_EXPORT(relu_forward_target);
 HWY_EXPORT(relu_gradient_target);
 HWY_EXPORT(multiply_target);
 HWY_EXPORT(sum_arrays_target);
+HWY_EXPORT(dropout_mask_target);
 HWY_EXPORT(adam_target);
 HWY_EXPORT(affine_target);
 HWY_EXPORT(affine_of_one_target);
@@ -139,6 +166,10 @@ void multiply(const Real* a, const Real* b, Index n, Tensor::GradientSlot out) {
 
 void sum_arrays(const Real* arrays, Index count, Index n, Tensor::GradientSlot out) {
   HWY_DYNAMIC_DISPATCH(sum_arrays_target)(arrays, count, n, out);
+}
+
+void dropout_mask(const DropoutMask& draw, Index pairs, Real* mask) {
+  HWY_DYNAMIC_DISPATCH(dropout_mask_target)(draw, pairs, mask);
 }
 
 void adam(const AdamStep& step, Index n, const Real* gradient, Real* first, Real* second,

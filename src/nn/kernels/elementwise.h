@@ -14,6 +14,15 @@ void multiply(const Real* a, const Real* b, Index n, Tensor::GradientSlot out);
 /// out = (or +=) the sum of `count` arrays of n values one behind the other, in their order.
 void sum_arrays(const Real* arrays, Index count, Index n, Tensor::GradientSlot out);
 
+/// What multiplies two values in a dropout: `kept`, or 0 where the lower or the upper half of
+/// mix_bits(key + k) is below `drop_below`. mask[2k], mask[2k + 1] for k in [0, pairs).
+struct DropoutMask {
+  std::uint64_t key;
+  std::uint32_t drop_below;
+  Real kept;
+};
+void dropout_mask(const DropoutMask& draw, Index pairs, Real* mask);
+
 /// Coefficients of one Adam step (Kingma and Ba 2015) with both bias corrections worked in.
 struct AdamStep {
   Real beta1, beta2;

@@ -57,6 +57,7 @@ struct Positions {
   static constexpr auto kAll = std::make_index_sequence<kRows * kColumns * kVectors>();
   V sum[kRows * kColumns * kVectors];
 
+  HWY_INLINE Positions() {}  // GCC makes one for the baseline alone, which NEON's vectors refuse
   template <std::size_t... I>
   HWY_INLINE void start(const T* bias, std::index_sequence<I...>) {
     ((sum[I] = hn::LoadU(D(), bias + static_cast<Index>(I % kVectors) * kLanes)), ...);

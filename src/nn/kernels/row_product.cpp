@@ -23,6 +23,7 @@ struct Panel {
   static constexpr std::size_t kVectors = kPanels * static_cast<std::size_t>(kPerPanel);
   hn::Vec<D> sum[kVectors];
 
+  HWY_INLINE Panel() {}  // GCC makes one for the baseline alone, which NEON's vectors refuse
   template <std::size_t... I>
   HWY_INLINE void load(const Real* from, std::index_sequence<I...>) {
     ((sum[I] = hn::LoadU(D(), from + static_cast<Index>(I) * kLanes)), ...);

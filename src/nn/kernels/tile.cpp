@@ -24,6 +24,7 @@ struct Sums {
   static constexpr std::size_t kLanes = hn::MaxLanes(D());
   V sum[kRows * kVectors];
 
+  HWY_INLINE Sums() {}  // GCC makes one for the baseline alone, which NEON's vectors refuse
   template <std::size_t... I>
   HWY_INLINE void load(const T* start, Index row, std::index_sequence<I...>) {
     ((sum[I] = hn::LoadU(D(), start + static_cast<Index>(I / kVectors) * row +
