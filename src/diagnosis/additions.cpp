@@ -20,6 +20,14 @@ bool same_place(const Member& a, const Member& b) {
   return a.kind == b.kind && a.axis == b.axis && !a.interval_s && !b.interval_s;
 }
 
+/// Dry friction is a Stribeck curve that does not fall: the other takes its place, or none.
+bool both_dry(const Member& a, const Member& b) {
+  const auto dry = [](const Member& m) {
+    return m.name() == "coulomb_friction" || m.name() == "stribeck_friction";
+  };
+  return a.axis == b.axis && dry(a) && dry(b);
+}
+
 bool same_angle(const Member& a, const Member& b) {
   const auto angle = [](const Member& m) { return m.axis.substr(0, m.axis.find(':')); };
   return angle(a) == angle(b);
@@ -60,8 +68,9 @@ std::vector<Trial> Search::additions(const JointFit& fit, bool events,
   std::vector<Trial> trials(list.size());
   for_each_piece(static_cast<Index>(list.size()), [&](Index k) {
     const Member& member = list[static_cast<std::size_t>(k)];
-    const bool taken = std::any_of(fit.members.begin(), fit.members.end(),
-                                   [&](const Member& m) { return same_place(m, member); });
+    const bool taken = std::any_of(fit.members.begin(), fit.members.end(), [&](const Member& m) {
+      return same_place(m, member) || (study_.axis && both_dry(m, member));
+    });
     if (!taken) trials[static_cast<std::size_t>(k)] = scan.evaluate(member, Detail::kCoarse);
   });
   // The best seed of each form of an effect on an axis, then the best places of each effect.

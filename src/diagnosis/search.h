@@ -76,6 +76,7 @@ class Search {
   bool grow();
   bool simplify();
   bool swap();
+  bool floor_moved() const;
   bool split();
   bool replace_pairs();
   void explore();

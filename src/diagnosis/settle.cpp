@@ -107,9 +107,26 @@ bool Search::choose_rounding_noise() {
   return std::abs(best / before - 1.0) > 0.1;
 }
 
+/// Whether the floor below this fit is far from the one that it was weighed by, as it is where its
+/// members began far from their best.
+bool Search::floor_moved() const {
+  constexpr double kFar = 1.5;
+  const Signals left = study_.lowpass_hz > 0.0 ? unfiltered_left(study_, fit_.members)
+                                               : difference(study_, predict(study_, fit_.members));
+  const auto now = noise_floor(study_, left, noise_level(study_, left));
+  for (std::size_t j = 0; j < now.size(); ++j) {
+    if (floors_[j].deviation() > kFar * now[j].deviation()) return true;
+  }
+  return false;
+}
+
 void Search::settle(const std::vector<Member>& members) {
   make_setting(members);
   fit_ = joint_fit(*setting_, members);
+  if (study_.axis && floor_moved()) {
+    make_setting(fit_.members);
+    fit_ = joint_fit(*setting_, fit_.members);
+  }
   if (choose_rounding_noise()) {
     make_setting(fit_.members);
     fit_ = joint_fit(*setting_, fit_.members);
