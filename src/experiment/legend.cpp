@@ -18,7 +18,7 @@ Legend::Legend(const Chart& chart, double left, double right) {
   if (!labelled) return;
   double x = left, y = 0;
   for (const auto& series : chart.series) {
-    const double width = 46 + kLetter * character_count(series.label);
+    const double width = 48 + kLetter * character_count(series.label);
     if (x > left && x + width > right) x = left, y += kRow;
     places_.push_back({x, y});
     x += width;

@@ -114,21 +114,22 @@ void add_timing_table(HtmlReport& page, const std::vector<Timing>& timings,
               std::to_string(t.calls),
               repeated(t.mean_s * 1e6, t.std_s * 1e6),
               repeated(t.total_s, t.total_std_s),
+              significant(t.p50_s * 1e6, 3),
               significant(t.p99_s * 1e6, 3),
+              significant(t.max_s * 1e6, 3),
               time_from_pose(timings, t)};
     const PaperTime* paper = paper_time(t.entry, t.length);
     row.push_back(paper ? significant(paper->mean_s * 1e6, 5) : "–");
     row.push_back(paper ? fixed(paper->total_s, 2) : "–");
     rows.push_back(row);
   }
-  page.table({"model", "L", "calls", "mean [µs]", "total [s]", "p99 [µs]", "from pose [µs]",
-              "paper [µs]", "paper total [s]"},
+  page.table({"model", "L", "calls", "mean [µs]", "total [s]", "p50 [µs]", "p99 [µs]", "max [µs]",
+              "from pose [µs]", "paper [µs]", "paper total [s]"},
              rows);
   page.paragraph(
       "L samples per call, one pinned thread, from the 15 features to the force; 'from pose': with "
-      "the "
-      "features made in the call. " +
-      std::to_string(plan.timing.repetitions) + " repetitions" +
+      "the features made in the call. Repetitions: " +
+      std::to_string(plan.timing.repetitions) +
       (plan.timing.repetitions_lstm_25 != plan.timing.repetitions
            ? ", for LSTM-25 " + std::to_string(plan.timing.repetitions_lstm_25)
            : "") +
