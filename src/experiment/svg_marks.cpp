@@ -12,7 +12,7 @@ namespace {
 // with.
 constexpr std::array kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                  "#E69F00", "#56B4E9", "#6E6E6E", "#000000"};
-constexpr std::array kDashes = {"", "7 3", "2 2.5", "9 3 2 3", "4 2", "12 4", "1 2", ""};
+constexpr std::array kDashes = {"", "7 3", "2 2.5", "9 3 2 3", "4 2", "12 4", "10 2 2 2 2 2", ""};
 constexpr std::array kOpacities = {"0.85", "0.3", "0.6", "0.12"};
 // Paths around the origin: disc, square, triangle, diamond, cross, plus, triangle downwards, bow
 // tie; then the same hollow, but for cross and plus, which have no inside: star, hourglass.
