@@ -149,6 +149,8 @@ std::string reproduction_page(const ReproductionRequest& request, const Reproduc
       request.preset + ", " +
       (request.data.empty() ? "simulated recordings." : "recordings given by the user."));
   page.heading("Claims");
+  page.paragraph(
+      "By which models were trained with noise on their inputs: all, none, or one alone.");
   add_claim_table(page, verdicts);
   add_noise_experiment(page, request, plan, results);
   add_other_entries(page, plan, results);
