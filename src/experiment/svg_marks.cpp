@@ -12,16 +12,24 @@ namespace {
 // with.
 constexpr std::array kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                  "#E69F00", "#56B4E9", "#6E6E6E", "#000000"};
-constexpr std::array kDashes = {"", "7 3", "2 2.5", "9 3 2 3", "4 2", "12 4", "1 2", ""};
+constexpr std::array kDashes = {"", "7 3", "2 2.5", "9 3 2 3", "4 2", "12 4", "10 2 2 2 2 2", ""};
 constexpr std::array kOpacities = {"0.85", "0.3", "0.6", "0.12"};
-// Paths around the origin: disc, square, triangle, diamond, cross, plus, triangle downwards,
-// bow tie.
+// Paths around the origin: disc, square, triangle, diamond, cross, plus, triangle downwards, bow
+// tie; then the same hollow, but for cross and plus, which have no inside: star, hourglass.
 constexpr std::array kMarkers = {"M-3.5 0a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0-7 0z",
                                  "M-3-3h6v6h-6z",
                                  "M0-4L4 3H-4z",
                                  "M0-4.5L4 0L0 4.5L-4 0z",
                                  "M-3-3L3 3M-3 3L3-3",
                                  "M-4 0H4M0-4V4",
+                                 "M0 4L4-3H-4z",
+                                 "M-4-3L4 3V-3L-4 3z",
+                                 "M-3.5 0a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0-7 0z",
+                                 "M-3-3h6v6h-6z",
+                                 "M0-4L4 3H-4z",
+                                 "M0-4.5L4 0L0 4.5L-4 0z",
+                                 "M-4 0H4M-2-3.5L2 3.5M-2 3.5L2-3.5",
+                                 "M-3-4H3L-3 4H3z",
                                  "M0 4L4-3H-4z",
                                  "M-4-3L4 3V-3L-4 3z"};
 
@@ -59,7 +67,8 @@ std::string stroke(std::size_t k) {
 }
 
 std::string dashed(std::size_t k) {
-  const std::string dash = kDashes[k % kDashes.size()];
+  // The second round of colours has other dashes.
+  const std::string dash = kDashes[(k + 3 * (k / kColours.size())) % kDashes.size()];
   return stroke(k) + " stroke-width=\"1.6\"" +
          (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\"");
 }
@@ -70,8 +79,7 @@ std::string filled(std::size_t k) {
 }
 
 std::string marker(Point at, std::size_t k) {
-  // The second round of looks is hollow.
-  const bool hollow = k / kMarkers.size() % 2 == 1;
+  const bool hollow = k / kColours.size() % 2 == 1;
   return std::string("<path d=\"") + kMarkers[k % kMarkers.size()] + "\" transform=\"translate(" +
          number(at.x) + " " + number(at.y) + ")\" fill=\"" +
          (hollow ? "#fff" : kColours[k % kColours.size()]) + "\" " + stroke(k) +

@@ -11,7 +11,7 @@ struct Point {
 };
 
 constexpr int kPlainBlack = 7;   ///< the look of what is measured
-constexpr double kLetter = 6.4;  ///< mean width of a character at 12 px, on the safe side
+constexpr double kLetter = 7.2;  ///< mean width of a character at 12 px, on the safe side
 
 std::string number(double value);  ///< a coordinate
 

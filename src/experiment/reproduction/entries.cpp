@@ -27,11 +27,11 @@ std::vector<Entry> known_entries() {
       {"dcnn-valid", "DCNN valid", "dcnn", valid, Group::kReading, 50, 0.05, 8},
       {"ffnn-s-angles", "FFNN-S angles", "ffnn-s", angles, Group::kReading, 4, 0.03, 10},
       {"cfnn-m-angles", "CFNN-M angles", "cfnn-m", angles, Group::kReading, 6, 0.03, 15},
-      {"rigid", "rigid", "rigid", {}, Group::kOwn, 0.1, 0.05, 2},
-      {"rls", "RLS", "rls", {}, Group::kOwn, 0.1, 0.05, 3},
-      {"mlp", "MLP", "mlp", {}, Group::kOwn, 8, 0.03, 4},
+      {"rigid", "rigid", "rigid", {}, Group::kOwn, 0.1, 0.05, 6},
+      {"rls", "RLS", "rls", {}, Group::kOwn, 0.1, 0.05, 10},
+      {"mlp", "MLP", "mlp", {}, Group::kOwn, 8, 0.03, 12},
       {"dcnn-plus", "DCNN+", "dcnn-plus", {}, Group::kOwn, 3, 0.35, 9},
-      {"dcnn-t", "DCNN+T", "dcnn-t", {}, Group::kOwn, 12, 0.22, 5, true},
+      {"dcnn-t", "DCNN+T", "dcnn-t", {}, Group::kOwn, 12, 0.22, 13, true},
       {"frame-tcn", "Frame-TCN", "frame-tcn", {}, Group::kOwn, 13, 0.18, 7, true},
   };
 }
@@ -49,7 +49,7 @@ std::vector<Entry> available_entries() {
   for (const ModelKind* kind : model_kinds()) {
     const bool known = std::any_of(entries.begin(), entries.end(),
                                    [&](const Entry& entry) { return entry.kind == kind->name; });
-    if (!known) entries.push_back({kind->name, kind->name, kind->name, {}, Group::kOwn, 30, 1, 13});
+    if (!known) entries.push_back({kind->name, kind->name, kind->name, {}, Group::kOwn, 30, 1, 15});
   }
   return entries;
 }

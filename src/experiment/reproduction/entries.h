@@ -17,7 +17,7 @@ struct Entry {
   Group group = Group::kOwn;
   double training_s = 10;   ///< preset `standard`, on two cores
   double pass_s = 0.5;      ///< one prediction of 32045 samples
-  int look = 13;            ///< in every figure
+  int look = 15;            ///< in every figure
   bool looks_back = false;  ///< every sample is predicted, also where few are scored
 };
 

@@ -72,9 +72,10 @@ void add_other_entries(HtmlReport& page, const ReproductionPlan& plan, const Res
   const auto own = pick(plan.entries, {Group::kOwn}, {"cf", "dcnn"});
   if (readings.size() > 4) {
     page.heading("Other readings of the same models");
-    page.chart(wide(error_panels(scores, readings).back(), "overall, protocol A"),
-               "'valid' padding, windows of 25 samples, and the angles alone as inputs of the "
-               "shallow networks, each beside the main reading.");
+    page.chart(
+        wide(error_panels(scores, readings).back(), "overall, protocol A"),
+        "Beside the main readings: 'valid' padding, the angles alone as inputs of the shallow "
+        "networks, and windows of 25 samples where LSTM-25 is among the models.");
   }
   if (own.size() > 2) {
     page.heading("This toolkit's own identifiers");
@@ -93,7 +94,8 @@ void add_other_modes(HtmlReport& page, const ReproductionPlan& plan, const Resul
   for (const NoiseMode& mode : plan.modes) {
     if (mode.name == "feature") continue;
     const Scores& scores = results.scores.at(mode.name + "/A");
-    charts.push_back(error_panels(scores, pick(plan.entries, {Group::kPaper}, {"dcnn-t"})).back());
+    charts.push_back(
+        error_panels(scores, pick(plan.entries, {Group::kPaper}, {"dcnn-t", "frame-tcn"})).back());
     charts.back().title = mode.name;
     page.paragraph(mode.name + ": " + mode.words + "; " + std::to_string(mode.draws) + " draws, " +
                    std::to_string(scores.samples) + " samples.");
@@ -105,13 +107,16 @@ void add_curves(HtmlReport& page, const ReproductionRequest& request, const Repr
                 const Results& results) {
   const OutputLayout layout{request.out};
   page.heading("Training");
+  page.paragraph(
+      "The loss is of what each network learns from, with noise and dropout, and not comparable "
+      "between networks; validation is the last part of the training recording. For networks "
+      "trained by Levenberg-Marquardt an epoch is an iteration.");
   for (const Protocol& protocol : plan.protocols) {
-    page.panels(training_panels(layout, protocol.name, plan.entries),
-                "Protocol " + protocol.name +
-                    ". The loss is of what each network learns from, with noise and dropout, and "
-                    "not comparable between networks; validation is the last part of the training "
-                    "recording. For networks trained by Levenberg-Marquardt an epoch is an "
-                    "iteration.");
+    page.panels(training_panels(layout, protocol.name, pick(plan.entries, {Group::kPaper}, {})),
+                "The paper's networks, protocol " + protocol.name + ".");
+    page.panels(training_panels(layout, protocol.name,
+                                pick(plan.entries, {Group::kReading, Group::kOwn}, {})),
+                "Other readings and this toolkit's own networks, protocol " + protocol.name + ".");
   }
   const Scores& scores = results.scores.at("feature/A");
   page.heading("Predicted and measured force");
@@ -144,6 +149,8 @@ std::string reproduction_page(const ReproductionRequest& request, const Reproduc
       request.preset + ", " +
       (request.data.empty() ? "simulated recordings." : "recordings given by the user."));
   page.heading("Claims");
+  page.paragraph(
+      "By which models were trained with noise on their inputs: all, none, or one alone.");
   add_claim_table(page, verdicts);
   add_noise_experiment(page, request, plan, results);
   add_other_entries(page, plan, results);

@@ -13,7 +13,7 @@ struct Provenance {
 };
 
 struct Verdicts {
-  std::string series;  ///< "A", "B", "only dcnn augmented"
+  std::string series;  ///< "A: all", "B: none", "only dcnn": what was trained with noise
   std::vector<Claim> claims;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 std::vector<Verdicts> judge(const ReproductionRequest& request, const Results& results) {
   const Scores &a = results.scores.at("feature/A"), &b = results.scores.at("feature/B");
-  return {{"A: all trained with noise", judge_claims(a, results.timings)},
+  return {{"A: all", judge_claims(a, results.timings)},
           {"B: none", judge_claims(b, results.timings)},
           {"only " + request.augment_only,
            judge_claims(only_one_augmented(a, b, request.augment_only), results.timings)}};
