@@ -241,16 +241,19 @@ void Search::drop_minor() {
 }
 
 /// Of a machine, where laws are never constant to the last digit: a name must help on pieces of
-/// time on which it was not fitted.
+/// time on which it was not fitted; and a mode takes nothing off.
 void Search::keep_what_carries_over() {
   constexpr double kMostOfIt = 0.5;
+  std::vector<Member> members = fit_.members;
+  std::erase_if(members, [](const Member& m) {
+    return m.kind->stage == Stage::kResonance && m.amplitudes(0) < 0.0;
+  });
+  if (members.size() < fit_.members.size()) settle(members);
   while (!fit_.members.empty()) {
     const auto shares = left_out_shares(*setting_, fit_);
     const auto worst = std::min_element(shares.begin(), shares.end());
     if (*worst >= kMostOfIt) break;
-    std::vector<Member> rest = fit_.members;
-    rest.erase(rest.begin() + (worst - shares.begin()));
-    settle(rest);
+    settle(members_without(static_cast<std::size_t>(worst - shares.begin())));
   }
 }
 
