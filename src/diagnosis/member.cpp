@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace dcnn {
+
+bool same_family(const Member& a, const Member& b) {
+  return a.axis == b.axis && std::string_view(a.kind->kind) == b.kind->kind;
+}
 
 int Member::parameters() const {
   const int ends = !interval_s ? 0 : kind->interval == IntervalRule::kOnset ? 1 : 2;

@@ -30,6 +30,9 @@ struct Member {
   int parameters() const;
 };
 
+/// Laws of one kind (friction, drift, …) that act along the same axis.
+bool same_family(const Member& a, const Member& b);
+
 /// A member with these shapes and unit amplitudes.
 Member make_member(const EffectKind& kind, const EffectFit& form, const std::string& axis,
                    bool with_torque, const Eigen::VectorXd& shapes);

@@ -86,10 +86,8 @@ void Search::prefer_fewer_numbers() {
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     const Member& own = fit_.members[m];
     if (own.fixed) continue;
-    const std::string family = own.kind->kind;
     const auto simpler = std::find_if(others(m).begin(), others(m).end(), [&](const Trial& trial) {
-      return trial.member.axis == own.axis && trial.member.kind->kind == family &&
-             trial.member.parameters() < own.parameters();
+      return same_family(trial.member, own) && trial.member.parameters() < own.parameters();
     });
     if (simpler == others(m).end()) continue;
     std::vector<Member> members = without(m).members;

@@ -261,7 +261,6 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
   constexpr double kNear = 12.0;        // of chi-square
   constexpr double kLeastOfMore = 0.5;  // of the price of a number
   constexpr double kBend = 0.06;        // of a gain: what another bend of a law is worth
-  const auto kind_of = [](const Member& member) { return std::string(member.kind->kind); };
   const double price = setting_->price, loud = rest_loudness();
   std::vector<std::vector<std::string>> all(fit_.members.size());
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
@@ -285,9 +284,8 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
       const double near = 0.1 * kNear * price;
       double least = more > 0 ? kLeastOfMore * price * more * loud : price * more - near;
       // A small force hides how it bends.
-      const bool same_family =
-          trial.member.axis == own.axis && kind_of(trial.member) == kind_of(own);
-      if (more > 0 && same_family) least = std::min(least, kBend * own_gain - near);
+      if (more > 0 && same_family(trial.member, own))
+        least = std::min(least, kBend * own_gain - near);
       if (fit_.chi2 - other.chi2 > least &&
           std::find(all[m].begin(), all[m].end(), trial.member.name()) == all[m].end()) {
         all[m].push_back(trial.member.name());

@@ -99,8 +99,7 @@ Identifier unpack(const Container& file, const std::string& where) {
   if (file.metadata.count("base")) {
     identifier.base = parse_simulator(parse_text(file, "base", where), where, Exit::kModel);
   }
-  identifier.model =
-      with_stored_weights(model_kind(identifier.name, Exit::kModel).load(file, where), file, where);
+  identifier.model = model_kind(identifier.name, Exit::kModel).load(file, where);
   require(identifier.model->map().features() == static_cast<Index>(identifier.layout.names.size()),
           Exit::kModel, where, ": its model has another number of rows than its features");
   if (file.metadata.count("online")) {
@@ -112,6 +111,7 @@ Identifier unpack(const Container& file, const std::string& where) {
       identifier.model->predict({identifier.model->map().mean().transpose(), {}});
   require(probe.cols() == static_cast<Index>(identifier.targets.names.size()), Exit::kModel, where,
           ": its model has another number of outputs than its targets");
+  identifier.model = with_stored_weights(std::move(identifier.model), probe.cols(), file, where);
   return identifier;
 }
 

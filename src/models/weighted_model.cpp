@@ -96,8 +96,8 @@ std::unique_ptr<Model> weighted(std::unique_ptr<Model> model, const Eigen::Vecto
   return std::make_unique<WeightedModel>(std::move(model), weights);
 }
 
-std::unique_ptr<Model> with_stored_weights(std::unique_ptr<Model> model, const Container& file,
-                                           const std::string& where) {
+std::unique_ptr<Model> with_stored_weights(std::unique_ptr<Model> model, Index targets,
+                                           const Container& file, const std::string& where) {
   if (file.metadata.count(kWeights) == 0) return model;
   const Json json = parse_json(stored_text(file, kWeights, where), where, Exit::kModel);
   std::vector<double> weights;
@@ -106,12 +106,10 @@ std::unique_ptr<Model> with_stored_weights(std::unique_ptr<Model> model, const C
   } catch (const Json::exception&) {
   }
   const auto fits = [](double w) { return w >= 0.0 && w <= 1.0; };
-  const Eigen::MatrixXd probe = model->predict({model->map().mean().transpose(), {}});
-  require(static_cast<Index>(weights.size()) == probe.cols() &&
+  require(static_cast<Index>(weights.size()) == targets &&
               std::all_of(weights.begin(), weights.end(), fits),
           Exit::kModel, where, ": its weights are not numbers from 0 to 1, one per target");
-  return weighted(std::move(model),
-                  Eigen::Map<const Eigen::VectorXd>(weights.data(), probe.cols()));
+  return weighted(std::move(model), Eigen::Map<const Eigen::VectorXd>(weights.data(), targets));
 }
 
 }  // namespace dcnn

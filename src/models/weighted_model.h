@@ -15,8 +15,9 @@ Eigen::VectorXd trust(const Samples& validation, const Eigen::MatrixXd& predicte
 
 /// `model` with every prediction multiplied by the weight of its target.
 std::unique_ptr<Model> weighted(std::unique_ptr<Model> model, const Eigen::VectorXd& weights);
-/// The same with the weights that save() of such a model left in the file, if it did.
-std::unique_ptr<Model> with_stored_weights(std::unique_ptr<Model> model, const Container& file,
-                                           const std::string& where);
+/// The same with the weights that save() of such a model left in the file, if it did; `targets` is
+/// how many the model predicts.
+std::unique_ptr<Model> with_stored_weights(std::unique_ptr<Model> model, Index targets,
+                                           const Container& file, const std::string& where);
 
 }  // namespace dcnn

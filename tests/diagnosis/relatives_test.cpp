@@ -16,6 +16,7 @@ using test::Bench;
 using test::change;
 using test::configuration;
 using test::found;
+using test::frictions_along_base;
 using test::hidden;
 using test::names;
 
@@ -62,12 +63,7 @@ TEST(Relatives, AnOffsetThatGrowsWithTheTimeIsADrift) {
 // More laws than any other search may add, and an offset that wanders as no drift does.
 TEST(Relatives, FrictionInEveryDirectionIsNamedBesideAWanderingOffset) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
-  Json frictions = Json::array();
-  for (const char* axis : {"base_x", "base_y", "base_z"}) {
-    frictions.push_back(hidden("coulomb_friction", axis, {{"fc_n", 0.2}, {"v0_mps", 0.01}}));
-    frictions.push_back(hidden("viscous_friction", axis, {{"c_nspm", 1.0}}));
-  }
-  const Bench bench(configuration(frictions));
+  const Bench bench(configuration(frictions_along_base()));
   change(bench, [](Recording& log) {
     const Eigen::ArrayXd t = log.column("t").array();
     const Eigen::ArrayXd wander = (0.9 * t).sin() + (0.37 * t + 1.0).sin() * (0.11 * t).cos();

@@ -13,6 +13,7 @@ using test::Bench;
 using test::change;
 using test::configuration;
 using test::found;
+using test::frictions_along_base;
 using test::hidden;
 
 // Both bend the force over the speed as a Stribeck curve does whose shapes are at their ends.
@@ -38,12 +39,7 @@ TEST(SlowRest, DryFrictionAndDragAreNoStribeckCurve) {
 // is.
 TEST(SlowRest, OfAnOffsetThatWandersTheMeanIsKept) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
-  Json frictions = Json::array();
-  for (const char* axis : {"base_x", "base_y", "base_z"}) {
-    frictions.push_back(hidden("coulomb_friction", axis, {{"fc_n", 0.2}, {"v0_mps", 0.01}}));
-    frictions.push_back(hidden("viscous_friction", axis, {{"c_nspm", 1.0}}));
-  }
-  const Bench bench(configuration(frictions));
+  const Bench bench(configuration(frictions_along_base()));
   change(bench, [](Recording& log) {
     const Eigen::ArrayXd t = log.column("t").array();
     const char* axes[] = {"fx", "fy", "fz"};

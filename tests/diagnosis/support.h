@@ -79,6 +79,16 @@ inline Json hidden(const char* effect, const Json& axis, const Json& parameters)
   return {{"effect", effect}, {"axis", axis}, {"parameters", parameters}};
 }
 
+/// Dry and viscous friction along each axis of the base.
+inline Json frictions_along_base() {
+  Json frictions = Json::array();
+  for (const char* axis : {"base_x", "base_y", "base_z"}) {
+    frictions.push_back(hidden("coulomb_friction", axis, {{"fc_n", 0.2}, {"v0_mps", 0.01}}));
+    frictions.push_back(hidden("viscous_friction", axis, {{"c_nspm", 1.0}}));
+  }
+  return frictions;
+}
+
 /// The effects that were found, in the order of the report.
 inline std::vector<std::string> names(const Json& report) {
   std::vector<std::string> list;

@@ -95,7 +95,7 @@ TEST_F(Weighted, MultipliesEveryPrediction) {
 TEST_F(Weighted, IsKeptInTheFile) {
   const Container file = test::saved(*model_);
   auto inner = model_kind("rigid", Exit::kModel).load(file, "m.dcnn");
-  EXPECT_EQ(with_stored_weights(std::move(inner), file, "m.dcnn")->predict(stream_),
+  EXPECT_EQ(with_stored_weights(std::move(inner), 3, file, "m.dcnn")->predict(stream_),
             model_->predict(stream_));
 }
 
@@ -105,7 +105,7 @@ TEST_F(Weighted, MalformedWeightsAreAnError) {
     file.metadata["weights"] = text;
     auto inner = model_kind("rigid", Exit::kModel).load(file, "m.dcnn");
     try {
-      with_stored_weights(std::move(inner), file, "m.dcnn");
+      with_stored_weights(std::move(inner), 3, file, "m.dcnn");
       ADD_FAILURE() << "accepted: " << text;
     } catch (const Error& error) {
       EXPECT_EQ(error.exit(), Exit::kModel) << text;
