@@ -25,7 +25,7 @@ struct Weights {
   Eigen::VectorXd first, second;
 };
 
-constexpr Index kTile = 8, kBlock = 1024 * kTile;
+constexpr Index kTile = 8, kPiece = 1024 * kTile;
 
 /// first[i] = sum_k w.first[k]·x[i + k], the same for second. Eight results at a time stay in
 /// registers.
@@ -50,9 +50,9 @@ void slide_block(const Weights& w, const double* x, Index count, double* first, 
 }
 
 void slide(const Weights& w, const double* x, Index count, double* first, double* second) {
-  for_each_piece((count + kBlock - 1) / kBlock, [&](Index k) {
-    const Index i = k * kBlock;
-    slide_block(w, x + i, std::min(kBlock, count - i), first + i, second + i);
+  for_each_piece((count + kPiece - 1) / kPiece, [&](Index k) {
+    const Index i = k * kPiece;
+    slide_block(w, x + i, std::min(kPiece, count - i), first + i, second + i);
   });
 }
 

@@ -12,7 +12,7 @@
 namespace dcnn {
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 18;
+constexpr std::size_t kChunkBytes = std::size_t{1} << 18;
 constexpr std::size_t kMaxLine = std::size_t{1} << 20;
 
 }  // namespace
@@ -30,7 +30,7 @@ LineReader::LineReader(const std::filesystem::path& path) : name_(path.string())
   fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   require(fd_ >= 0, Exit::kData, name_, ": cannot open: ", std::strerror(errno),
           "; check the permissions");
-  buffer_.resize(kBlock);
+  buffer_.resize(kChunkBytes);
 }
 
 LineReader::~LineReader() {
@@ -66,10 +66,10 @@ void LineReader::refill() {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
-  if (buffer_.size() < end_ + kBlock) buffer_.resize(end_ + kBlock);
+  if (buffer_.size() < end_ + kChunkBytes) buffer_.resize(end_ + kChunkBytes);
   ssize_t got = 0;
   do {
-    got = ::read(fd_, buffer_.data() + end_, kBlock);
+    got = ::read(fd_, buffer_.data() + end_, kChunkBytes);
   } while (got < 0 && errno == EINTR);
   require(got >= 0, Exit::kData, name_, ": cannot read: ", std::strerror(errno));
   end_ += static_cast<std::size_t>(got);
