@@ -6,6 +6,9 @@ namespace dcnn::frame_tcn {
 namespace {
 
 constexpr Index kRowsTried = 4;  // of one history
+// Where the estimator repeats the first sample, its noise is in every row of the first window by
+// another weight, and in none from then on: filters for some rows are blind to that of the others.
+constexpr Index kRowsTriedCausal = 32;
 
 Index span_of(Index known) {
   Index span = 0;
@@ -14,15 +17,14 @@ Index span_of(Index known) {
 }
 
 /// Rows (counted from a segment's start) that a history serves: from its span on, up to the next.
-std::vector<Index> rows_of(std::size_t history, Index edge) {
+std::vector<Index> rows_of(std::size_t history, Index edge, Index most) {
   const Index first = span_of(kHistories[history]) - 1;
   if (history == 0) return {first + edge};
   const std::size_t next = history + 1 < kHistories.size() ? history + 1 : 0;
   const Index end = span_of(kHistories[next]) - 1;
+  const Index count = std::min(most, end - first);
   std::vector<Index> rows;
-  for (Index i = 0; i < std::min(kRowsTried, end - first); ++i) {
-    rows.push_back(first + i * (end - first) / std::min(kRowsTried, end - first));
-  }
+  for (Index i = 0; i < count; ++i) rows.push_back(first + i * (end - first) / count);
   return rows;
 }
 
@@ -36,8 +38,15 @@ Index edge_rows(const FeatureLayout& layout) {
   return 2;
 }
 
+bool repeats_first_sample(const FeatureLayout& layout) {
+  return layout.dt > 0.0 &&
+         layout.spec.derivative.kind == DerivativeSpec::Kind::kCausalSavitzkyGolay;
+}
+
 PoseNoiseMoments::PoseNoiseMoments(const FeatureLayout& layout)
-    : edge_(edge_rows(layout)), deviation_(layout.pose_deviation) {
+    : edge_(edge_rows(layout)),
+      rows_tried_(repeats_first_sample(layout) ? kRowsTriedCausal : kRowsTried),
+      deviation_(layout.pose_deviation) {
   const Index samples = kSpan + 2 * edge_ + 1;
   Recording impulses;
   impulses.name = "impulses";
@@ -77,7 +86,7 @@ Eigen::MatrixXd PoseNoiseMoments::of(Index group, std::size_t history, const Eig
     factor[i] = noisy[channel] * power / scale[channel];
   }
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(factor.size(), factor.size());
-  const auto rows = rows_of(history, edge_);
+  const auto rows = rows_of(history, edge_, rows_tried_);
   for (const Index row : rows) {
     const Eigen::MatrixXd r = response(group, row, kHistories[history]);
     sum.noalias() += r * r.transpose() / static_cast<double>(rows.size());

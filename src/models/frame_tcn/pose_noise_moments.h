@@ -10,6 +10,8 @@ namespace dcnn::frame_tcn {
 
 /// Rows at the start of a segment whose rates are not made as those of the others are.
 Index edge_rows(const FeatureLayout& layout);
+/// Its estimator looks back alone and takes the first sample for all before it.
+bool repeats_first_sample(const FeatureLayout& layout);
 
 class PoseNoiseMoments {
  public:
@@ -25,7 +27,7 @@ class PoseNoiseMoments {
   /// Block means at `row` of the group's noise, (48·channels, samples), of unit impulses.
   Eigen::MatrixXd response(Index group, Index row, Index known) const;
 
-  Index edge_;
+  Index edge_, rows_tried_;
   Eigen::VectorXd deviation_;                 // (6)
   std::array<Eigen::MatrixXd, 3> operators_;  // value, first and second derivative of impulses
 };
