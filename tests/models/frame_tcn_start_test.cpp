@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "models/frame_tcn/model.h"
+#include "models/tensor_io.h"
 
 namespace dcnn::frame_tcn {
 namespace {
@@ -130,6 +131,34 @@ const Trained& of_noisy_poses() {
 TEST(FrameTcnStart, NoNoiseOfTheFirstWindowIsAmplified) {
   const Errors error = score(of_noisy_poses(), pieces(of_noisy_poses(), 0.316, 0.0));
   EXPECT_LT(error.first, 4.0 * error.rest);
+}
+
+TEST(FrameTcnStart, RatesThatRiseFromRestAreTakenForWhatTheyRiseTo) {
+  const Errors error = score(of_noisy_poses(), pieces(of_noisy_poses(), 0.0, 0.0));
+  EXPECT_LT(error.first, 2.0 * error.rest);
+}
+
+/// Gates never leave an expert nothing: one that is made for hardly any noise must not multiply
+/// what little the first rows tell.
+TEST(FrameTcnStart, NoiseOnRatesThatOnlyBeginToRiseIsNotAmplified) {
+  static const Trained trained("features");
+  const Errors error = score(trained, pieces(trained, 0.0, 0.316));
+  EXPECT_LT(error.first, 5.0 * error.rest);
+  Container file;
+  trained.model->save(file);
+  double gain = 0.0;
+  for (const char* history : {"1", "2", "4", "8", "16"}) {
+    for (int group = 0; group < kGroups; ++group) {
+      const auto name = "convolution." + std::to_string(group) + "." + history;
+      const auto& weights = stored_values<double>(file, name, "test");
+      const auto row = static_cast<std::size_t>(file.find(name)->shape[1]);
+      for (std::size_t i = 0; i < weights.size(); i += row) {
+        gain = std::max(
+            gain, Eigen::Map<const Eigen::VectorXd>(&weights[i], static_cast<Index>(row)).norm());
+      }
+    }
+  }
+  EXPECT_LT(gain, 100.0);
 }
 
 TEST(FrameTcnStart, SampleBySampleASegmentStartsAsInARecording) {

@@ -15,6 +15,8 @@ constexpr Index kLevelBins = 16;
 /// Every so manyth row of the copies at other speeds is kept.
 constexpr Index kCopyStride = 4;
 
+class StartMoments;
+
 class Recipe {
  public:
   Recipe(FrameTcn& model, const Samples& training, const Samples& validation, FitSession& session);
@@ -43,6 +45,9 @@ class Recipe {
   void start_dense(Index group, const Eigen::MatrixXd& filter);
   std::array<Moments, 3> axis_moments(Index first_group) const;
   Moments pooled_moments(const std::array<Moments, 3>& axes, Index group) const;
+  StartMoments start_moments() const;
+  Moments young_moments(const StartMoments& starts, Index group, std::size_t history,
+                        const Moments& old) const;
   Eigen::VectorXd feature_noise_power(Index group) const;
   Eigen::VectorXd reached_by_pose_noise() const;
   void make_material();

@@ -4,12 +4,16 @@
 
 #include "models/frame_tcn/pose_noise_moments.h"
 #include "models/frame_tcn/recipe.h"
+#include "models/frame_tcn/start_moments.h"
 
 namespace dcnn::frame_tcn {
 namespace {
 
 constexpr Index kMomentStride = 6;  // neighbours are nearly equal
 constexpr Index kMiddleExpert = 2;  // 20 dB on the features, 24 dB on the pose
+// dB on the features. From rates that only begin to rise an expert for less noise reads what they
+// will be, so strongly that the little share which the gates leave it at 10 dB is newtons.
+constexpr double kCleanestStart = 41.0;
 
 }  // namespace
 
@@ -66,6 +70,26 @@ Moments Recipe::pooled_moments(const std::array<Moments, 3>& axes, Index group) 
   return sum;
 }
 
+/// Moments of segments that begin all over the training and its copies at other speeds.
+StartMoments Recipe::start_moments() const {
+  const Net& net = model_.net_;
+  StartMoments starts(spec_.layout, net.mean, net.scale);
+  for (const double speed : spec_.speeds) {
+    starts.add(at_speed(training_, speed), 1.0 / static_cast<double>(spec_.speeds.size()));
+  }
+  return starts;
+}
+
+/// Pooled as those of old segments are; `old` where no start was long enough.
+Moments Recipe::young_moments(const StartMoments& starts, Index group, std::size_t history,
+                              const Moments& old) const {
+  std::array<Moments, 3> axes;
+  for (Index axis = 0; axis < 3; ++axis) {
+    axes[static_cast<std::size_t>(axis)] = starts.of(group - group % 3 + axis, history);
+  }
+  return axes[0].blocks.size() == 0 ? old : pooled_moments(axes, group);
+}
+
 /// Variances of the noise on the features at 0 dB, of the group's channels.
 Eigen::VectorXd Recipe::feature_noise_power(Index group) const {
   const auto channels = group_channels(group);
@@ -111,14 +135,19 @@ void Recipe::make_filters() {
   std::optional<PoseNoiseMoments> pose;
   if (!spec_.pose_snr.empty()) pose.emplace(spec_.layout);
   const Eigen::VectorXd reached = reached_by_pose_noise();
+  std::optional<StartMoments> starts;
+  if (repeats_first_sample(spec_.layout) && !spec_.dense) starts = start_moments();
   std::array<Moments, 3> axes;
   for (Index g = 0; g < kGroups; ++g) {
     if (g % 3 == 0) axes = axis_moments(g);
-    const Moments signal = pooled_moments(axes, g);
+    const Moments old = pooled_moments(axes, g);
     const Eigen::MatrixXd white = white_noise_moments(feature_noise_power(g));
     for (std::size_t h = 0; h < (spec_.dense ? 1 : kHistories.size()); ++h) {
+      const Moments signal = starts && h > 0 ? young_moments(*starts, g, h, old) : old;
+      const bool rising = starts && h > 0 && kHistories[h] <= known_blocks(edge_rows(spec_.layout));
       for (Index k = 0; k < features; ++k) {
-        make_expert(g, k, h, signal, white, spec_.x_snr[static_cast<std::size_t>(k)]);
+        const double snr = spec_.x_snr[static_cast<std::size_t>(k)];
+        make_expert(g, k, h, signal, white, rising ? std::min(snr, kCleanestStart) : snr);
       }
       if (!pose) continue;
       const Eigen::MatrixXd coloured = pose->of(g, h, model_.net_.scale, reached);
