@@ -7,15 +7,24 @@
 
 namespace dcnn {
 
-/// Gain of chi-square from which on a modulation refutes a law: four times the largest of some
-/// thirty that noise makes.
+/// Gain of chi-square from which on a modulation refutes a law: noise makes 18 in one of a thousand
+/// (the largest of some 24 with a degree of freedom each), a second law too faint for a name 20.
 constexpr double kModulated = 25.0;
+/// The same beside noise that rises as 1/f, which may hide the rest of such a law.
+constexpr double kModulatedInFlicker = 18.0;
+/// The same of a second mode, whose frequency and damping are searched for.
+constexpr double kSecondMode = 40.0;
 
 /// For each member, what more of it would explain if its strength grew, or bent, with the time, an
 /// angle, a position, a speed or a force: the most of these, beside the whole model, less what more
 /// than one number gain by chance. Near a law's relative (friction that grows with the load, a
 /// spring that stiffens) this is large although hardly anything is left. 0 for modes, whose ringing
 /// depends on motion that nobody sees.
-std::vector<double> modulations(const Setting& setting, const JointFit& fit);
+/// `within_s` > 0: beside any offset that is constant for so many seconds.
+std::vector<double> modulations(const Setting& setting, const JointFit& fit, double within_s = 0.0);
+
+/// What another mode on the axis of this one would explain beside the whole model: where it is
+/// much, the one stands for several.
+double second_mode(const Setting& setting, const JointFit& fit, const Member& mode);
 
 }  // namespace dcnn

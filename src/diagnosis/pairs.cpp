@@ -14,6 +14,10 @@ bool is_linear(const Member& member) {
   return member.shapes.size() == 0 && member.amplitudes.size() > 0 && !member.interval_s;
 }
 
+bool is_lag(const Member& member) {
+  return member.name() == "time_delay" || member.name() == "lowpass";
+}
+
 /// The gain of fitting these columns, from the Gram matrix of all.
 double gain_of(const Eigen::MatrixXd& gram, const Eigen::VectorXd& match,
                const std::vector<Index>& columns) {
@@ -107,31 +111,46 @@ bool Search::replace_pairs() {
   return false;
 }
 
-/// Dry friction and one that grows with the speed, in place of a Stribeck curve that bends to both.
+/// Takes these members in place of `split` if they earn their numbers better.
+bool Search::exchange(std::size_t split, const std::vector<Member>& parts) {
+  const JointFit& rest = without(split);
+  std::vector<Member> members = rest.members;
+  int numbers = 0;
+  for (const Member& part : parts) {
+    members.push_back(part);
+    numbers += part.parameters();
+  }
+  const JointFit fit = joint_fit(*setting_, members);
+  const double net = rest.chi2 - fit.chi2 - setting_->price * numbers;
+  if (net < net_gain(split) + 0.2 * setting_->price) return false;
+  settle(fit.members);
+  return true;
+}
+
+/// Two laws in place of one that bends to both, where neither gains alone: dry friction and one
+/// that grows with the speed instead of a Stribeck curve; a delay and a low-pass instead of one
+/// lag.
 bool Search::split() {
-  const EffectKind& dry = *find_effect("coulomb_friction");
+  const auto made = [&](const char* effect, const std::string& axis,
+                        const Eigen::VectorXd& shapes) {
+    const EffectKind& kind = *find_effect(effect);
+    return make_member(kind, kind.fits[0], axis, study_.has_torque(), shapes);
+  };
+  const auto one = [](double shape) { return Eigen::VectorXd::Constant(1, shape); };
+  const auto lags = std::count_if(fit_.members.begin(), fit_.members.end(), is_lag);
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
-    const Member& curve = fit_.members[m];
-    if (curve.name() != "stribeck_friction") continue;
-    const JointFit& rest = without(m);
-    for (const char* effect : {"viscous_friction", "quadratic_drag"}) {
-      const EffectKind& growing = *find_effect(effect);
-      for (const double v0 : {0.005, 0.03}) {  // m/s or rad/s
-        std::vector<Member> members = rest.members;
-        members.push_back(make_member(dry, dry.fits[0], curve.axis, study_.has_torque(),
-                                      Eigen::VectorXd::Constant(1, v0)));
-        members.push_back(
-            make_member(growing, growing.fits[0], curve.axis, study_.has_torque(), {}));
-        int numbers = members.back().parameters();
-        numbers += members[members.size() - 2].parameters();
-        const JointFit fit = joint_fit(*setting_, members);
-        if (rest.chi2 - fit.chi2 - setting_->price * numbers <
-            net_gain(m) + 0.2 * setting_->price) {
-          continue;
+    const Member own = fit_.members[m];
+    if (own.name() == "stribeck_friction") {
+      for (const char* growing : {"viscous_friction", "quadratic_drag"}) {
+        for (const double v0 : {0.005, 0.03}) {  // m/s or rad/s
+          const Member dry = made("coulomb_friction", own.axis, one(v0));
+          if (exchange(m, {dry, made(growing, own.axis, {})})) return true;
         }
-        settle(fit.members);
-        return true;
       }
+    }
+    if (is_lag(own) && lags == 1) {
+      const Eigen::VectorXd half = one(0.5 * own.shapes(0));
+      if (exchange(m, {made("time_delay", "", half), made("lowpass", "", half)})) return true;
     }
   }
   return false;

@@ -199,10 +199,16 @@ Trial Scan::approach(const Trial& seed) const {
   };
   if (setting_.study.without.refinement) return seed;
   if (name == "hum") return a_little(tuned(seed, Detail::kCoarse));
-  Trial best = a_little(seed);
+  const Trial best = a_little(seed);
   if (name != "flexible_resonance" || seed.gain < 2.0 * seed.price) return best;
-  for (const Trial& start : hollows(seed.member, Detail::kCoarse, 4)) {
-    const Trial trial = a_little(start);
+  const Trial elsewhere = best_mode(seed.member);
+  return elsewhere.gain > best.gain ? elsewhere : best;
+}
+
+Trial Scan::best_mode(const Member& mode) const {
+  Trial best;
+  for (const Trial& start : hollows(mode, Detail::kCoarse, 4)) {
+    const Trial trial = refine(start, Detail::kCoarse, kApproach);
     if (trial.gain > best.gain) best = trial;
   }
   return best;

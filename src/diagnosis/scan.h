@@ -38,6 +38,8 @@ class Scan {
   Trial approach(const Trial& seed) const;
   /// Shapes improved from where they are (Nelder and Mead 1965 on their search scales).
   Trial refine(const Trial& start, Detail detail = Detail::kFine, int evaluations = 40) const;
+  /// The best mode on the axis of this one that a short search meets; no gain where there is none.
+  Trial best_mode(const Member& mode) const;
   /// Modes of its axis, among those that a search meets, whose gain is at most `within` below the
   /// largest.
   std::vector<Member> as_likely(const Member& mode, double within) const;

@@ -178,6 +178,7 @@ void Search::explore() {
     for (int steps = 0; steps < kMostSteps; ++steps) {
       const auto before = places_of(fit_.members);
       if (!grow()) break;
+      tune_to_mode();
       while (simplify()) {
       }
       if (places_of(fit_.members) == before) break;  // what was added does not earn its numbers

@@ -71,6 +71,7 @@ class Search {
   bool stays(const Member& member) const;
   void smooth(double cutoff_hz);
   void choose_cutoff(const std::vector<Member>& members);
+  void tune_to_mode();
   bool choose_rounding_noise();
   void make_setting(const std::vector<Member>& members);
   bool grow();
@@ -78,6 +79,7 @@ class Search {
   bool swap();
   bool floor_moved() const;
   bool split();
+  bool exchange(std::size_t split, const std::vector<Member>& parts);
   bool replace_pairs();
   void explore();
   void detect();
@@ -93,7 +95,9 @@ class Search {
   void prefer_fewer_numbers();
   void keep_what_carries_over();
   double rest_loudness() const;
+  std::vector<double> doubts(double little);
   bool take_back_relatives();
+  bool keep_bystanders();
   bool uncover_relatives();
   void say(const std::string& text) const;
 
@@ -110,6 +114,7 @@ class Search {
   std::vector<BandTest> bands_;
   std::vector<double> flicker_;  // of each channel, admitted beside the floor from above the motion
   bool events_allowed_ = true, remains_ = false;
+  bool tuned_ = false;    // the smoother, to a mode
   bool ringing_ = false;  // what shakes the motion unseen rings in the modes that were found
 };
 

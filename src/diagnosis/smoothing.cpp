@@ -10,6 +10,9 @@
 namespace dcnn {
 namespace {
 
+constexpr double kTuning = 1.25;  // from one cut-off to the next
+constexpr int kMostTunings = 6;
+
 /// dF/dt and d2F/dt2 of the prediction: what a delay or a low-pass looks like when small.
 std::vector<Signals> lag_columns(const Case& study, const Signals& prediction) {
   std::vector<Signals> columns(2);
@@ -96,6 +99,36 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
     cutoff *= std::pow(1.4, 0.5 * (below - above) / (below + above));
   }
   smooth(cutoff);
+}
+
+/// A mode makes much of little motion near its own frequency, which the first choice took for
+/// noise: its numbers and the smoother are found together, from the cut-off at hand upwards, the
+/// likeliest kept if it leaves nothing but what rings unseen. Before anything else can be taken for
+/// it.
+void Search::tune_to_mode() {
+  const bool rings = std::any_of(fit_.members.begin(), fit_.members.end(), [](const Member& m) {
+    return !m.fixed && m.kind->stage == Stage::kResonance;
+  });
+  if (tuned_ || ringing_ || !rings || study_.axis || !is_alarming_now()) return;
+  tuned_ = ringing_ = true;
+  say("choosing the smoother with the mode");
+  const double before = study_.derivative.cutoff_hz, top = 0.2 / study_.dt();
+  const std::vector<Member> without_tuning = fit_.members;
+  double best = before, least = kInfinity;
+  std::vector<Member> members = fit_.members;
+  double hz = before;
+  for (int step = 0; step < kMostTunings && hz < top; ++step, hz *= kTuning) {
+    if (step > 0) smooth(hz);
+    settle(fit_.members);
+    const double unlikely = fit_.chi2 + setting_->whitener.log_determinant();
+    if (unlikely < least) least = unlikely, best = hz, members = fit_.members;
+  }
+  smooth(best);
+  settle(members);
+  if (!is_alarming_now()) return;
+  ringing_ = false;
+  smooth(before);
+  settle(without_tuning);
 }
 
 void Search::smooth(double cutoff_hz) {

@@ -1,4 +1,4 @@
-// What tests of their own find, what is taken back, and what cannot be excluded.
+// What tests of their own find, and what is taken back.
 #include <algorithm>
 #include <cmath>
 
@@ -6,32 +6,10 @@
 #include "diagnosis/detectors.h"
 #include "diagnosis/knocks.h"
 #include "diagnosis/left_out.h"
-#include "diagnosis/modulation.h"
 #include "diagnosis/search.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {
-namespace {
-
-constexpr double kSlowestMode = 2.0;   // Hz
-constexpr double kUnseen = 0.05;       // of a mode's gain: ringing that nobody sees the cause of
-constexpr double kLeastDoubt = 0.001;  // of a member's gain
-constexpr double kLittle = 0.05;       // of what was missing
-constexpr double kSlowPart = 0.7;      // of what is left
-
-/// A cogging beside a spring, or a hysteresis, of its angle that would make less than a turn if it
-/// could: together they are a spring that bends.
-bool bends_a_spring(const Member& cogging, const std::vector<Member>& members) {
-  const bool least = cogging.name() == "cogging" && cogging.least_shapes.size() > 0 &&
-                     cogging.shapes(0) < 1.01 * cogging.least_shapes(0);
-  return least && std::any_of(members.begin(), members.end(), [&](const Member& m) {
-           const bool bends = m.name() == "cable_spring" || m.name() == "hysteresis";
-           return bends && m.axis == cogging.axis;
-         });
-}
-
-}  // namespace
-
 /// What tests of their own find in the raw force and at the log's rate.
 void Search::detect() {
   for (const Clipping& clip : clipping(study_)) {
@@ -109,78 +87,6 @@ bool Search::is_alarming_now() {
   return !study_.without.omnibus && is_alarming(bands_, explained(true));
 }
 
-/// Where little is left, and slowly, the offset wanders as no drift does: that falls on all columns
-/// alike, and this is how loud it is. Else a wrong law may leave it, and 1.
-double Search::rest_loudness() const {
-  if (study_.axis) return 1.0;
-  const double left = left_over(bands_);
-  const bool slow = bands_.front().excess > kSlowPart * left;
-  return slow && left < kLittle * explained(false) ? loudest(bands_) : 1.0;
-}
-
-/// Takes back the member that is least the law it is named after: one that fits in some places and
-/// not in others, or whose strength depends on what its law does not know of.
-bool Search::take_back_relatives() {
-  if (study_.axis || study_.is_static() || study_.without.omnibus) return false;
-  bands_ = band_tests(*setting_, fit_.residual);
-  const auto tests = constancy(*setting_, fit_);
-  const auto strengths = modulations(*setting_, fit_);
-  double swings = 0.0;
-  for (const BandTest& band : bands_) {
-    if (band.stands_out() && band.from_hz >= kSlowestMode) swings += band.excess;
-  }
-  const double loud = rest_loudness();
-  double most = 1.0;
-  std::optional<std::size_t> worst;
-  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
-    if (fit_.members[m].fixed) continue;
-    // A law that explains a thousand times what is wrong with it may be a little wrong.
-    const double slack = kLeastDoubt * std::max(0.0, net_gain(m));
-    double apart = strengths[m] > slack ? strengths[m] / (kModulated * loud) : 0.0;
-    if (tests[m].refutes() && tests[m].excess > slack) {
-      apart = std::max(apart, tests[m].above(loud) / kInconstant);
-    }
-    if (bends_a_spring(fit_.members[m], fit_.members)) apart = kInfinity;
-    // Beside an offset that wanders a bias is its mean.
-    if (loud > 1.0 && fit_.members[m].name() == "bias") apart = 0.0;
-    // Motion that nobody sees rings in a mode here and there. One that leaves something where modes
-    // are is one of several.
-    if (fit_.members[m].kind->stage == Stage::kResonance) {
-      apart = swings > kUnseen * net_gain(m) ? kInfinity : 0.0;
-    }
-    if (apart > most) most = apart, worst = m;
-  }
-  if (!worst) return false;
-  std::vector<Member> rest = members_without(*worst);
-  // What is certain of a drift that is none is its mean.
-  const EffectKind& bias = *find_effect("bias");
-  const bool drifts = fit_.members[*worst].kind->stage == Stage::kOffset;
-  if (loud > 1.0 && drifts && is_listed(study_, bias) &&
-      std::none_of(rest.begin(), rest.end(), [&](const Member& m) { return m.kind == &bias; })) {
-    rest.push_back(make_member(bias, bias.fits[0], "", study_.has_torque(), {}));
-  }
-  settle(rest);
-  return true;
-}
-
-/// Leaves out a faint name that only makes up for what a relative of a stronger law leaves: without
-/// it that law's strength varies by more than the name explains.
-bool Search::uncover_relatives() {
-  constexpr double kFaint = 6.0;  // prices
-  if (study_.axis || study_.is_static() || study_.without.omnibus) return false;
-  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
-    if (fit_.members[m].fixed || net_gain(m) > kFaint * setting_->price) continue;
-    const JointFit& rest = without(m);
-    const double needed = kModulated + setting_->price + std::max(0.0, net_gain(m));
-    for (const double strength : modulations(*setting_, rest)) {
-      if (strength < needed || strength < kLeastDoubt * explained(false)) continue;
-      settle(std::vector<Member>(rest.members));
-      return true;
-    }
-  }
-  return false;
-}
-
 /// Takes back what a remainder nobody can name makes doubtful: events, and members that fit in some
 /// places and not in others.
 void Search::judge() {
@@ -188,6 +94,11 @@ void Search::judge() {
   if (study_.axis) keep_what_carries_over();
   remains_ = is_alarming_now();
   if (remains_ && (loosen() || admit_flicker())) remains_ = false;
+  if (keep_bystanders()) {
+    remains_ = true;
+    bands_ = band_tests(*setting_, fit_.residual);
+    return;
+  }
   if (!remains_ && !take_back_relatives() && !uncover_relatives()) return;
   remains_ = true;
   say("something is left that no effect explains: names are tested again");
@@ -255,44 +166,6 @@ void Search::keep_what_carries_over() {
     if (*worst >= kMostOfIt) break;
     settle(members_without(static_cast<std::size_t>(worst - shares.begin())));
   }
-}
-
-std::vector<std::vector<std::string>> Search::alternatives() const {
-  constexpr double kNear = 12.0;        // of chi-square
-  constexpr double kLeastOfMore = 0.5;  // of the price of a number
-  constexpr double kBend = 0.06;        // of a gain: what another bend of a law is worth
-  const double price = setting_->price, loud = rest_loudness();
-  std::vector<std::vector<std::string>> all(fit_.members.size());
-  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
-    const Member& own = fit_.members[m];
-    if (own.fixed) continue;
-    const JointFit& rest = without(m);
-    const double net = net_gain(m), own_gain = rest.chi2 - fit_.chi2;
-    for (const Trial& trial : others(m)) {
-      // What explains a remainder better than the member explains its own is none in its place.
-      if (remains_ && trial.member.axis != own.axis) continue;
-      if (trial.member.kind == own.kind ||
-          trial.net_gain() < net - std::max(0.4 * kNear * price, doubt(trial))) {
-        continue;
-      }
-      std::vector<Member> members = rest.members;
-      members.push_back(trial.member);
-      const JointFit other = joint_fit(*setting_, members);
-      // One that needs more numbers holds the named one as a special case: where they gain nothing,
-      // nothing speaks for it.
-      const int more = trial.member.parameters() - own.parameters();
-      const double near = 0.1 * kNear * price;
-      double least = more > 0 ? kLeastOfMore * price * more * loud : price * more - near;
-      // A small force hides how it bends.
-      if (more > 0 && same_family(trial.member, own))
-        least = std::min(least, kBend * own_gain - near);
-      if (fit_.chi2 - other.chi2 > least &&
-          std::find(all[m].begin(), all[m].end(), trial.member.name()) == all[m].end()) {
-        all[m].push_back(trial.member.name());
-      }
-    }
-  }
-  return all;
 }
 
 }  // namespace dcnn

@@ -120,6 +120,15 @@ Whitener Whitener::at_stride(Index stride) const {
   return coarse;
 }
 
+double Whitener::log_determinant() const {
+  double sum = 0.0;
+  for (std::size_t row = 0; row < info_.size(); ++row) {
+    sum += std::log(filters_[info_[row].channel].deviation.back() /
+                    inverse_level_(static_cast<Index>(row)));
+  }
+  return 2.0 * sum;
+}
+
 double Whitener::expected_density(Index channel, double hz) const {
   const Floor& floor = floors_[static_cast<std::size_t>(channel)];
   if (floor.flicker == 0.0) return 1.0;

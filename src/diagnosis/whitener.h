@@ -31,6 +31,9 @@ class Whitener {
   /// Density of a channel's whitened noise at `hz`: 1 where its filter remembers long enough, more
   /// at the lowest frequencies of flicker noise.
   double expected_density(Index channel, double hz) const;
+  /// Logarithm of the determinant of the noise's covariance: with the sum of squares, minus twice
+  /// the log-likelihood, by which floors are compared.
+  double log_determinant() const;
   /// Standard deviation of a block's noise by channel, in the target's unit.
   const Eigen::VectorXd& block_deviation() const { return block_deviation_; }
 

@@ -1,0 +1,46 @@
+// Other names for the same numbers: what the recordings cannot exclude.
+#include <algorithm>
+
+#include "diagnosis/search.h"
+
+namespace dcnn {
+
+std::vector<std::vector<std::string>> Search::alternatives() const {
+  constexpr double kNear = 12.0;        // of chi-square
+  constexpr double kLeastOfMore = 0.5;  // of the price of a number
+  constexpr double kBend = 0.06;        // of a gain: what another bend of a law is worth
+  const double price = setting_->price, loud = rest_loudness();
+  std::vector<std::vector<std::string>> all(fit_.members.size());
+  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+    const Member& own = fit_.members[m];
+    if (own.fixed) continue;
+    const JointFit& rest = without(m);
+    const double net = net_gain(m), own_gain = rest.chi2 - fit_.chi2;
+    for (const Trial& trial : others(m)) {
+      // What explains a remainder better than the member explains its own is none in its place.
+      if (remains_ && trial.member.axis != own.axis) continue;
+      if (trial.member.kind == own.kind ||
+          trial.net_gain() < net - std::max(0.4 * kNear * price, doubt(trial))) {
+        continue;
+      }
+      std::vector<Member> members = rest.members;
+      members.push_back(trial.member);
+      const JointFit other = joint_fit(*setting_, members);
+      // One that needs more numbers holds the named one as a special case: where they gain nothing,
+      // nothing speaks for it.
+      const int more = trial.member.parameters() - own.parameters();
+      const double near = 0.1 * kNear * price;
+      double least = more > 0 ? kLeastOfMore * price * more * loud : price * more - near;
+      // A small force hides how it bends.
+      if (more > 0 && same_family(trial.member, own))
+        least = std::min(least, kBend * own_gain - near);
+      if (fit_.chi2 - other.chi2 > least &&
+          std::find(all[m].begin(), all[m].end(), trial.member.name()) == all[m].end()) {
+        all[m].push_back(trial.member.name());
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace dcnn

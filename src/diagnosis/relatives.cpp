@@ -1,0 +1,152 @@
+// Laws that are near the one that acts, and none of them: what gives them away.
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "diagnosis/candidates.h"
+#include "diagnosis/modulation.h"
+#include "diagnosis/search.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kSlowestMode = 2.0;   // Hz
+constexpr double kUnseen = 0.05;       // of a mode's gain: ringing that nobody sees the cause of
+constexpr double kLeastDoubt = 0.001;  // of a member's gain
+constexpr double kLeastDoubtBeside = 0.003;  // the same beside a law that is refuted
+constexpr double kSmallRest = 0.05;          // of what was missing
+constexpr double kSlowPart = 0.7;            // of what is left
+constexpr double kMoment = 1.0;              // s: a slow offset hardly changes
+
+/// A cogging beside a spring, or a hysteresis, of its angle that would make less than a turn if it
+/// could: together they are a spring that bends.
+bool bends_a_spring(const Member& cogging, const std::vector<Member>& members) {
+  const bool least = cogging.name() == "cogging" && cogging.least_shapes.size() > 0 &&
+                     cogging.shapes(0) < 1.01 * cogging.least_shapes(0);
+  return least && std::any_of(members.begin(), members.end(), [&](const Member& m) {
+           const bool bends = m.name() == "cable_spring" || m.name() == "hysteresis";
+           return bends && m.axis == cogging.axis;
+         });
+}
+
+}  // namespace
+
+/// Where little is left, and slowly, the offset wanders as no drift does: that falls on all columns
+/// alike, and this is how loud it is. Else a wrong law may leave it, and 1.
+double Search::rest_loudness() const {
+  if (study_.axis) return 1.0;
+  const double left = left_over(bands_);
+  const bool slow = bands_.front().excess > kSlowPart * left;
+  return slow && left < kSmallRest * explained(false) ? loudest(bands_) : 1.0;
+}
+
+/// How far each member is from the law it is named after, above 1 refuted: it fits in some places
+/// and not in others, or its strength depends on what its law does not know of. A law that explains
+/// so much that what is wrong with it is `little` of it may be a little wrong.
+std::vector<double> Search::doubts(double little) {
+  std::vector<double> doubts(fit_.members.size(), 0.0);
+  if (study_.axis || study_.is_static() || study_.without.omnibus) return doubts;
+  bands_ = band_tests(*setting_, fit_.residual);
+  const auto tests = constancy(*setting_, fit_);
+  const double loud = rest_loudness();
+  auto strengths = modulations(*setting_, fit_);
+  if (loud > 1.0) {  // what the offset does to them, or what remains beside any slow offset
+    const auto within = modulations(*setting_, fit_, kMoment);
+    for (std::size_t m = 0; m < strengths.size(); ++m) {
+      strengths[m] = std::max(strengths[m] / loud, within[m]);
+    }
+  }
+  const double modulated = flicker_.empty() ? kModulated : kModulatedInFlicker;
+  double swings = 0.0;
+  for (const BandTest& band : bands_) {
+    if (band.stands_out() && band.from_hz >= kSlowestMode) swings += band.excess;
+  }
+  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+    if (fit_.members[m].fixed) continue;
+    const double slack = little * std::max(0.0, net_gain(m));
+    double& apart = doubts[m];
+    apart = strengths[m] > slack ? strengths[m] / modulated : 0.0;
+    if (tests[m].refutes() && tests[m].excess > slack) {
+      apart = std::max(apart, tests[m].above(loud) / kInconstant);
+    }
+    if (bends_a_spring(fit_.members[m], fit_.members)) apart = kInfinity;
+    // Beside an offset that wanders a bias is its mean.
+    if (loud > 1.0 && fit_.members[m].name() == "bias") apart = 0.0;
+    // Motion that nobody sees rings in a mode here and there. One that leaves something where modes
+    // are is one of several.
+    if (fit_.members[m].kind->stage == Stage::kResonance) {
+      const double unseen = kUnseen * net_gain(m);
+      const bool one =
+          swings <= unseen && second_mode(*setting_, fit_, fit_.members[m]) < kSecondMode + unseen;
+      apart = one ? 0.0 : kInfinity;
+    }
+  }
+  return doubts;
+}
+
+/// Takes back the member that is least the law it is named after.
+bool Search::take_back_relatives() {
+  const std::vector<double> far = doubts(kLeastDoubt);
+  const auto worst = std::max_element(far.begin(), far.end());
+  if (worst == far.end() || *worst <= 1.0) return false;
+  const auto at = static_cast<std::size_t>(worst - far.begin());
+  std::vector<Member> rest = members_without(at);
+  // What is certain of a drift that is none is its mean.
+  const EffectKind& bias = *find_effect("bias");
+  const bool drifts = fit_.members[at].kind->stage == Stage::kOffset;
+  if (rest_loudness() > 1.0 && drifts && is_listed(study_, bias) &&
+      std::none_of(rest.begin(), rest.end(), [&](const Member& m) { return m.kind == &bias; })) {
+    rest.push_back(make_member(bias, bias.fits[0], "", study_.has_torque(), {}));
+  }
+  settle(rest);
+  return true;
+}
+
+/// Where a law is refuted, the others are judged beside it, for without it what it stands for would
+/// hide them: keeps those that it leaves alone, that act along another direction and are too strong
+/// to be a mere correction of it. False where there is none.
+bool Search::keep_bystanders() {
+  constexpr double kCorrection = 0.2;  // of what the refuted ones gain
+  const std::vector<double> far = doubts(kLeastDoubtBeside);
+  const auto direction = [](const Member& m) { return m.axis.substr(m.axis.find(':') + 1); };
+  double wrong = 0.0;
+  std::set<std::string> directions;
+  for (std::size_t m = 0; m < far.size(); ++m) {
+    if (far[m] <= 1.0) continue;
+    wrong += std::max(0.0, net_gain(m));
+    directions.insert(direction(fit_.members[m]));
+  }
+  if (wrong == 0.0) return false;
+  const double least = std::max(kCorrection * wrong, left_over(bands_));
+  std::vector<Member> kept;
+  bool any = false;
+  for (std::size_t m = 0; m < far.size(); ++m) {
+    const Member& member = fit_.members[m];
+    const bool stands = far[m] <= 1.0 && net_gain(m) > least &&
+                        (member.axis.empty() || !directions.count(direction(member)));
+    if (stands || member.fixed) kept.push_back(member);
+    any = any || (stands && !member.fixed);
+  }
+  if (any) settle(kept);
+  return any;
+}
+
+/// Leaves out a faint name that only makes up for what a relative of a stronger law leaves: without
+/// it that law's strength varies by more than the name explains.
+bool Search::uncover_relatives() {
+  constexpr double kFaint = 6.0;  // prices
+  if (study_.axis || study_.is_static() || study_.without.omnibus) return false;
+  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+    if (fit_.members[m].fixed || net_gain(m) > kFaint * setting_->price) continue;
+    const JointFit& rest = without(m);
+    const double needed = kModulated + setting_->price + std::max(0.0, net_gain(m));
+    for (const double strength : modulations(*setting_, rest)) {
+      if (strength < needed || strength < kLeastDoubt * explained(false)) continue;
+      settle(std::vector<Member>(rest.members));
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace dcnn
