@@ -6,7 +6,7 @@
 namespace dcnn {
 
 std::vector<std::vector<std::string>> Search::alternatives() const {
-  constexpr double kNear = 12.0;        // of chi-square
+  constexpr double kAsLikely = 12.0;    // of chi-square
   constexpr double kLeastOfMore = 0.5;  // of the price of a number
   constexpr double kBend = 0.06;        // of a gain: what another bend of a law is worth
   const double price = setting_->price, loud = rest_loudness();
@@ -20,7 +20,7 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
       // What explains a remainder better than the member explains its own is none in its place.
       if (remains_ && trial.member.axis != own.axis) continue;
       if (trial.member.kind == own.kind ||
-          trial.net_gain() < net - std::max(0.4 * kNear * price, doubt(trial))) {
+          trial.net_gain() < net - std::max(0.4 * kAsLikely * price, doubt(trial))) {
         continue;
       }
       std::vector<Member> members = rest.members;
@@ -29,7 +29,7 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
       // One that needs more numbers holds the named one as a special case: where they gain nothing,
       // nothing speaks for it.
       const int more = trial.member.parameters() - own.parameters();
-      const double near = 0.1 * kNear * price;
+      const double near = 0.1 * kAsLikely * price;
       double least = more > 0 ? kLeastOfMore * price * more * loud : price * more - near;
       // A small force hides how it bends.
       if (more > 0 && same_family(trial.member, own))
