@@ -27,10 +27,11 @@ Eigen::Matrix3d rotation_from_euler(const Eigen::Vector3d& euler) {
 }
 
 Eigen::Vector3d euler_from_rotation(const Eigen::Matrix3d& R) {
-  constexpr double kSingular = 1e-9;  // below this cos(beta), alpha and gamma cannot be told apart
+  constexpr double kGimbalLock =
+      1e-9;  // below this cos(beta), alpha and gamma cannot be told apart
   const double cosine = std::hypot(R(0, 0), R(1, 0));
   const double beta = std::atan2(-R(2, 0), cosine);
-  if (cosine < kSingular) return {std::atan2(-R(0, 1), R(1, 1)), beta, 0.0};
+  if (cosine < kGimbalLock) return {std::atan2(-R(0, 1), R(1, 1)), beta, 0.0};
   return {std::atan2(R(1, 0), R(0, 0)), beta, std::atan2(R(2, 1), R(2, 2))};
 }
 

@@ -7,7 +7,7 @@
 namespace dcnn {
 namespace {
 
-constexpr double kBlock = 5.0, kGuard = 0.5, kEnds = 0.5;  // s
+constexpr double kPiece = 5.0, kGuard = 0.5, kEnds = 0.5;  // s
 constexpr int kEvery = 5;
 
 }  // namespace
@@ -19,8 +19,8 @@ std::vector<Span> held_out_blocks(const Case& study, bool with_guards) {
     const Motion& motion = study.logs[k].motion;
     if (motion.is_static()) continue;
     const double first = motion.t(0), last = motion.t(motion.samples() - 1);
-    for (double t = first + (kEvery - 3) * kBlock; t + kBlock <= last; t += kEvery * kBlock) {
-      spans.push_back({k, t - guard, t + kBlock + guard});
+    for (double t = first + (kEvery - 3) * kPiece; t + kPiece <= last; t += kEvery * kPiece) {
+      spans.push_back({k, t - guard, t + kPiece + guard});
     }
   }
   return spans;

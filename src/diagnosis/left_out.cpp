@@ -10,7 +10,7 @@ namespace dcnn {
 namespace {
 
 constexpr int kPieces = 6;
-constexpr double kRidge = 1e-10;
+constexpr double kFoldRidge = 1e-10;
 
 /// Which piece of its recording each row belongs to, numbered over all recordings.
 std::vector<int> pieces_of(const Setting& setting) {
@@ -40,11 +40,11 @@ double explained(const Sums& all, const std::vector<Sums>& pieces,
   };
   double sum = 0.0;
   const Sums whole = part(all);
-  const Eigen::VectorXd fitted = solve_gram(whole.gram, whole.match, kRidge);
+  const Eigen::VectorXd fitted = solve_gram(whole.gram, whole.match, kFoldRidge);
   for (const Sums& piece : pieces) {
     const Sums own = part(piece);
     Eigen::VectorXd c = fitted;
-    if (leave_out) c = solve_gram(whole.gram - own.gram, whole.match - own.match, kRidge);
+    if (leave_out) c = solve_gram(whole.gram - own.gram, whole.match - own.match, kFoldRidge);
     sum += 2.0 * c.dot(own.match) - c.dot(own.gram * c);
   }
   return sum;

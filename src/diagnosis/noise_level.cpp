@@ -12,7 +12,7 @@ std::vector<Eigen::VectorXd> noise_level(const Case& study, const Signals& resid
     for (const auto& r : residual) ones.push_back(Eigen::VectorXd::Ones(r.rows()));
     return ones;
   }
-  constexpr double kSeconds = 1.0, kSpread = 2.5;
+  constexpr double kSeconds = 1.0, kVaries = 2.5;
   const Index n = std::max<Index>(8, std::llround(kSeconds / study.dt()));
   std::vector<Eigen::VectorXd> levels;
   std::vector<double> logs;
@@ -47,7 +47,7 @@ std::vector<Eigen::VectorXd> noise_level(const Case& study, const Signals& resid
       1.07 / std::sqrt(static_cast<double>(n * std::max<Index>(1, study.channel_count())));
   double power = 0.0, rows = 0.0;
   for (auto& level : levels) {
-    if (spread <= kSpread * expected) level.setOnes();
+    if (spread <= kVaries * expected) level.setOnes();
     level = level.cwiseMax(1e-3 * std::exp(mean));
     power += level.squaredNorm();
     rows += static_cast<double>(level.size());

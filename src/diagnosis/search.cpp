@@ -12,9 +12,9 @@
 namespace dcnn {
 namespace {
 
-constexpr double kLeastShare = 0.001;      // of what the model explains already
+constexpr double kLeastGrowth = 0.001;     // of what the model explains already
 constexpr int kMostRounds = 6;             // of exchanges
-constexpr int kMostSteps = 30;             // of growth: what is added may be left out again
+constexpr int kMostGrowth = 30;            // of growth: what is added may be left out again
 constexpr double kLinearError = 0.01;      // of a gain that is estimated along a tangent
 constexpr double kRoundedError = 0.4;      // the same where rounding bends every tangent
 constexpr double kDegenerateError = 0.05;  // the same beside a law whose shape is at its bound
@@ -114,7 +114,7 @@ bool Search::grow() {
   if (trials.empty()) return false;
   const Trial& best = trials.front();
   if (best.net_gain() < least_net_gain(*setting_)) return false;
-  if (best.gain < kLeastShare * explained(false)) return false;
+  if (best.gain < kLeastGrowth * explained(false)) return false;
   std::vector<Member> members = fit_.members;
   members.push_back(best.member);
   settle(members);
@@ -175,7 +175,7 @@ void Search::explore() {
   for (int round = 0; round < kMostRounds; ++round) {
     while (simplify()) {
     }
-    for (int steps = 0; steps < kMostSteps; ++steps) {
+    for (int steps = 0; steps < kMostGrowth; ++steps) {
       const auto before = places_of(fit_.members);
       if (!grow()) break;
       tune_to_mode();
