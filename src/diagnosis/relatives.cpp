@@ -104,19 +104,22 @@ bool Search::take_back_relatives() {
 
 /// Where a law is refuted, the others are judged beside it, for without it what it stands for would
 /// hide them: keeps those that it leaves alone, that act along another direction and are too strong
-/// to be a mere correction of it. False where there is none.
+/// to be a mere correction of it. False where there is none, and where only drifts and steps are
+/// refuted: an offset that wanders hides nothing that moves.
 bool Search::keep_bystanders() {
   constexpr double kCorrection = 0.2;  // of what the refuted ones gain
   const std::vector<double> far = doubts(kLeastDoubtBeside);
   const auto direction = [](const Member& m) { return m.axis.substr(m.axis.find(':') + 1); };
   double wrong = 0.0;
+  bool moves = false;
   std::set<std::string> directions;
   for (std::size_t m = 0; m < far.size(); ++m) {
     if (far[m] <= 1.0) continue;
     wrong += std::max(0.0, net_gain(m));
     directions.insert(direction(fit_.members[m]));
+    moves = moves || fit_.members[m].kind->stage != Stage::kOffset;
   }
-  if (wrong == 0.0) return false;
+  if (!moves) return false;
   const double least = std::max(kCorrection * wrong, left_over(bands_));
   std::vector<Member> kept;
   bool any = false;
