@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <tuple>
 
 #include "diagnosis/judgement.h"
 #include "diagnosis/scan.h"
@@ -50,40 +48,21 @@ std::vector<Eigen::VectorXd> modulators(const Setting& setting, const Signals& p
   return list;
 }
 
-/// Takes from every column its mean over each piece of so many seconds of a channel.
-void remove_means(const Whitener& whitener, double seconds, Eigen::MatrixXd& columns) {
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::int64_t>, std::vector<Index>> pieces;
-  const auto& info = whitener.row_info();
-  for (std::size_t row = 0; row < info.size(); ++row) {
-    const auto number = static_cast<std::int64_t>(std::floor(info[row].t / seconds));
-    pieces[{info[row].log, info[row].channel, number}].push_back(static_cast<Index>(row));
-  }
-  for (const auto& [place, rows] : pieces) {
-    const Eigen::RowVectorXd mean = columns(rows, Eigen::all).colwise().mean();
-    for (const Index row : rows) columns.row(row) -= mean;
-  }
-}
-
 }  // namespace
 
-std::vector<double> modulations(const Setting& setting, const JointFit& fit, double within_s) {
+std::vector<double> modulations(const Setting& setting, const JointFit& fit) {
   std::vector<double> most(fit.members.size(), 0.0);
-  const auto within = [&](Eigen::MatrixXd columns) {
-    if (within_s > 0.0) remove_means(setting.whitener, within_s, columns);
-    return columns;
-  };
-  const Eigen::VectorXd residual = within(fit.residual);
-  const Eigen::MatrixXd basis = orthonormal(within(fit.tangent));
+  const Eigen::MatrixXd basis = orthonormal(fit.tangent);
   for (const Eigen::VectorXd& u : modulators(setting, predict(setting.study, fit.members))) {
     for (std::size_t m = 0; m < fit.members.size(); ++m) {
       const auto [first, count] = tangent_columns(fit, m);
       if (count == 0 || fit.members[m].kind->stage == Stage::kResonance) continue;
       const Index amplitudes = fit.members[m].amplitudes.size();
-      Eigen::MatrixXd c = within(
-          u.asDiagonal() * fit.tangent.middleCols(first, amplitudes > 0 ? amplitudes : count));
+      Eigen::MatrixXd c =
+          u.asDiagonal() * fit.tangent.middleCols(first, amplitudes > 0 ? amplitudes : count);
       c -= basis * (basis.transpose() * c);
-      const Eigen::VectorXd match = c.transpose() * residual;
-      const double gain = match.dot(least_squares(c, residual));
+      const Eigen::VectorXd match = c.transpose() * fit.residual;
+      const double gain = match.dot(least_squares(c, fit.residual));
       most[m] = std::max(most[m], gain - static_cast<double>(c.cols() - 1));
     }
   }

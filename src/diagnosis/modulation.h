@@ -20,8 +20,7 @@ constexpr double kSecondMode = 40.0;
 /// than one number gain by chance. Near a law's relative (friction that grows with the load, a
 /// spring that stiffens) this is large although hardly anything is left. 0 for modes, whose ringing
 /// depends on motion that nobody sees.
-/// `within_s` > 0: beside any offset that is constant for so many seconds.
-std::vector<double> modulations(const Setting& setting, const JointFit& fit, double within_s = 0.0);
+std::vector<double> modulations(const Setting& setting, const JointFit& fit);
 
 /// What another mode on the axis of this one would explain beside the whole model: where it is
 /// much, the one stands for several.

@@ -16,7 +16,6 @@ constexpr double kLeastDoubt = 0.001;  // of a member's gain
 constexpr double kLeastDoubtBeside = 0.003;  // the same beside a law that is refuted
 constexpr double kSmallRest = 0.05;          // of what was missing
 constexpr double kSlowPart = 0.7;            // of what is left
-constexpr double kMoment = 1.0;              // s: a slow offset hardly changes
 
 /// A cogging beside a spring, or a hysteresis, of its angle that would make less than a turn if it
 /// could: together they are a spring that bends.
@@ -49,14 +48,8 @@ std::vector<double> Search::doubts(double little) {
   bands_ = band_tests(*setting_, fit_.residual);
   const auto tests = constancy(*setting_, fit_);
   const double loud = rest_loudness();
-  auto strengths = modulations(*setting_, fit_);
-  if (loud > 1.0) {  // what the offset does to them, or what remains beside any slow offset
-    const auto within = modulations(*setting_, fit_, kMoment);
-    for (std::size_t m = 0; m < strengths.size(); ++m) {
-      strengths[m] = std::max(strengths[m] / loud, within[m]);
-    }
-  }
-  const double modulated = flicker_.empty() ? kModulated : kModulatedInFlicker;
+  const auto strengths = modulations(*setting_, fit_);
+  const double modulated = loud * (flicker_.empty() ? kModulated : kModulatedInFlicker);
   double swings = 0.0;
   for (const BandTest& band : bands_) {
     if (band.stands_out() && band.from_hz >= kSlowestMode) swings += band.excess;
