@@ -27,8 +27,8 @@ Eigen::Matrix3d rotation_from_euler(const Eigen::Vector3d& euler) {
 }
 
 Eigen::Vector3d euler_from_rotation(const Eigen::Matrix3d& R) {
-  constexpr double kGimbalLock =
-      1e-9;  // below this cos(beta), alpha and gamma cannot be told apart
+  // Below this cos(beta), alpha and gamma cannot be told apart.
+  constexpr double kGimbalLock = 1e-9;
   const double cosine = std::hypot(R(0, 0), R(1, 0));
   const double beta = std::atan2(-R(2, 0), cosine);
   if (cosine < kGimbalLock) return {std::atan2(-R(0, 1), R(1, 1)), beta, 0.0};

@@ -98,6 +98,12 @@ bool Search::stays(const Member& member) const {
   return member.fixed || (ringing_ && member.kind->stage == Stage::kResonance);
 }
 
+bool Search::rings() const {
+  return std::any_of(fit_.members.begin(), fit_.members.end(), [](const Member& m) {
+    return !m.fixed && m.kind->stage == Stage::kResonance;
+  });
+}
+
 double Search::doubt(const Trial& trial) const {
   return (study_.rounding_step > 0.0 ? kRoundedError : kLinearError) * trial.gain;
 }

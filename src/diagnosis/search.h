@@ -69,6 +69,8 @@ class Search {
   double doubt(const Trial& trial) const;
   /// Found by a test that a joint fit cannot repeat.
   bool stays(const Member& member) const;
+  /// A mode is among the members that are fitted.
+  bool rings() const;
   void smooth(double cutoff_hz);
   void choose_cutoff(const std::vector<Member>& members);
   void tune_to_mode();

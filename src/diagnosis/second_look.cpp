@@ -17,10 +17,7 @@ constexpr double kDependence = 40.0;  // of chi-square: a term of pose, rates, f
 /// were found. It is noise like the pose's own; once it counts as such, what had only served to
 /// explain it goes.
 void Search::let_ring() {
-  const bool rings = std::any_of(fit_.members.begin(), fit_.members.end(), [](const Member& m) {
-    return !m.fixed && m.kind->stage == Stage::kResonance;
-  });
-  if (!rings || study_.axis) return;
+  if (!rings() || study_.axis) return;
   ringing_ = true;
   settle(fit_.members);
   while (simplify()) {

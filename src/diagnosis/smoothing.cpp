@@ -106,10 +106,7 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
 /// likeliest kept if it leaves nothing but what rings unseen. Before anything else can be taken for
 /// it.
 void Search::tune_to_mode() {
-  const bool rings = std::any_of(fit_.members.begin(), fit_.members.end(), [](const Member& m) {
-    return !m.fixed && m.kind->stage == Stage::kResonance;
-  });
-  if (tuned_ || ringing_ || !rings || study_.axis || !is_alarming_now()) return;
+  if (tuned_ || ringing_ || !rings() || study_.axis || !is_alarming_now()) return;
   tuned_ = ringing_ = true;
   say("choosing the smoother with the mode");
   const double before = study_.derivative.cutoff_hz, top = 0.2 / study_.dt();
