@@ -120,7 +120,7 @@ void add_resonances(const Scan& scan, const Signals& left, const std::vector<Flo
   for (std::size_t j = 0; j < study.channels.size(); ++j) {
     if (study.channels[j] > 2) continue;
     auto peaks = spectral_lines(study, left, floors, 1.5, top, static_cast<Index>(j), 3);
-    for (const double hz : {4.0, 8.0, 14.0}) peaks.push_back({hz, 0.0, 0.0});
+    for (const double hz : {4.0, 8.0, 14.0}) peaks.push_back({hz, 0.0});
     for (const Peak& peak : peaks) {
       for (const double zeta : kind.fits[0].shapes[1].seeds) {
         list.push_back(make_member(
@@ -133,31 +133,28 @@ void add_resonances(const Scan& scan, const Signals& left, const std::vector<Flo
   }
 }
 
-/// Ratio of a peak to what is beside it from which on it is a line: what earns its numbers exceeds
-/// 15, the largest of a hundred bins of noise is 5 on the average.
-constexpr double kLine = 12.0;
-/// The same where the tool itself moves: there a line may be a small error of the motion's own.
-constexpr double kLineInMotion = 60.0;
+/// How far a line must stand out where the tool itself moves: there it may be a small error of the
+/// motion's own.
+double least_excess_in_motion(int terms) { return 60.0 + 3.0 * terms; }
 
 void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& floors,
              std::vector<Member>& list) {
+  constexpr int kLines = 4;
+  constexpr std::size_t kTried = 2;
   const Case& study = scan.setting().study;
   const EffectKind& kind = *find_effect("hum");
-  std::vector<Peak> peaks;
   // A machine's motion is often periodic, and whatever depends on it has lines there.
   const double from = study.axis ? 0.5 * study.motion_hz : 0.3;
-  for (Index j = 0; j < study.channel_count(); ++j) {
-    for (const Peak& p : spectral_lines(study, left, floors, from, 0.49 / study.dt(), j, 1)) {
-      const auto own =
-          spectral_lines(study, scan.chain().prediction(), floors, p.hz - 0.3, p.hz + 0.3, j, 1);
-      const bool in_motion = !own.empty() && own.front().ratio > 100.0;
-      if (p.prominence > (in_motion ? kLineInMotion : kLine)) peaks.push_back(p);
-    }
-  }
-  std::sort(peaks.begin(), peaks.end(), [](auto& a, auto& b) { return a.ratio > b.ratio; });
-  for (std::size_t k = 0; k < std::min<std::size_t>(2, peaks.size()); ++k) {
+  std::size_t tried = 0;
+  for (const auto& line : common_lines(study, left, floors, from, 0.49 / study.dt(), kLines)) {
+    if (!line.stands_out() || tried == kTried) break;
+    const auto own =
+        common_lines(study, scan.chain().prediction(), floors, line.hz - 0.3, line.hz + 0.3, 1);
+    const bool in_motion = !own.empty() && own.front().ratio > 100.0;
+    if (in_motion && line.excess < least_excess_in_motion(line.terms)) continue;
     list.push_back(make_member(kind, kind.fits[0], "", study.has_torque(),
-                               Eigen::VectorXd::Constant(1, peaks[k].hz)));
+                               Eigen::VectorXd::Constant(1, line.hz)));
+    ++tried;
   }
 }
 

@@ -55,16 +55,12 @@ std::vector<Clipping> clipping(const Case& study) {
 
 std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
                                     const std::vector<Floor>& floors) {
+  constexpr double kLeastGain = 28.0;  // of the best of some 10,000 frequencies
   const double top = 0.49 / study.dt();
   const double from = kFast * study.motion_hz;
   if (top < from || study.lowpass_hz > 0.0) return std::nullopt;
-  std::vector<Peak> peaks;
-  for (Index j = 0; j < study.channel_count(); ++j) {
-    for (const Peak& p : spectral_lines(study, left, floors, from, top, j, 1)) peaks.push_back(p);
-  }
-  const auto strongest = std::max_element(peaks.begin(), peaks.end(),
-                                          [](auto& a, auto& b) { return a.ratio < b.ratio; });
-  if (strongest == peaks.end() || strongest->ratio < 20.0) return std::nullopt;
+  const auto lines = common_lines(study, left, floors, from, top, 1);
+  if (lines.empty() || !lines.front().stands_out()) return std::nullopt;
 
   const Index channels = study.channel_count();
   Eigen::MatrixXd sine(1, channels), cosine(1, channels);
@@ -89,13 +85,14 @@ std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
     return gain;
   };
   const double longest = longest_seconds(study);
-  const Eigen::VectorXd hz = simplex_search(
-      [&](const Eigen::VectorXd& f) { return -gain_at(f(0)); },
-      Eigen::VectorXd::Constant(1, strongest->hz), Eigen::VectorXd::Constant(1, 0.2 / longest), 40);
+  const Eigen::VectorXd hz =
+      simplex_search([&](const Eigen::VectorXd& f) { return -gain_at(f(0)); },
+                     Eigen::VectorXd::Constant(1, lines.front().hz),
+                     Eigen::VectorXd::Constant(1, 0.2 / longest), 40);
   const double gain = gain_at(hz(0));
   const EffectKind& kind = *find_effect("hum");
   Member member = make_member(kind, kind.fits[0], "", study.has_torque(), hz);
-  if (gain - 10.0 * member.parameters() < 30.0) return std::nullopt;
+  if (gain < kLeastGain + 4.0 * member.parameters()) return std::nullopt;
   const Index half = member.amplitudes.size() / 2;
   member.amplitudes.setZero();
   member.fixed_deviation.setZero(member.amplitudes.size() + 1);

@@ -17,49 +17,99 @@ Eigen::VectorXd hann_power(const Eigen::VectorXd& x, Index length) {
   return fourier(tapered).cwiseAbs2() / (1.5 * static_cast<double>(n));
 }
 
+namespace {
+
+/// The mean level beside bin k of a sum of `terms` periodograms, from its median.
+double level_beside(const Eigen::VectorXd& power, Index k, Index around, int terms) {
+  std::vector<double> beside;
+  for (Index i = std::max<Index>(1, k - around); i < std::min(power.size(), k + around); ++i) {
+    if (std::abs(i - k) > 3) beside.push_back(power(i));
+  }
+  const auto middle = beside.begin() + static_cast<std::ptrdiff_t>(beside.size() / 2);
+  std::nth_element(beside.begin(), middle, beside.end());
+  // Of an exponential distribution, and nearly of a gamma distribution.
+  const double median = terms == 1 ? std::log(2.0) : 1.0 - 1.0 / (3.0 * terms);
+  return *middle / median;
+}
+
+/// The bins of local maxima between two frequencies, the greatest first, none near a greater one.
+std::vector<Index> maxima(const Eigen::VectorXd& power, const Eigen::VectorXd& relative,
+                          double bin_hz, double from_hz, double to_hz, int most) {
+  std::vector<Index> bins;
+  for (Index k = 2; k + 2 < power.size(); ++k) {
+    const double hz = static_cast<double>(k) * bin_hz;
+    if (hz < from_hz || hz > to_hz || power(k) < power(k - 1) || power(k) < power(k + 1)) continue;
+    bins.push_back(k);
+  }
+  std::sort(bins.begin(), bins.end(), [&](Index a, Index b) { return relative(a) > relative(b); });
+  std::vector<Index> apart;
+  for (const Index k : bins) {
+    const bool near = std::any_of(apart.begin(), apart.end(), [&](Index other) {
+      const double hz = static_cast<double>(k) * bin_hz;
+      return std::abs(static_cast<double>(other - k)) * bin_hz < std::max(0.1, 0.04 * hz);
+    });
+    if (!near) apart.push_back(k);
+    if (static_cast<int>(apart.size()) == most) break;
+  }
+  return apart;
+}
+
+Eigen::VectorXd densities(const Floor& floor, Index bins, double bin_hz) {
+  Eigen::VectorXd density(bins);
+  for (Index k = 0; k < bins; ++k) {
+    density(k) = std::max(1e-300, floor.density(static_cast<double>(k) * bin_hz));
+  }
+  return density;
+}
+
+}  // namespace
+
 std::vector<Peak> spectral_lines(const Case& study, const Signals& left,
                                  const std::vector<Floor>& floors, double from_hz, double to_hz,
                                  Index channel, int most) {
   // The longest recording tells frequencies best.
-  std::size_t longest = 0;
-  for (std::size_t k = 0; k < left.size(); ++k) {
-    if (left[k].rows() > left[longest].rows()) longest = k;
-  }
-  const Floor& floor = floors[static_cast<std::size_t>(channel)];
-  const double dt = study.dt();
-  const Index length = fast_length(left[longest].rows());
-  const Eigen::VectorXd power = hann_power(left[longest].col(channel), length);
-  // A line stands out of what is beside it, whatever the floor may be there.
-  const auto around = static_cast<Index>(1.5 * static_cast<double>(length) * dt);
-  const auto level_beside = [&](Index k) {
-    std::vector<double> beside;
-    for (Index i = std::max<Index>(1, k - around); i < std::min(power.size(), k + around); ++i) {
-      if (std::abs(i - k) > 3) beside.push_back(power(i));
-    }
-    const auto middle = beside.begin() + static_cast<std::ptrdiff_t>(beside.size() / 2);
-    std::nth_element(beside.begin(), middle, beside.end());
-    return *middle / std::log(2.0);  // of an exponential distribution: its mean from its median
-  };
+  const auto longest = std::max_element(
+      left.begin(), left.end(), [](const auto& a, const auto& b) { return a.rows() < b.rows(); });
+  const Index length = fast_length(longest->rows());
+  const double bin_hz = 1.0 / (static_cast<double>(length) * study.dt());
+  const Eigen::VectorXd power = hann_power(longest->col(channel), length);
+  const Eigen::VectorXd ratio = power.cwiseQuotient(
+      densities(floors[static_cast<std::size_t>(channel)], power.size(), bin_hz));
   std::vector<Peak> peaks;
-  for (Index k = 2; k + 2 < power.size(); ++k) {
-    const double hz = static_cast<double>(k) / (static_cast<double>(length) * dt);
-    if (hz < from_hz || hz > to_hz || power(k) < power(k - 1) || power(k) < power(k + 1)) continue;
-    peaks.push_back({hz, power(k) / std::max(1e-300, floor.density(hz)), 0.0});
+  for (const Index k : maxima(power, ratio, bin_hz, from_hz, to_hz, most)) {
+    peaks.push_back({static_cast<double>(k) * bin_hz, ratio(k)});
   }
-  std::sort(peaks.begin(), peaks.end(), [](auto& a, auto& b) { return a.ratio > b.ratio; });
-  std::vector<Peak> apart;
-  for (const Peak& peak : peaks) {
-    const bool near = std::any_of(apart.begin(), apart.end(), [&](const Peak& other) {
-      return std::abs(other.hz - peak.hz) < std::max(0.1, 0.04 * peak.hz);
-    });
-    if (!near) apart.push_back(peak);
-    if (static_cast<int>(apart.size()) == most) break;
+  return peaks;
+}
+
+bool CommonLine::stands_out() const { return excess > 13.5 + 5.0 * std::sqrt(terms); }
+
+std::vector<CommonLine> common_lines(const Case& study, const Signals& left,
+                                     const std::vector<Floor>& floors, double from_hz, double to_hz,
+                                     int most) {
+  Index longest = 0;
+  for (const auto& recording : left) longest = std::max(longest, recording.rows());
+  const Index length = fast_length(longest);
+  const double bin_hz = 1.0 / (static_cast<double>(length) * study.dt());
+  const auto around = static_cast<Index>(1.5 / bin_hz);
+  Eigen::VectorXd sum;
+  int terms = 0;
+  for (std::size_t j = 0; j < floors.size(); ++j) {
+    Eigen::VectorXd density;
+    for (const auto& recording : left) {
+      const Eigen::VectorXd power = hann_power(recording.col(static_cast<Index>(j)), length);
+      if (density.size() == 0) density = densities(floors[j], power.size(), bin_hz);
+      if (sum.size() == 0) sum = Eigen::VectorXd::Zero(power.size());
+      sum += power.cwiseQuotient(density);
+      ++terms;
+    }
   }
-  for (Peak& peak : apart) {
-    const auto k = std::llround(peak.hz * static_cast<double>(length) * dt);
-    peak.prominence = power(k) / std::max(1e-300, level_beside(k));
+  std::vector<CommonLine> lines;
+  for (const Index k : maxima(sum, sum, bin_hz, from_hz, to_hz, most)) {
+    const double unit = std::max(1e-300, level_beside(sum, k, around, terms) / terms);
+    lines.push_back({static_cast<double>(k) * bin_hz, sum(k), sum(k) / unit - terms, terms});
   }
-  return apart;
+  return lines;
 }
 
 }  // namespace dcnn

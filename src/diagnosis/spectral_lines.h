@@ -16,11 +16,25 @@ Eigen::VectorXd hann_power(const Eigen::VectorXd& x, Index length);
 /// its power is the floor's, strongest first.
 struct Peak {
   double hz;
-  double ratio;       ///< of its power to the floor's
-  double prominence;  ///< of its power to the level beside it
+  double ratio;
 };
 std::vector<Peak> spectral_lines(const Case& study, const Signals& left,
                                  const std::vector<Floor>& floors, double from_hz, double to_hz,
                                  Index channel, int most);
+
+/// A line of all channels and recordings together, a sum of so many `terms`.
+struct CommonLine {
+  double hz;
+  double ratio;   ///< of its power to the floor's
+  double excess;  ///< of its power, in units of the mean level beside it, over `terms`
+  int terms;
+  /// More than one of 1e8 bins of noise: a line stands out of what is beside it, whatever the floor
+  /// may be there.
+  bool stands_out() const;
+};
+/// The strongest, that first.
+std::vector<CommonLine> common_lines(const Case& study, const Signals& left,
+                                     const std::vector<Floor>& floors, double from_hz, double to_hz,
+                                     int most);
 
 }  // namespace dcnn

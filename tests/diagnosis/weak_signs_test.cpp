@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "dcnn/core/random.h"
 #include "diagnosis/noise_floor.h"
@@ -145,6 +146,25 @@ TEST(WeakSigns, KnocksThatAreFaintOneByOneAreHeardTogether) {
   const Json& found = report["findings"][0]["parameters"];
   EXPECT_NEAR(found["slug_kg"]["value"].get<double>(), 0.004, 0.0008);
   EXPECT_NEAR(found["gap_m"]["value"].get<double>(), 0.005, 0.001);
+}
+
+// In no channel does the line stand out of 10,000 samples of noise.
+TEST(WeakSigns, AHumFaintInEachChannelIsHeardInAllTogether) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const auto report = [](double amplitude) {
+    const Bench bench(configuration(Json::array()));
+    change(bench, [&](Recording& log) {
+      const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * 7.3 * log.column("t").array();
+      for (const char* channel : {"fx", "fy", "fz"}) {
+        log.set(channel, log.column(channel) + (amplitude * angle.sin()).matrix());
+      }
+    });
+    return bench.diagnose().report;
+  };
+  const Json heard = report(0.0032);
+  ASSERT_EQ(names(heard), std::vector<std::string>{"hum"}) << heard["findings"].dump(1);
+  EXPECT_NEAR(heard["findings"][0]["parameters"]["freq_hz"]["value"].get<double>(), 7.3, 0.01);
+  EXPECT_EQ(report(0.001)["verdict"], "consistent");
 }
 
 // Both forms of a thermal drift were seeded once, and the one that follows the clock hid the other.
