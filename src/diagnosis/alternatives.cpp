@@ -34,7 +34,10 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
       // A small force hides how it bends.
       if (more > 0 && same_family(trial.member, own))
         least = std::min(least, kBend * own_gain - near);
-      if (fit_.chi2 - other.chi2 > least &&
+      // Nor does noise stand in its place.
+      const int numbers = trial.member.parameters();
+      const double noise = least_gain(*setting_, numbers, rest.members.empty()) - near;
+      if (fit_.chi2 - other.chi2 > least && rest.chi2 - other.chi2 > noise &&
           std::find(all[m].begin(), all[m].end(), trial.member.name()) == all[m].end()) {
         all[m].push_back(trial.member.name());
       }

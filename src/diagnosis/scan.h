@@ -21,8 +21,9 @@ struct Trial {
   double net_gain() const { return gain - price * member.parameters(); }
 };
 
-/// The net gain from which on an effect is named.
-double least_net_gain(const Setting& setting);
+/// The gain from which on an effect with so many numbers, next to no other or to some, is more than
+/// noise makes of it.
+double least_gain(const Setting& setting, int numbers, bool alone);
 
 /// At which samples a candidate's columns are computed: all, or as many as a search needs.
 enum class Detail { kFine, kCoarse };

@@ -117,12 +117,14 @@ bool Search::grow() {
   if (others >= kMostMembers || frictions >= kMostFrictions) return false;
   say("looking for what is missing beside " + std::to_string(fit_.members.size()) + " effects");
   const auto trials = additions();
-  if (trials.empty()) return false;
-  const Trial& best = trials.front();
-  if (best.net_gain() < least_net_gain(*setting_)) return false;
-  if (best.gain < kLeastGrowth * explained(false)) return false;
+  const bool alone = fit_.members.empty();
+  const auto best = std::find_if(trials.begin(), trials.end(), [&](const Trial& trial) {
+    return trial.gain >= least_gain(*setting_, trial.member.parameters(), alone);
+  });
+  if (best == trials.end()) return false;
+  if (best->gain < kLeastGrowth * explained(false)) return false;
   std::vector<Member> members = fit_.members;
-  members.push_back(best.member);
+  members.push_back(best->member);
   settle(members);
   return true;
 }
@@ -135,7 +137,8 @@ bool Search::simplify() {
       ++m;
       continue;
     }
-    if (net_gain(m) >= least_net_gain(*setting_)) {
+    const double needed = least_gain(*setting_, fit_.members[m].parameters(), false);
+    if (without(m).chi2 - fit_.chi2 >= needed) {
       ++m;
       continue;
     }
@@ -166,7 +169,10 @@ bool Search::swap() {
       const int fewer = fit_.members[m].parameters() - trial.member.parameters();
       const bool gives_way = is_degenerate(fit_.members[m]) && fewer > 0;
       const double least = own + setting_->price * (gives_way ? -fewer : 0.2);
-      if (rest.chi2 - other.chi2 - setting_->price * trial.member.parameters() > least) {
+      const int numbers = trial.member.parameters();
+      const double gain = rest.chi2 - other.chi2;
+      const double needed = least_gain(*setting_, numbers, rest.members.empty());
+      if (gain - setting_->price * numbers > least && gain >= needed) {
         settle(members);
         return true;
       }

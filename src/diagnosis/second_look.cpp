@@ -91,7 +91,7 @@ void Search::prefer_fewer_numbers() {
     members.push_back(simpler->member);
     const JointFit other = joint_fit(*setting_, members);
     const int more = own.parameters() - simpler->member.parameters();
-    if (other.chi2 - fit_.chi2 > loud * (least_net_gain(*setting_) + setting_->price * more)) {
+    if (other.chi2 - fit_.chi2 > loud * least_gain(*setting_, more, false)) {
       continue;
     }
     settle(other.members);

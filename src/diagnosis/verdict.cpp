@@ -141,8 +141,8 @@ void Search::drop_minor() {
     for (std::size_t m = 0; m < fit_.members.size(); ++m) {
       const Member& member = fit_.members[m];
       if (member.fixed) continue;
-      const double price = setting_->price * member.parameters();
-      const double noise = loud * (least_net_gain(*setting_) + price) - price;
+      const int numbers = member.parameters();
+      const double noise = loud * least_gain(*setting_, numbers, false) - setting_->price * numbers;
       const double needed = loud > 1.0 ? std::min(left, noise) : left;
       if (needed - net_gain(m) > most) most = needed - net_gain(m), worst = m;
     }
