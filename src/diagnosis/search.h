@@ -91,7 +91,9 @@ class Search {
   bool is_alarming_now();
   bool are_constant() const;
   bool loosen();
+  bool flicker_suffices();
   bool admit_flicker();
+  void prefer_flicker();
   void judge();
   void drop_minor();
   void prefer_fewer_numbers();

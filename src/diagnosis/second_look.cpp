@@ -54,6 +54,12 @@ bool Search::are_constant() const {
                       [](const Constancy& test) { return test.refutes(); });
 }
 
+/// Whether beside slow noise no law gains and nothing is left, in no band and of no product of what
+/// moves.
+bool Search::flicker_suffices() {
+  return !grow() && !is_alarming_now() && most_of_a_term(*setting_, fit_) < kDependence;
+}
+
 /// Whether slow noise, rising as 1/f towards low frequencies, is all that is left. The floor is
 /// read above the motion, where the noise's flat part hides it.
 bool Search::admit_flicker() {
@@ -62,17 +68,47 @@ bool Search::admit_flicker() {
   if (!flicker) return false;
   const std::vector<Member> members = fit_.members;
   flicker_ = *flicker;
-  const auto suffices = [&] {
-    return !grow() && !is_alarming_now() && most_of_a_term(*setting_, fit_) < kDependence;
-  };
   settle(apart_);
-  if (suffices()) return true;
+  if (flicker_suffices()) return true;
   settle(members);  // names that the slow noise leaves as they are
-  if (members.size() > apart_.size() && are_constant() && !simplify() && suffices()) return true;
+  if (members.size() > apart_.size() && are_constant() && !simplify() && flicker_suffices()) {
+    return true;
+  }
   flicker_.clear();
   settle(members);
   is_alarming_now();
   return false;
+}
+
+/// Takes faint names, and a crowd of drifts and steps, back where slow noise alone is likelier,
+/// each number at its price, and leaves nothing.
+void Search::prefer_flicker() {
+  constexpr double kFaint = 40.0;  // prices, of what all names explain
+  constexpr std::size_t kCrowd = 3;
+  if (study_.is_static() || study_.axis || study_.without.coloured_floor) return;
+  const std::size_t names = fit_.members.size() - apart_.size();
+  if (names == 0) return;
+  const bool wanders =
+      names >= kCrowd && std::all_of(fit_.members.begin(), fit_.members.end(), [](const Member& m) {
+        return m.fixed || m.kind->stage == Stage::kOffset;
+      });
+  if (!wanders && explained(true) > kFaint * setting_->price) return;
+  const auto unlikely = [&] {
+    double numbers = 0.0;
+    for (const Member& m : fit_.members) numbers += m.fixed ? 0.0 : m.parameters();
+    return fit_.chi2 + setting_->whitener.log_determinant() + 10.0 * numbers;
+  };
+  const std::vector<Member> members = fit_.members;
+  const double with_names = unlikely();
+  settle(apart_);
+  if (const auto flicker = flicker_below(study_, left_, floors_)) {
+    flicker_ = *flicker;
+    settle(apart_);
+    const double levels = 10.0 * static_cast<double>(flicker_.size());
+    if (unlikely() + levels < with_names && flicker_suffices()) return;
+    flicker_.clear();
+  }
+  settle(members);
 }
 
 /// Beside a slow remainder a law must gain by the numbers that a simpler relative lacks what it

@@ -92,6 +92,7 @@ bool Search::is_alarming_now() {
 void Search::judge() {
   drop_coincidences();
   if (study_.axis) keep_what_carries_over();
+  prefer_flicker();
   remains_ = is_alarming_now();
   if (remains_ && (loosen() || admit_flicker())) remains_ = false;
   if (keep_bystanders()) {
