@@ -106,6 +106,10 @@ void add_failures(HtmlReport& page, const Json& scenarios) {
     rows.push_back({s["id"], s["drawn"], s["hidden"].dump(), s["named"].dump(), s["verdict"],
                     s["seconds"].dump()});
   }
+  if (rows.empty()) {
+    page.paragraph("Nowhere: every name and every verdict is right.");
+    return;
+  }
   page.table({"scenario", "drawn", "hidden", "named", "verdict", "seconds"}, rows);
 }
 
