@@ -8,6 +8,8 @@ namespace dcnn {
 std::vector<std::vector<std::string>> Search::alternatives() const {
   constexpr double kAsLikely = 12.0;    // of chi-square
   constexpr double kLeastOfMore = 0.5;  // of the price of a number
+  constexpr double kAkaike = 0.2;       // the same for a faint effect (Akaike 1974)
+  constexpr double kFaint = 15.0;       // prices
   constexpr double kBend = 0.06;        // of a gain: what another bend of a law is worth
   const double price = setting_->price, loud = rest_loudness();
   std::vector<std::vector<std::string>> all(fit_.members.size());
@@ -16,6 +18,7 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
     if (own.fixed) continue;
     const JointFit& rest = without(m);
     const double net = net_gain(m), own_gain = rest.chi2 - fit_.chi2;
+    const double each = own_gain < kFaint * price ? kAkaike : kLeastOfMore;
     for (const Trial& trial : others(m)) {
       // What explains a remainder better than the member explains its own is none in its place.
       if (remains_ && trial.member.axis != own.axis) continue;
@@ -30,7 +33,7 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
       // nothing speaks for it.
       const int more = trial.member.parameters() - own.parameters();
       const double near = 0.1 * kAsLikely * price;
-      double least = more > 0 ? kLeastOfMore * price * more * loud : price * more - near;
+      double least = more > 0 ? each * price * more * loud : price * more - near;
       // A small force hides how it bends.
       if (more > 0 && same_family(trial.member, own))
         least = std::min(least, kBend * own_gain - near);
