@@ -13,6 +13,7 @@ namespace dcnn {
 namespace {
 
 constexpr double kLeastGrowth = 0.001;     // of what the model explains already
+constexpr double kLeastOfMotion = 0.0003;  // the same for a mode: it mends errors of the motion
 constexpr int kMostRounds = 6;             // of exchanges
 constexpr int kMostGrowth = 30;            // of growth: what is added may be left out again
 constexpr double kLinearError = 0.01;      // of a gain that is estimated along a tangent
@@ -123,6 +124,8 @@ bool Search::grow() {
   });
   if (best == trials.end()) return false;
   if (best->gain < kLeastGrowth * explained(false)) return false;
+  const bool mode = best->member.kind->stage == Stage::kResonance;
+  if (mode && best->gain < kLeastOfMotion * explained(true)) return false;
   std::vector<Member> members = fit_.members;
   members.push_back(best->member);
   settle(members);
