@@ -167,6 +167,7 @@ void Search::keep_what_carries_over() {
     if (*worst >= kMostOfIt) break;
     settle(members_without(static_cast<std::size_t>(worst - shares.begin())));
   }
+  prefer_fewer_numbers();
 }
 
 }  // namespace dcnn
