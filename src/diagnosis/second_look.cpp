@@ -112,14 +112,14 @@ void Search::prefer_flicker() {
 }
 
 /// Beside a slow remainder a law must gain by the numbers that a simpler relative lacks what it
-/// would have to in noise as loud; on a machine their price, also after other names are gone (a
-/// drift that settles long after the recording ends is a straight line).
+/// would have to in noise as loud; a machine's drift their price, also after other names are gone
+/// (one that settles long after the recording ends is a straight line).
 void Search::prefer_fewer_numbers() {
   const double loud = rest_loudness();
   if (loud == 1.0 && !study_.axis) return;
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     const Member& own = fit_.members[m];
-    if (own.fixed) continue;
+    if (own.fixed || (study_.axis && own.kind->stage != Stage::kOffset)) continue;
     const auto simpler = std::find_if(others(m).begin(), others(m).end(), [&](const Trial& trial) {
       return same_family(trial.member, own) && trial.member.parameters() < own.parameters();
     });
