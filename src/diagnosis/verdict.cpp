@@ -87,9 +87,10 @@ bool Search::is_alarming_now() {
   return !study_.without.omnibus && is_alarming(bands_, explained(true));
 }
 
-/// Takes back what a remainder nobody can name makes doubtful: events, and members that fit in some
-/// places and not in others.
+/// Takes back what a remainder nobody can name makes doubtful: events, but for those of which only
+/// the shape is a little off, and members that fit in some places and not in others.
 void Search::judge() {
+  constexpr double kPlain = 20.0;  // times what is left, that an event explains
   drop_coincidences();
   if (study_.axis) keep_what_carries_over();
   prefer_flicker();
@@ -105,11 +106,12 @@ void Search::judge() {
   say("something is left that no effect explains: names are tested again");
   if (events_allowed_) {
     events_allowed_ = false;
-    forget_places();
     std::vector<Member> rest;
-    for (const Member& m : fit_.members) {
-      if (!m.interval_s) rest.push_back(m);
+    const double plain = kPlain * left_over(bands_);
+    for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+      if (!fit_.members[m].interval_s || net_gain(m) > plain) rest.push_back(fit_.members[m]);
     }
+    forget_places();
     if (rest.size() < fit_.members.size()) {
       settle(rest);
       explore();
