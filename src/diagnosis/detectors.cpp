@@ -85,10 +85,16 @@ std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
     return gain;
   };
   const double longest = longest_seconds(study);
+  // Recordings one after the other have side lobes, the nearer the further they are apart.
+  const double span = study.logs.back().motion.t.tail(1)(0) - study.logs.front().motion.t(0);
+  const double width = 2.0 / longest, step = std::max(0.25 / std::max(span, longest), width / 200);
+  double best_hz = lines.front().hz, most = gain_at(best_hz);
+  for (double f = best_hz - 0.5 * width, end = best_hz + 0.5 * width; f < end; f += step) {
+    if (const double gain = gain_at(f); gain > most) most = gain, best_hz = f;
+  }
   const Eigen::VectorXd hz =
       simplex_search([&](const Eigen::VectorXd& f) { return -gain_at(f(0)); },
-                     Eigen::VectorXd::Constant(1, lines.front().hz),
-                     Eigen::VectorXd::Constant(1, 0.2 / longest), 40);
+                     Eigen::VectorXd::Constant(1, best_hz), Eigen::VectorXd::Constant(1, step), 40);
   const double gain = gain_at(hz(0));
   const EffectKind& kind = *find_effect("hum");
   Member member = make_member(kind, kind.fits[0], "", study.has_torque(), hz);
