@@ -15,7 +15,7 @@
 namespace dcnn {
 namespace {
 
-/// Multiply-adds of `same` padding without those of its zeros, which spec 2.0 counts.
+/// Multiply-adds of `same` padding without those of its zeros, which a plain count includes.
 constexpr double kSameProducts = 443592;
 /// Of a row whose window has a state before it.
 constexpr double kStepProducts = 15 * 600 + 150 * 600 + 3 * 150;

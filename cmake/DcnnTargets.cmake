@@ -26,20 +26,28 @@ function(dcnn_compile_options target)
     <Eigen/Dense> <dcnn/core/json.h> <algorithm> <functional> <memory> <sstream> <string> <vector>)
 endfunction()
 
-# Eight files of a room are compiled as one, which halves the time of a full build. Highway's kernels
-# include themselves: they stay apart.
+# Some eight files of a module are compiled as one, which halves the time of a full build. Any grouping compiles
+# (tools/check-rooms); a file's group follows from its name alone, so that a new file moves no other. Highway's
+# kernels include themselves: they stay apart.
 function(dcnn_unite_rooms target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
+  list(TRANSFORM sources REPLACE "^${PROJECT_SOURCE_DIR}/src/" "")
+  list(FILTER sources EXCLUDE REGEX "^nn/kernels/")
   foreach(source ${sources})
-    cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/src OUTPUT_VARIABLE inside)
-    if(inside MATCHES "^nn/kernels/")
-      continue()
-    endif()
-    string(REGEX MATCH "^[^/]+" room ${inside})
-    math(EXPR count_${room} "${count_${room}} + 1")
-    math(EXPR unit "(${count_${room}} - 1) / 8")
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${room}_${unit})
+    string(REGEX MATCH "^[^/]+" room ${source})
+    set(in_room ${sources})
+    list(FILTER in_room INCLUDE REGEX "^${room}/")
+    list(LENGTH in_room count)
+    set(groups 1)
+    while(count GREATER 12)  # groups: the power of two that leaves 6 to 12 files in each
+      math(EXPR groups "2 * ${groups}")
+      math(EXPR count "(${count} + 1) / 2")
+    endwhile()
+    string(MD5 hash ${source})
+    string(SUBSTRING ${hash} 0 4 digits)
+    math(EXPR group "0x${digits} % ${groups}")
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/src/${source} PROPERTIES UNITY_GROUP ${room}_${group})
   endforeach()
 endfunction()
 

@@ -10,7 +10,7 @@ run(${CMAKE_COMMAND} -S ${SOURCE_DIR}/tests/consumer -B ${work}/build -G ${GENER
 run(${CMAKE_COMMAND} --build ${work}/build)
 run(${work}/build/consumer)
 
-# The example of docs/run.md, too.
+# The example of docs/use/run.md, too.
 run(${CMAKE_COMMAND} -S ${SOURCE_DIR}/examples -B ${work}/examples -G ${GENERATOR}
   -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_PREFIX_PATH=${work}/prefix)
 run(${CMAKE_COMMAND} --build ${work}/examples)

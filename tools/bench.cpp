@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
   tool.option("--repetitions", request.repetitions, "passes over all samples")
       .between(1, 1000)
       .with_default();
-  tool.option("--out", out, "folder for bench.html and bench.json");
+  tool.output("--out", out, "folder for bench.html and bench.json", {"bench.html", "bench.json"});
   tool.flag("--peers", with_peers,
             "beside ONNX Runtime, oneDNN and libtorch, as far as they are there "
             "(tools/install-deps --peers): the paper's networks, or those of the models");

@@ -51,6 +51,15 @@ ForcePairs load(const Input& input, const ReadOptions& read, bool with_bias) {
                       *input.mass_kg);
 }
 
+/// Whether a file holds an earlier answer: it is replaced, for it is made again in no time.
+bool is_calibration(const std::filesystem::path& file) {
+  try {
+    return read_json(file, Exit::kData).contains("rotation_es");
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 void print(const Calibration& c, const std::string& out) {
   const Eigen::Vector3d rpy = euler_from_rotation(c.R_ES).reverse();
   const Eigen::Vector3d sd = c.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
@@ -78,7 +87,9 @@ int main(int argc, char** argv) {
   tool.option("--mass-kg", input.mass_kg, "hung mass, or the tool's (else it is estimated)");
   tool.flag("--with-bias", options.with_bias, "the sensor has a constant offset: find it");
   tool.option("--nominal", nominal, "mounting as designed: rx ry rz [rad]").values(3);
-  tool.option("--out", out, "calibration.json to write").required();
+  tool.output("--out", out, "calibration.json to write")
+      .required()
+      .replaces(is_calibration);
   const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {

@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
   int scenarios = 0, rounds = 0;
   bool score = false;
   std::vector<std::string> ids;
+  std::string family = "plain";
   std::filesystem::path out, seal;
   conceal::Injection injection;
   auto many = tool.option("--scenarios", scenarios, "how many, of every group its share");
@@ -62,9 +63,20 @@ int main(int argc, char** argv) {
           "rounds of a table of rates: of each 75 nulls, every effect alone at 1, 0.3 and 0.1 or "
           "0.05 of the noise, and some of every other group (8: 1,600 scenarios)")
       .excludes(many);
-  tool.flag("--score", score, "score OUT/reports/*/report.json against the seal").excludes(many);
-  tool.option("--out", out, "folder of the scenarios").required();
-  tool.option("--seal", seal, "file of the answers, outside that folder").required();
+  tool.option(
+          "--family", family,
+          "conditions of the recordings: plain, tremor (of a hand), load (noise that grows with "
+          "the force), clock (200 to 2000 Hz, rows lost), field (some of each), all (in turn)")
+      .with_default();
+  const Option opening =
+      tool.flag("--score", score, "score OUT/reports/*/report.json against the seal").excludes(many);
+  tool.output("--out", out, "folder of the scenarios",
+              {"s[0-9][0-9][0-9][0-9]", "seal.sha256", "sim.json", "system.json", "*.csv"})
+      .required()
+      .unless(opening);
+  tool.output("--seal", seal, "file of the answers, outside that folder")
+      .required()
+      .unless(opening);
 
   auto what = tool.option("--inject", injection.what,
                           "effect, effect@axis or a JSON file of effects to hide in --motion");
@@ -96,6 +108,7 @@ int main(int argc, char** argv) {
             "give --scenarios, --rates, --scenario, --inject or --score");
     if (rounds > 0) ids = conceal::rates_plan(rounds, seed);
     if (ids.empty()) ids = conceal::plan(scenarios, seed);
+    ids = conceal::in_family(std::move(ids), family);
     Progress bar(tool.common().quiet);
     const std::string digest =
         conceal::conceal_challenge(ids, seed, out, seal, [&](int done, int total) {

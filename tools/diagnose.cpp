@@ -39,7 +39,8 @@ int main(int argc, char** argv) {
   tool.option("--clock", clock, "whether the recordings share one clock: auto, shared, own")
       .one_of({"auto", "shared", "own"})
       .with_default();
-  tool.option("--out", out, "folder for report.json, report.html, model.json and predictions")
+  tool.output("--out", out, "folder for report.json, report.html, model.json and predictions",
+              {"report.json", "report.html", "model.json", "holdout_*_pred.csv"})
       .required();
   std::vector<std::string> without;
   tool.option("--without", without, "leave out parts of the method, to see what they are worth")

@@ -65,7 +65,8 @@ int main(int argc, char** argv) {
           "the entries of X* of models that have them")
       .one_of({"features", "pose", "entries"})
       .with_default();
-  tool.option("--out", out, "folder for report.html and evaluation.json");
+  tool.output("--out", out, "folder for report.html and evaluation.json",
+              {"report.html", "evaluation.json"});
   const PrecisionFlag precision(tool);
   const ReadFlags read(tool);
 

@@ -50,7 +50,8 @@ int main(int argc, char** argv) {
   tool.option("--sensor", sensor.listen, "the sensor's address towards the controller")
       .with_default();
   tool.option("--controller", sensor.peer, "the controller's address").with_default();
-  tool.option("--out", out, "folder for the controller's report.html, SVG and CSV");
+  tool.output("--out", out, "folder for the controller's report.html, SVG and CSV",
+              {"report.html", "teleop.json", "live.csv"});
 
   return tool.run(argc, argv, [&] {
     TeleopConfig config =

@@ -1,3 +1,4 @@
+#include <fstream>
 #include <iostream>
 
 #include "dcnn/core/file.h"
@@ -65,6 +66,13 @@ Recording predict_with_simulator(const std::filesystem::path& model,
   return recording;
 }
 
+/// Whether a file holds an earlier prediction: it is replaced, for it is made again in no time.
+bool is_prediction(const std::filesystem::path& file) {
+  std::string header;
+  std::getline(std::ifstream(file), header);
+  return (header + ",").find("_hat,") != header.npos;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -73,10 +81,11 @@ int main(int argc, char** argv) {
   std::optional<std::filesystem::path> data, out, onnx;
   tool.option("model", model, "model file (.dcnn), or a simulator (.json)").required();
   tool.option("--data", data, "recording");
-  tool.option(
-      "--out", out,
-      "CSV to write: the input columns, <target>_hat, and novelty from models that measure it");
-  tool.option("--onnx", onnx,
+  tool.output(
+          "--out", out,
+          "CSV to write: the input columns, <target>_hat, and novelty from models that measure it")
+      .replaces(is_prediction);
+  tool.output("--onnx", onnx,
               "write the model as ONNX: features in SI units to targets in theirs, for other "
               "runtimes");
   const PrecisionFlag precision(tool);
@@ -97,6 +106,7 @@ int main(int argc, char** argv) {
                                     : predict_with_model(model, *data, options, precision.value());
     for (const auto& note : recording.notes) tool.note(note);
     write_csv(*out, recording.table);
+    if (*out == "-") return Exit::kDone;  // standard output holds the rows
     const Json summary = {{"rows", recording.samples()}, {"file", out->string()}};
     if (tool.common().json) {
       Tool::print(summary);

@@ -85,7 +85,8 @@ int main(int argc, char** argv) {
   int trainings = 20;
   bool plan_only = false;
   tool.option("--preset", request.preset, "how much of everything").one_of(kPresets).with_default();
-  tool.option("--out", request.out, "folder for the report and all work [out/reproduce-PRESET]");
+  tool.output("--out", request.out, "folder for the report and all work [out/reproduce-PRESET]",
+              {"no file: what is finished is not done again"});
   request.scene = "configs/sim/embedded.json";
   auto scene =
       tool.option("--scene", request.scene, "simulation of recordings named train and test (JSON)")

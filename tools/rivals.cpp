@@ -43,7 +43,9 @@ int main(int argc, char** argv) {
   tool.option("--holdout", request.holdout, "recordings to judge by");
   tool.option("--networks", networks, "models of dcnn-train that learn the remainder too");
   tool.option("--preset", preset, "of the networks").with_default();
-  tool.option("--out", out, "folder for <method>/report.json").required();
+  tool.output("--out", out, "folder for <method>/report.json",
+              {"stlsq*", "lasso*", "omp*", "greedy*"})
+      .required();
 
   return tool.run(argc, argv, [&] {
     Json reports = rivals::run(request);

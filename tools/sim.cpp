@@ -51,8 +51,10 @@ int main(int argc, char** argv) {
   auto with_motion = tool.option("--motion", motion, "recording whose motion is simulated");
   from_sim.needs(with_motion).excludes(from_config);
   with_motion.needs(from_sim);
-  tool.option("--out", out, "folder (with --config) or CSV file (with --motion) to write")
-      .required();
+  tool.output("--out", out, "folder (with --config) or CSV file (with --motion) to write",
+              {"sim.json", "truth.json", "*.csv"})
+      .required()
+      .file_with(with_motion);
   const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {

@@ -41,7 +41,9 @@ int main(int argc, char** argv) {
   tool.option("--model", models, "trained models (.dcnn)");
   tool.option("--corrected", corrected, "simulator that compensates (model.json of dcnn-diagnose)");
   tool.option("--calibration", calibration, "sensor frame to robot frame (dcnn-calibrate)");
-  tool.option("--out", out, "folder for report.html, teleop.json, SVG and CSV").required();
+  tool.output("--out", out, "folder for report.html, teleop.json, SVG and CSV",
+              {"report.html", "teleop.json", "*.svg", "*.csv"})
+      .required();
 
   return tool.run(argc, argv, [&] {
     const TeleopConfig config =

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <iomanip>
 #include <iostream>
 #include <numeric>
 
@@ -64,17 +65,41 @@ class Observer {
   std::string last_;
 };
 
+/// RMSE per target of one row of the comparison.
+void print_row(const std::string& name, const Json& rmse) {
+  if (rmse.is_null()) return;
+  std::cout << std::left << std::setw(24) << name << std::setprecision(4);
+  for (const double value : rmse.get<std::vector<double>>()) std::cout << std::setw(12) << value;
+  std::cout << "\n";
+}
+
+/// The validation error beside what no identification, the rigid tool and the noise come to.
+void print_comparison(const Json& summary) {
+  if (!summary.contains("references")) return;
+  const Json& references = summary["references"];
+  std::cout << std::left << std::setw(24) << "validation RMSE";
+  for (std::size_t j = 0; j < summary["targets"].size(); ++j) {
+    std::cout << std::setw(12)
+              << summary["targets"][j].get<std::string>() + " [" +
+                     summary["units"][j].get<std::string>() + "]";
+  }
+  std::cout << "\n";
+  print_row(summary["model"].get<std::string>(), summary["validation_rmse"]);
+  print_row("rigid tool", references["rigid"]);
+  print_row("no identification", references["none"]);
+  print_row("white noise", references["white_noise"]);
+}
+
 void print_summary(const Json& summary) {
+  for (const Json& warning : summary.value("warnings", Json::array())) {
+    std::cout << warning.get<std::string>() << "\n";
+  }
+  if (summary.contains("choice")) std::cout << summary["choice"]["why"].get<std::string>() << "\n";
   std::cout << "model       " << summary["file"].get<std::string>() << " (" << summary["parameters"]
             << " parameters)\n"
             << "rows        " << summary["training_rows"] << " training, "
             << summary["validation_rows"] << " validation\n";
-  const auto rmse = summary["validation_rmse"].get<std::vector<double>>();
-  for (std::size_t j = 0; j < rmse.size(); ++j) {
-    std::cout << (j == 0 ? "validation  " : "            ")
-              << summary["targets"][j].get<std::string>() << " RMSE " << rmse[j] << " "
-              << summary["units"][j].get<std::string>() << "\n";
-  }
+  print_comparison(summary);
   if (summary.contains("trust")) {
     const auto trust = summary["trust"].get<std::vector<double>>();
     std::cout << "adds        of what it learned beside the simulator:";
@@ -104,23 +129,33 @@ int main(int argc, char** argv) {
               "recordings for validation (default: the last 15 % of each training recording)");
   tool.option("--config", flags.file, "configuration (JSON)");
   tool.option("--preset", flags.preset, "fills what the configuration leaves out").one_of(kPresets);
-  tool.option("--model", flags.model, "which identifier:" + list);
+  tool.option("--model", flags.model,
+              "which identifier:" + list +
+                  "\n  auto: the best of rigid, mlp and dcnn on rows that none was fitted to");
   tool.option("--system", flags.system, "description of another machine (JSON)");
   tool.option("--epochs", flags.epochs, "number of epochs").positive();
   tool.option("--base", request.base,
               "simulator (sim.json or model.json) whose remainder is learned");
   tool.flag("--online", flags.online, "causal derivatives: required by dcnn-run and dcnn-teleop");
-  tool.option("--out", request.out, "model file to write; its run directory is beside it")
-      .required();
-  tool.flag("--resume", request.resume, "go on from the last checkpoint");
+  const Option resume = tool.flag("--resume", request.resume, "go on from the last checkpoint");
+  tool.output("--out", request.out, "model file to write; its run directory is beside it")
+      .required()
+      .unless(resume);
   const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {
     request.read = read.options();
     flags.seed = tool.common().seed;
+    const auto run = run_directory(request.out);
+    require(request.resume || tool.common().force ||
+                !std::filesystem::exists(run / "checkpoint.safetensors"),
+            Exit::kUsage, run.string(),
+            ": an interrupted run is here; go on with --resume, or start anew with --force");
     catch_interrupts();
     Observer observer(tool);
-    const TrainingOutcome outcome = train(request, observer.callbacks());
+    const TrainingOutcome outcome = flags.model == "auto"
+                                        ? train_best(request, observer.callbacks())
+                                        : train(request, observer.callbacks());
     observer.clear();
     if (!outcome.finished) {
       tool.note("interrupted; the state is saved in " +

@@ -11,7 +11,7 @@ using Eigen::MatrixXd;
 using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
-constexpr double kDegenerate = 1e-3, kMirrored = 0.05;  // spec 7
+constexpr double kDegenerate = 1e-3, kMirrored = 0.05;  // shares of the largest singular value
 constexpr double kGainTolerance = 0.02;
 constexpr double kOtherMounting = 20.0 * M_PI / 180.0;  // no assembly tolerance
 constexpr double kClearF = 20.0;  // by chance in less than 2 of 1000 sets of four pairs

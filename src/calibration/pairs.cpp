@@ -7,7 +7,7 @@
 namespace dcnn {
 namespace {
 
-constexpr double kGravity = 9.81;   // contract.md section 1
+constexpr double kGravity = 9.81;   // m/s^2
 constexpr double kSamePose = 0.02;  // rad: a pose that was driven to twice
 const std::vector<std::string> kForce{"fx", "fy", "fz"};
 

@@ -45,7 +45,8 @@ class Contribution {
  public:
   Contribution(const std::vector<Path>& paths, const Scenario& s) : paths_(paths), s_(s) {
     for (std::size_t k = 0; k < paths.size(); ++k) {
-      if (!s.recordings[k].holdout) plain_.push_back(reading(paths[k], s.tool, {}, {}));
+      if (!s.recordings[k].holdout)
+        plain_.push_back(reading(paths[k], s.tool, {}, {}, s.conditions.samples_per_reading));
     }
   }
 
@@ -56,7 +57,8 @@ class Contribution {
     auto plain = plain_.begin();
     for (std::size_t k = 0; k < paths_.size(); ++k) {
       if (s_.recordings[k].holdout) continue;
-      const Eigen::MatrixXd d = reading(paths_[k], s_.tool, {h}, {}) - *plain++;
+      const Eigen::MatrixXd d =
+          reading(paths_[k], s_.tool, {h}, {}, s_.conditions.samples_per_reading) - *plain++;
       squares += d.colwise().squaredNorm().transpose();
       rows += static_cast<double>(d.rows());
     }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "conceal/draws.h"
@@ -13,23 +14,34 @@ std::uint64_t hash_of(const std::string& s) {
   return h;
 }
 
-/// The parts of "group:value/effect/number".
+/// The parts of "family+group:value/effect/number".
 struct Request {
-  std::string group, value, effect;
-  double amplitude() const { return group == "null" ? 0.0 : std::stod(value); }
+  std::string group, value, effect, family = "plain";
+  double amplitude = 0.0;
 };
 
-Request parse(const std::string& id) {
+Request parse(const std::string& whole) {
+  const auto plus = whole.find('+');
+  const std::string id = plus == whole.npos ? whole : whole.substr(plus + 1);
   const auto colon = id.find(':'), first = id.find('/'), second = id.rfind('/');
   require(colon < first && first < second, Exit::kUsage, id, ": write group:value/effect/number");
   Request r{id.substr(0, colon), id.substr(colon + 1, first - colon - 1),
             id.substr(first + 1, second - first - 1)};
+  const char* const end = r.value.data() + r.value.size();
+  const auto [rest, error] = std::from_chars(r.value.data(), end, r.amplitude);
+  const bool number = error == std::errc() && rest == end && r.amplitude > 0.0 && r.amplitude < 1e6;
+  require(number || r.group == "null", Exit::kUsage, id, ": '", r.value,
+          "' is no amplitude; write a positive number, as in single:0.5/coulomb_friction/7");
+  if (r.group == "null") r.amplitude = 0.0;
+  if (plus != whole.npos) r.family = whole.substr(0, plus);
   require(has("null faint single foreign poor double triple collinear unlisted mixed", r.group),
           Exit::kUsage, id, ": no group is called ", r.group);
-  const auto known = [&](const std::vector<std::string>& list) {
-    return std::find(list.begin(), list.end(), r.effect) != list.end();
+  const auto known = [](const std::string& name, const std::vector<std::string>& list) {
+    return std::find(list.begin(), list.end(), name) != list.end();
   };
-  require(has("any none", r.effect) || known(listed_effects()) || known(unlisted_effects()),
+  require(known(r.family, families()), Exit::kUsage, whole, ": no family is called ", r.family);
+  require(has("any none", r.effect) || known(r.effect, listed_effects()) ||
+              known(r.effect, unlisted_effects()),
           Exit::kUsage, id, ": no effect is called ", r.effect);
   return r;
 }
@@ -54,7 +66,7 @@ std::string another(const std::vector<Wanted>& wanted, Rng& rng) {
 std::vector<Wanted> choose(const Request& r, Rng& rng) {
   std::vector<Wanted> wanted;
   if (r.group == "null") return wanted;
-  const double a = r.amplitude();
+  const double a = r.amplitude;
   if (r.group == "collinear") {
     const Neighbours pair = one_of(rng, neighbours());
     return {{pair.first, a}, {pair.second, a, pair.same_axis}};
@@ -98,8 +110,9 @@ std::vector<Path> draw_motion(Scenario& s, Rng& rng) {
   double start = 0.0;
   int fit = 0;
   for (std::size_t k = 0; k < count; ++k) {
-    const double seconds = rng.uniform(25.0, 45.0);
-    paths.push_back(make_path(s.motion, start, seconds, s.tool.mounting, rng.bits()));
+    const double drawn = rng.uniform(25.0, 45.0);
+    const double seconds = s.conditions.seconds > 0.0 ? s.conditions.seconds : drawn;
+    paths.push_back(make_path(s.motion, start, seconds, s.tool.mounting, s.conditions, rng.bits()));
     paths.back().climate = climate;
     start = std::ceil(start + seconds + 5.0);
     s.recordings.emplace_back();
@@ -111,10 +124,10 @@ std::vector<Path> draw_motion(Scenario& s, Rng& rng) {
 
 }  // namespace
 
-void place(Hidden& h, const std::vector<Path>& paths, Rng& rng) {
+void place(Hidden& h, const Scenario& s, const std::vector<Path>& paths, Rng& rng) {
   const double start = paths[0].start, length = paths[0].time(paths[0].samples()) - start;
   const double a = start + length * rng.uniform(0.2, 0.5);
-  const double end = paths.back().time(paths.back().samples() - kDecimation);
+  const double end = paths.back().time(paths.back().samples() - s.conditions.samples_per_reading);
   if (h.effect == "contact") h.interval_s = {a, a + rng.uniform(2.0, 6.0)};
   if (h.effect == "step_bias") h.interval_s = {a, end};
 }
@@ -141,6 +154,7 @@ std::optional<Attempt> attempt(const std::string& id, const Request& request, Rn
   s.group = request.group;
   const std::vector<Wanted> wanted = choose(request, rng);
   draw_simulator(request, wanted, s, rng);
+  if (request.family != "plain") s.conditions = draw_conditions(request.family, rng);
   const std::vector<Path> paths = draw_motion(s, rng);
   bool thermometer = rng.uniform() < 0.3;
   for (const Wanted& w : wanted) {
@@ -150,7 +164,7 @@ std::optional<Attempt> attempt(const std::string& id, const Request& request, Rn
     h.parameters = draw_parameters(w.effect, h.axis, rng);
     h.foreign = request.group == "foreign";
     thermometer = thermometer || h.parameters.count("t_ref_degc") != 0;
-    place(h, paths, rng);
+    place(h, s, paths, rng);
     const auto strong = of_amplitude(paths, s, h, w.amplitude * s.noise.sigma);
     if (!strong) return std::nullopt;
     s.hidden.push_back(*strong);

@@ -27,8 +27,17 @@ const std::vector<Neighbours>& neighbours();
 /// Whether two effects side by side are one and the same to any reader of the force.
 bool confounded(const std::string& a, const std::string& b);
 
+/// The conditions of a family; those of `plain` draw nothing.
+Conditions draw_conditions(const std::string& family, Rng& rng);
+/// Adds the tremor to a pose (T, 6) at the world's rate.
+void add_tremor(const Conditions& conditions, Eigen::MatrixXd& pose, Rng& rng);
+/// Factors of the sensor's noise (T, 3) where it reads `force` [N].
+Eigen::MatrixXd noise_scale(const Conditions& conditions, const Eigen::MatrixXd& force, Rng& rng);
+/// The rows that the log holds.
+std::vector<Eigen::Index> kept_rows(const Conditions& conditions, Eigen::Index rows, Rng& rng);
+
 /// Gives what acts for some time its interval, in the first recording.
-void place(Hidden& h, const std::vector<Path>& paths, Rng& rng);
+void place(Hidden& h, const Scenario& s, const std::vector<Path>& paths, Rng& rng);
 
 /// Scales `h` until it alone changes the fit recordings by `target` [N] on its strongest axis,
 /// or as far as its parameters stay plausible. Its amplitude is what it has then. Nothing where it

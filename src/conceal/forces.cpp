@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "conceal/laws.h"
+#include "core/elementary.h"
 
 namespace dcnn::conceal {
 namespace {
@@ -18,7 +19,7 @@ VectorXd slug(const Parameters& p, const VectorXd& field) {
   double s = -0.5 * p.at("gap_m") * (field(0) > 0.0 ? -1.0 : 1.0), v = 0.0;
   for (Index i = 0; i < field.size(); ++i) {
     const double beyond = std::abs(s) - 0.5 * p.at("gap_m");
-    double a = field(i) - kGrip * std::tanh(v / 1e-3);
+    double a = field(i) - kGrip * elementary::tanh(v / 1e-3);
     if (beyond > 0.0) {
       a -= std::copysign(kStop * kStop * beyond, s) + 2.0 * kDamping * kStop * v;
     }
@@ -41,15 +42,17 @@ VectorXd along(const Path& path, const Hidden& h, const Guide& g, const Eigen::M
     if (h.effect == "cable_spring")
       f(i) = -p.at("k_nprad") * (v - p.at("rest_rad"));
     else if (h.effect == "cogging") {
-      f(i) = p.at("amp_n") * std::sin(p.at("order") * v + p.at("phase_rad"));
+      f(i) = p.at("amp_n") * elementary::sin(p.at("order") * v + p.at("phase_rad"));
     } else if (h.effect == "pose_modulated_friction") {
-      f(i) = -p.at("size") * std::tanh(v / 0.01) * (1.0 + 0.9 * std::sin(9.0 * x / 0.12));
+      f(i) = -p.at("size") * elementary::tanh(v / 0.01) *
+             (1.0 + 0.9 * elementary::sin(9.0 * x / 0.12));
     } else if (h.effect == "velocity_position")
       f(i) = -p.at("size") * v * x * 30.0;
     else if (h.effect == "load_friction") {
-      f(i) = -p.at("size") * std::tanh(v / 0.01) * std::pow(std::abs(field(i, 2)) / load, 2.0);
+      f(i) = -p.at("size") * elementary::tanh(v / 0.01) *
+             elementary::pow(std::abs(field(i, 2)) / load, 2);
     } else if (h.effect == "cubic_spring")
-      f(i) = -p.at("size") * std::pow(h.axis[0] == 'g' ? v - std::numbers::pi : v, 3.0);
+      f(i) = -p.at("size") * elementary::pow(h.axis[0] == 'g' ? v - std::numbers::pi : v, 3);
     else if (h.effect == "gravity_square")
       f(i) = p.at("size") * field(i, 0) * field(i, 1);
     else

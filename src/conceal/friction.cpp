@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "conceal/laws.h"
+#include "core/elementary.h"
 
 namespace dcnn::conceal {
 namespace {
@@ -48,10 +49,10 @@ double friction(const Hidden& h, double v) {
   if (id == "viscous_friction") return p.at("c_nspm") * v;
   if (id == "quadratic_drag") return p.at("c2_ns2pm2") * v * std::abs(v);
   const double u0 = v / p.at("v0_mps");
-  const double sign = h.foreign ? u0 / std::sqrt(1.0 + u0 * u0) : std::tanh(u0);
+  const double sign = h.foreign ? u0 / std::sqrt(1.0 + u0 * u0) : elementary::tanh(u0);
   if (id == "coulomb_friction") return p.at("fc_n") * sign;
   const double u = v / p.at("vs_mps");
-  return (p.at("fc_n") + (p.at("fs_n") - p.at("fc_n")) * std::exp(-u * u)) * sign;
+  return (p.at("fc_n") + (p.at("fs_n") - p.at("fc_n")) * elementary::exp(-u * u)) * sign;
 }
 
 VectorXd lugre(const Hidden& h, const VectorXd& v) {
@@ -64,7 +65,8 @@ VectorXd lugre(const Hidden& h, const VectorXd& v) {
   double z = 0.0;
   for (Index i = 0; i < v.size(); ++i) {
     const double fc =
-        p.at("fc_n") * (1.0 + drift * std::sin(0.002 * kStep * 1000.0 * static_cast<double>(i)));
+        p.at("fc_n") *
+        (1.0 + drift * elementary::sin(0.002 * kStep * 1000.0 * static_cast<double>(i)));
     const double stiff = p.at("sigma0_npm") / fc;
     force(i) = p.at("sigma0_npm") * z + p.at("sigma1_nspm") * (v(i) - std::abs(v(i)) * z * stiff);
     const double next = v(std::min(i + 1, v.size() - 1));

@@ -162,7 +162,7 @@ Hidden draw_hidden(const Injection& request, const Scenario& s, const std::vecto
   do {
     h.parameters = draw_parameters(h.effect, h.axis, rng);
   } while (h.parameters.count("t_ref_degc") != 0);
-  place(h, paths, rng);
+  place(h, s, paths, rng);
   const auto strong = of_amplitude(paths, s, h, request.amplitude * s.noise.sigma);
   require(strong.has_value(), Exit::kUsage, "--inject ", request.what, ": changes nothing on this ",
           "motion; give another axis, as in coulomb_friction@base_x, or another recording");

@@ -1,4 +1,4 @@
-// Laws of the hidden effects along a high-rate path, written from vocabulary.md.
+// Laws of the hidden effects along a high-rate path, written from their published equations.
 #pragma once
 
 #include "conceal/world.h"

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "conceal/draws.h"
+#include "core/elementary.h"
 
 namespace dcnn::conceal {
 
@@ -12,7 +13,7 @@ bool has(const std::string& list, const std::string& id) {
 }
 
 double logarithmic(Rng& rng, double low, double high) {
-  return low * std::pow(high / low, rng.uniform());
+  return low * elementary::pow(high / low, rng.uniform());
 }
 
 namespace {

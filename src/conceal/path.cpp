@@ -1,17 +1,19 @@
 #include <cmath>
 #include <numbers>
 
-#include "conceal/world.h"
+#include "conceal/draws.h"
+#include "core/elementary.h"
 
 namespace dcnn::conceal {
 namespace {
 
 using Eigen::Index;
-constexpr double kTau = 2.0 * std::numbers::pi;
+constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
 Eigen::Matrix3d turn(double a, double b, double c) {
-  const double ca = std::cos(a), sa = std::sin(a), cb = std::cos(b), sb = std::sin(b);
-  const double cc = std::cos(c), sc = std::sin(c);
+  const double ca = elementary::cos(a), sa = elementary::sin(a), cb = elementary::cos(b),
+               sb = elementary::sin(b);
+  const double cc = elementary::cos(c), sc = elementary::sin(c);
   Eigen::Matrix3d R;
   R << ca * cb, ca * sb * sc - sa * cc, ca * sb * cc + sa * sc,  //
       sa * cb, sa * sb * sc + ca * cc, sa * sb * cc - ca * sc,   //
@@ -33,18 +35,21 @@ constexpr double kReach[6] = {0.12, 0.12, 0.12, 1.0, 0.6, 0.7};
 /// Tones under a clock that slows to a stand at pauses.
 void add_tones(Eigen::MatrixXd& q, int tones, double low, double high, double pauses, Rng& rng) {
   Eigen::VectorXd clock(q.rows());
-  const double period = rng.uniform(6.0, 12.0), phase = rng.uniform(0.0, kTau);
+  const double period = rng.uniform(6.0, 12.0), phase = rng.uniform(0.0, kFullTurn);
   double now = 0.0;
   for (Index i = 0; i < q.rows(); ++i) {
     clock(i) = now;
-    const double wave = std::sin(kTau * kStep * static_cast<double>(i) / period + phase);
-    now += kStep * (1.0 - pauses / (1.0 + std::exp(-(wave - 0.7) / 0.05)));
+    const double wave =
+        elementary::sin(kFullTurn * kStep * static_cast<double>(i) / period + phase);
+    now += kStep * (1.0 - pauses / (1.0 + elementary::exp(-(wave - 0.7) / 0.05)));
   }
   for (int j = 0; j < 6; ++j) {
     for (int k = 0; k < tones; ++k) {
-      const double hz = low * std::pow(high / low, rng.uniform()), p = rng.uniform(0.0, kTau);
+      const double hz = low * elementary::pow(high / low, rng.uniform()),
+                   p = rng.uniform(0.0, kFullTurn);
       const double size = kReach[j] * std::sqrt(1.0 / tones) * std::min(1.0, 0.35 / hz);
-      for (Index i = 0; i < q.rows(); ++i) q(i, j) += size * std::sin(kTau * hz * clock(i) + p);
+      for (Index i = 0; i < q.rows(); ++i)
+        q(i, j) += size * elementary::sin(kFullTurn * hz * clock(i) + p);
     }
   }
 }
@@ -73,9 +78,9 @@ void add_points(Eigen::MatrixXd& q, double shortest, double longest, double dwel
 void add_harmonic(Eigen::MatrixXd& q, Rng& rng) {
   const double hz = rng.uniform(0.15, 0.5);
   for (int j = 0; j < 6; ++j) {
-    const double size = kReach[j] * rng.uniform(0.4, 0.9), p = rng.uniform(0.0, kTau);
+    const double size = kReach[j] * rng.uniform(0.4, 0.9), p = rng.uniform(0.0, kFullTurn);
     for (Index i = 0; i < q.rows(); ++i) {
-      q(i, j) += size * std::sin(kTau * hz * kStep * static_cast<double>(i) + p);
+      q(i, j) += size * elementary::sin(kFullTurn * hz * kStep * static_cast<double>(i) + p);
     }
   }
 }
@@ -83,7 +88,8 @@ void add_harmonic(Eigen::MatrixXd& q, Rng& rng) {
 }  // namespace
 
 double Climate::operator()(double t) const {
-  return start + rise * (1.0 - std::exp(-t / settle_s)) + swing * std::sin(kTau * t / period_s);
+  return start + rise * (1.0 - elementary::exp(-t / settle_s)) +
+         swing * elementary::sin(kFullTurn * t / period_s);
 }
 
 Climate draw_climate(Rng& rng) {
@@ -91,26 +97,27 @@ Climate draw_climate(Rng& rng) {
           rng.uniform(0.2, 1.5), rng.uniform(40.0, 150.0)};
 }
 
-Path make_path(const std::string& family, double start, double seconds,
-               const Eigen::Vector3d& mounting, std::uint64_t seed) {
+Path make_path(const std::string& motion, double start, double seconds,
+               const Eigen::Vector3d& mounting, const Conditions& conditions, std::uint64_t seed) {
   Rng rng({seed, 11});
   Eigen::MatrixXd q = Eigen::MatrixXd::Zero(static_cast<Index>(seconds / kStep), 6);
-  if (family == "human")
+  if (motion == "human")
     add_tones(q, 10, 0.05, 2.0, 1.0, rng);
-  else if (family == "multisine")
+  else if (motion == "multisine")
     add_tones(q, 6, 0.03, 1.0, 0.0, rng);
-  else if (family == "points")
+  else if (motion == "points")
     add_points(q, 0.8, 2.5, 1.5, 60, rng);
-  else if (family == "scan")
+  else if (motion == "scan")
     add_points(q, 3.0, 7.0, 0.5, 30, rng);
-  else if (family == "repeats")
+  else if (motion == "repeats")
     add_points(q, 1.0, 2.0, 0.6, 6, rng);
-  else if (family == "harmonic")
+  else if (motion == "harmonic")
     add_harmonic(q, rng);
   else {
     add_tones(q, 6, 0.05, 1.0, 0.0, rng);
     for (int j : {2, 4, 5}) q.col(j).setZero();
   }
+  add_tremor(conditions, q, rng);
   q.col(0).array() += 0.5;
   q.col(2).array() += 0.3;
   q.col(5).array() += std::numbers::pi;

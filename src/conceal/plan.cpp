@@ -4,6 +4,7 @@
 
 #include "conceal/draws.h"
 #include "dcnn/conceal/challenge.h"
+#include "dcnn/conceal/scenario.h"
 #include "dcnn/core/error.h"
 
 namespace dcnn::conceal {
@@ -128,6 +129,18 @@ std::vector<std::string> rates_plan(int rounds, std::uint64_t seed) {
     }
   }
   return shuffled(ids, rng);
+}
+
+std::vector<std::string> in_family(std::vector<std::string> ids, const std::string& family) {
+  const auto& known = families();
+  const bool all = family == "all";
+  require(all || std::find(known.begin(), known.end(), family) != known.end(), Exit::kUsage,
+          "no family is called ", family, "; there are plain, tremor, load, clock, field and all");
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const std::string& one = all ? known[k % known.size()] : family;
+    if (one != "plain") ids[k] = one + "+" + ids[k];
+  }
+  return ids;
 }
 
 }  // namespace dcnn::conceal

@@ -2,6 +2,8 @@
 #include <numbers>
 
 #include "conceal/laws.h"
+#include "core/elementary.h"
+#include "dcnn/data/rotation.h"
 
 namespace dcnn::conceal {
 namespace {
@@ -28,7 +30,7 @@ VectorXd resonance(const VectorXd& u, double hz, double zeta) {
 }
 
 void lag(const Parameters& p, Eigen::MatrixXd& F) {
-  const double tau = p.at("tau_s"), keep = std::exp(-kStep / tau);
+  const double tau = p.at("tau_s"), keep = elementary::exp(-kStep / tau);
   Eigen::RowVectorXd y = F.row(0), before = F.row(0);
   for (Index i = 1; i < F.rows(); ++i) {  // exact for an input linear within the step
     const Eigen::RowVectorXd now = F.row(i), slope = (now - before) / kStep;
@@ -58,12 +60,7 @@ void cross(const Parameters& p, Eigen::MatrixXd& F) {
   F = F * C.transpose();
 }
 
-Eigen::Matrix3d mounting(const Eigen::Vector3d& r) {
-  return (Eigen::AngleAxisd(r(2), Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(r(1), Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(r(0), Eigen::Vector3d::UnitX()))
-      .toRotationMatrix();
-}
+Eigen::Matrix3d mounting(const Eigen::Vector3d& r) { return rotation_from_euler(r.reverse()); }
 
 Eigen::Vector3d offset(const Path& path, const Hidden& h, double t) {
   const Parameters& p = h.parameters;
@@ -73,10 +70,11 @@ Eigen::Vector3d offset(const Path& path, const Hidden& h, double t) {
     return (t >= h.interval_s->first ? 1.0 : 0.0) * three(p, "step_", "_n");
   if (h.effect == "hum") {
     const double phase = 2.0 * std::numbers::pi * p.at("freq_hz") * t;
-    return std::sin(phase) * three(p, "sin_", "_n") + std::cos(phase) * three(p, "cos_", "_n");
+    return elementary::sin(phase) * three(p, "sin_", "_n") +
+           elementary::cos(phase) * three(p, "cos_", "_n");
   }
   if (p.count("t_ref_degc")) return (path.climate(t) - p.at("t_ref_degc")) * three(p, "k_", "_npk");
-  return (1.0 - std::exp(-t / p.at("tau_s"))) * three(p, "a_", "_n");
+  return (1.0 - elementary::exp(-t / p.at("tau_s"))) * three(p, "a_", "_n");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "conceal/draws.h"
+#include "core/elementary.h"
 
 namespace dcnn::conceal {
 namespace {
@@ -20,13 +21,13 @@ class NoiseSource {
     double x = rng_.normal();
     if (kind_ == "ar1") x = state_ = 0.8 * state_ + 0.6 * x;
     if (kind_ == "heteroscedastic") {
-      x *= 1.0 + 0.6 * std::sin(2.0 * std::numbers::pi * static_cast<double>(i) / 6000.0);
+      x *= 1.0 + 0.6 * elementary::sin(2.0 * std::numbers::pi * static_cast<double>(i) / 6000.0);
     }
     if (kind_ == "heavy" && rng_.uniform() < 0.01) x *= 6.0;
     if (kind_ == "flicker") {  // 1/f below some 1 Hz: one pole per factor of four
       constexpr double kHz[4] = {0.02, 0.08, 0.32, 1.28};
       for (int k = 0; k < 4; ++k) {
-        const double keep = std::exp(-2.0 * std::numbers::pi * kHz[k] / 500.0);
+        const double keep = elementary::exp(-2.0 * std::numbers::pi * kHz[k] / 500.0);
         slow_[k] = keep * slow_[k] + std::sqrt(1.0 - keep * keep) * rng_.normal();
         x += 0.05 * slow_[k];
       }
@@ -40,26 +41,30 @@ class NoiseSource {
   double state_, slow_[4];
 };
 
-Eigen::MatrixXd sensor_noise(const Noise& noise, Index rows, Rng& rng) {
-  Eigen::MatrixXd e(rows, 3);
+/// Of a sensor that would read `clean` (T, 3).
+Eigen::MatrixXd sensor_noise(const Scenario& s, const Eigen::MatrixXd& clean, Rng& rng) {
+  Eigen::MatrixXd e(clean.rows(), 3);
   for (Index j = 0; j < 3; ++j) {
-    NoiseSource source(noise.kind, rng);
-    for (Index i = 0; i < rows; ++i) e(i, j) = noise.sigma * source.next(i);
+    NoiseSource source(s.noise.kind, rng);
+    for (Index i = 0; i < e.rows(); ++i) e(i, j) = s.noise.sigma * source.next(i);
   }
-  return e;
+  return e.cwiseProduct(noise_scale(s.conditions, clean, rng));
 }
 
 /// As a logger prints: decimals well below every noise.
 double printed(double value, double digits) { return std::round(value * digits) / digits; }
 
-void read_pose(const Path& path, const Noise& noise, bool thermometer, Recorded& r, Rng& rng) {
+void read_pose(const Path& path, const Scenario& s, bool thermometer, Recorded& r, Rng& rng) {
   const Index n = r.measured.rows();
+  const Noise& noise = s.noise;
+  const double step = 1.0 / s.conditions.hz();
   r.t.resize(n);
   r.pose.resize(n, 6);
   if (thermometer) r.temperature.resize(n);
   for (Index i = 0; i < n; ++i) {
-    const Index k = i * kDecimation;
-    r.t(i) = printed(path.time(k), 1e6);
+    const Index k = i * s.conditions.samples_per_reading;
+    const double late = s.conditions.jitter > 0.0 ? s.conditions.jitter * step * rng.normal() : 0.0;
+    r.t(i) = printed(path.time(k) + late, 1e6);
     for (Index j = 0; j < 6; ++j) {
       const double sigma = j < 3 ? noise.pose_m : noise.pose_rad;
       r.pose(i, j) = printed(path.pose(k, j) + sigma * rng.normal(), 1e8);
@@ -67,6 +72,17 @@ void read_pose(const Path& path, const Noise& noise, bool thermometer, Recorded&
     if (thermometer) {
       r.temperature(i) = printed(path.climate(path.time(k)) + 0.01 * rng.normal(), 1e4);
     }
+  }
+}
+
+/// Leaves out the rows that were lost.
+void lose_rows(const Conditions& conditions, Recorded& r, Rng& rng) {
+  const auto kept = kept_rows(conditions, r.t.size(), rng);
+  for (Eigen::MatrixXd* block : {&r.pose, &r.measured, &r.clean}) {
+    *block = Eigen::MatrixXd((*block)(kept, Eigen::all));
+  }
+  for (Eigen::VectorXd* column : {&r.t, &r.temperature}) {
+    if (column->size() > 0) *column = Eigen::VectorXd((*column)(kept));
   }
 }
 
@@ -79,12 +95,14 @@ std::vector<Hidden> without_rounding(std::vector<Hidden> hidden) {
 
 void record(Scenario& s, const std::vector<Path>& paths, bool thermometer, Rng& rng) {
   const double lattice = s.noise.kind == "quantised" ? 2e3 : 1e7;
+  const int stride = s.conditions.samples_per_reading;
   for (std::size_t k = 0; k < paths.size(); ++k) {
     Recorded& r = s.recordings[k];
-    r.clean = reading(paths[k], s.tool, without_rounding(s.hidden), {});
-    r.measured = reading(paths[k], s.tool, s.hidden, sensor_noise(s.noise, r.clean.rows(), rng))
+    r.clean = reading(paths[k], s.tool, without_rounding(s.hidden), {}, stride);
+    r.measured = reading(paths[k], s.tool, s.hidden, sensor_noise(s, r.clean, rng), stride)
                      .unaryExpr([lattice](double f) { return printed(f, lattice); });
-    read_pose(paths[k], s.noise, thermometer, r, rng);
+    read_pose(paths[k], s, thermometer, r, rng);
+    if (s.conditions.lost > 0.0) lose_rows(s.conditions, r, rng);
   }
 }
 

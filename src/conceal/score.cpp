@@ -148,6 +148,7 @@ Json score(const Json& answer, const Json& report) {
   Json one{{"id", answer["id"]},
            {"drawn", answer["drawn"]},
            {"group", answer["group"]},
+           {"family", answer.value("family", "plain")},
            {"motion", answer["motion"]},
            {"noise", answer["noise"]},
            {"hidden", none},

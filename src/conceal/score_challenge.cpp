@@ -3,6 +3,7 @@
 
 #include "conceal/draws.h"
 #include "conceal/tally.h"
+#include "core/elementary.h"
 #include "dcnn/conceal/challenge.h"
 #include "dcnn/core/file.h"
 
@@ -23,7 +24,7 @@ std::string amplitude_class(double amplitude) {
   std::string best;
   double least = 1e9;
   for (const auto& [value, name] : nominal) {
-    const double distance = std::abs(std::log(amplitude / value));
+    const double distance = std::abs(elementary::log(amplitude / value));
     if (distance < least) least = distance, best = name;
   }
   return best;
@@ -62,11 +63,12 @@ Json single_effects(const Json& scenarios) {
 
 Json tabulate(const Json& scenarios) {
   Tally all;
-  std::map<std::string, Tally> group, effect, amplitude, motion, noise, single;
+  std::map<std::string, Tally> group, family, effect, amplitude, motion, noise, single;
   for (const Json& s : scenarios) {
     add_scenario(s, all);
     if (s["group"] == "single") add_scenario(s, single["single, " + drawn_amplitude(s)]);
     add_scenario(s, group[s["group"]]);
+    add_scenario(s, family[s.value("family", "plain")]);
     add_scenario(s, motion[s["motion"]]);
     add_scenario(s, noise[s["noise"]["kind"]]);
     if (s["group"] == "faint") continue;
@@ -77,10 +79,15 @@ Json tabulate(const Json& scenarios) {
     }
   }
   std::erase_if(effect, [](const auto& row) { return row.second.summary().empty(); });
-  return {{"all", all.summary()},   {"group", rows(group)},
-          {"effect", rows(effect)}, {"amplitude", rows(amplitude)},
-          {"motion", rows(motion)}, {"noise", rows(noise)},
-          {"single", rows(single)}, {"single_effect", single_effects(scenarios)}};
+  return {{"all", all.summary()},
+          {"group", rows(group)},
+          {"family", rows(family)},
+          {"effect", rows(effect)},
+          {"amplitude", rows(amplitude)},
+          {"motion", rows(motion)},
+          {"noise", rows(noise)},
+          {"single", rows(single)},
+          {"single_effect", single_effects(scenarios)}};
 }
 
 /// Every answer against FOLDER/<id>/<below>/report.json; those that are not there yet are missing.

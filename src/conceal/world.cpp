@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "conceal/laws.h"
+#include "dcnn/data/rotation.h"
 
 namespace dcnn::conceal {
 namespace {
@@ -21,8 +22,7 @@ Eigen::Vector3d apply_parameters(const std::vector<Hidden>& hidden, Tool& tool) 
           Eigen::Vector3d(p.at("delta_com_x_m"), p.at("delta_com_y_m"), p.at("delta_com_z_m"));
     }
     if (h.effect == "gravity_tilt") {
-      gravity = Eigen::AngleAxisd(p.at("tilt_y_rad"), Eigen::Vector3d::UnitY()) *
-                (Eigen::AngleAxisd(p.at("tilt_x_rad"), Eigen::Vector3d::UnitX()) * gravity);
+      gravity = rotation_from_euler({0.0, p.at("tilt_y_rad"), p.at("tilt_x_rad")}) * gravity;
     }
   }
   return gravity;
@@ -37,9 +37,9 @@ int stage(const Hidden& h) {
   return h.effect == "time_delay" ? 5 : 6;
 }
 
-Eigen::MatrixXd decimated(const Eigen::MatrixXd& F) {
-  Eigen::MatrixXd out((F.rows() + kDecimation - 1) / kDecimation, F.cols());
-  for (Index i = 0; i < out.rows(); ++i) out.row(i) = F.row(i * kDecimation);
+Eigen::MatrixXd decimated(const Eigen::MatrixXd& F, int stride) {
+  Eigen::MatrixXd out((F.rows() + stride - 1) / stride, F.cols());
+  for (Index i = 0; i < out.rows(); ++i) out.row(i) = F.row(i * stride);
   return out;
 }
 
@@ -100,8 +100,8 @@ Eigen::MatrixXd force(const Path& path, const Tool& nominal, const std::vector<H
 }
 
 Eigen::MatrixXd reading(const Path& path, const Tool& tool, const std::vector<Hidden>& hidden,
-                        const Eigen::MatrixXd& noise) {
-  Eigen::MatrixXd out = decimated(force(path, tool, hidden));
+                        const Eigen::MatrixXd& noise, int stride) {
+  Eigen::MatrixXd out = decimated(force(path, tool, hidden), stride);
   if (noise.rows() == out.rows()) out += noise;
   digitise(hidden, out);
   return out;

@@ -6,7 +6,6 @@
 
 namespace dcnn::conceal {
 
-constexpr int kDecimation = 8;
 constexpr double kStep = 1.0 / 4000.0;  // s
 
 /// The room's temperature [degC] over the clock: warms up and swings.
@@ -33,9 +32,10 @@ struct Path {
 Path follow(double start, const Eigen::MatrixXd& pose, std::vector<Eigen::Matrix3d> rotation,
             const Eigen::Vector3d& mounting);
 
-/// Families: human, multisine, points, scan, repeats; poor: harmonic, planar.
-Path make_path(const std::string& family, double start, double seconds,
-               const Eigen::Vector3d& mounting, std::uint64_t seed);
+/// Motions: human, multisine, points, scan, repeats; poor: harmonic, planar. With the conditions'
+/// tremor.
+Path make_path(const std::string& motion, double start, double seconds,
+               const Eigen::Vector3d& mounting, const Conditions& conditions, std::uint64_t seed);
 
 inline const Eigen::Vector3d kGravity{0.0, 0.0, -9.81};  ///< in B [m/s^2]
 /// Gravity less the acceleration of the sensor's origin, in the sensor frame (T, 3) [m/s^2].
@@ -44,8 +44,8 @@ Eigen::MatrixXd felt_field(const Path& path, const Eigen::Vector3d& gravity = kG
 Eigen::MatrixXd force(const Path& path, const Tool& tool, const std::vector<Hidden>& hidden);
 /// Clipping and rounding, in place.
 void digitise(const std::vector<Hidden>& hidden, Eigen::MatrixXd& F);
-/// The reading at 500 Hz, (T, 3); `noise` may be empty.
+/// Every `stride`-th sample of the reading, (T, 3); `noise` may be empty.
 Eigen::MatrixXd reading(const Path& path, const Tool& tool, const std::vector<Hidden>& hidden,
-                        const Eigen::MatrixXd& noise);
+                        const Eigen::MatrixXd& noise, int stride);
 
 }  // namespace dcnn::conceal

@@ -10,11 +10,11 @@ namespace dcnn::conceal {
 namespace {
 
 using Eigen::Index;
-constexpr Index kEnds = 250;  // samples of 0.5 s
+constexpr double kEnds = 0.5;  // s
 
 Json list(const Eigen::Vector3d& v) { return {v(0), v(1), v(2)}; }
 
-Json nominal(const Tool& tool) {
+Json nominal(const Tool& tool, double hz) {
   Json sim;
   sim["tool"]["mass_kg"] = tool.mass;
   sim["tool"]["com_m"] = list(tool.com);
@@ -22,7 +22,7 @@ Json nominal(const Tool& tool) {
   sim["sensor"]["bias_n"] = list(tool.bias);
   if (!tool.mounting.isZero()) sim["sensor"]["rotation_rpy"] = list(tool.mounting);
   sim["model"]["inertial"] = tool.inertial;
-  sim["sample_rate_hz"] = 500;
+  sim["sample_rate_hz"] = hz;
   return sim;
 }
 
@@ -43,8 +43,9 @@ Json oracle(const Scenario& s) {
   double rows = 0.0;
   for (const Recorded& r : s.recordings) {
     if (!r.holdout) continue;
-    const Index n = r.clean.rows() - 2 * kEnds;
-    squares += (r.measured - r.clean).middleRows(kEnds, n).colwise().squaredNorm();
+    const auto ends = static_cast<Index>(kEnds * s.conditions.hz());
+    const Index n = r.clean.rows() - 2 * ends;
+    squares += (r.measured - r.clean).middleRows(ends, n).colwise().squaredNorm();
     rows += static_cast<double>(n);
   }
   if (rows == 0.0) return nullptr;
@@ -71,7 +72,7 @@ Files write(const Scenario& s, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   Files files;
   files.simulator = folder / "sim.json";
-  write_file(files.simulator, nominal(s.tool).dump(2) + "\n");
+  write_file(files.simulator, nominal(s.tool, s.conditions.hz()).dump(2) + "\n");
   for (const Recorded& r : s.recordings) {
     (r.holdout ? files.holdout : files.fit).push_back(folder / (r.name + ".csv"));
     write_csv(folder / (r.name + ".csv"), table_of(r));
@@ -80,7 +81,15 @@ Files write(const Scenario& s, const std::filesystem::path& folder) {
 }
 
 Json truth(const Scenario& s) {
-  Json all{{"drawn", s.id}, {"group", s.group}, {"motion", s.motion}};
+  const Conditions& c = s.conditions;
+  Json all{{"drawn", s.id}, {"group", s.group}, {"family", c.family}, {"motion", s.motion}};
+  if (c.family != "plain") {
+    all["conditions"] = {{"hz", c.hz()},           {"tremor_hz", c.tremor_hz},
+                         {"tremor_m", c.tremor_m}, {"tremor_rad", c.tremor_rad},
+                         {"axis", list(c.axis)},   {"growth_per_n", c.growth},
+                         {"burst", c.burst},       {"lost", c.lost},
+                         {"jitter", c.jitter}};
+  }
   all["noise"] = {{"kind", s.noise.kind},
                   {"sigma_n", s.noise.sigma},
                   {"pose_m", s.noise.pose_m},

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "dcnn/core/excerpt.h"
+
 namespace dcnn {
 namespace {
 
 [[noreturn]] void wrong(const char* wanted, const Json& value) {
-  throw Json::exception(std::string("not ") + wanted + ": " + value.dump());
+  throw Json::exception(std::string("not ") + wanted + ": " + excerpt(value.dump()));
 }
 
 }  // namespace
@@ -75,7 +77,7 @@ const Json* Json::object_member(std::string_view key) const {
 
 const Json& Json::at(std::string_view key) const {
   const Json* found = object_member(key);
-  if (!found) throw exception("key '" + std::string(key) + "' not found");
+  if (!found) throw exception("key '" + excerpt(key) + "' not found");
   return *found;
 }
 

@@ -3,6 +3,7 @@
 #include <ostream>
 #include <set>
 
+#include "dcnn/core/excerpt.h"
 #include "dcnn/core/file.h"
 #include "dcnn/core/json.h"
 
@@ -11,33 +12,7 @@ namespace {
 
 using Text = nlohmann::ordered_json;
 
-constexpr int kMaxDepth =
-    64;  // the library parses any depth, but its destructor and dump() recurse
-
-/// Refuses what the library would take silently: a key given twice, or nesting that exhausts the
-/// stack.
-class Strictness {
- public:
-  Strictness(const std::string& where, Exit exit) : where_(where), exit_(exit) {}
-
-  bool operator()(int depth, Text::parse_event_t event, Text& parsed) {
-    using Event = Text::parse_event_t;
-    require(depth <= kMaxDepth, exit_, where_, ": nested deeper than ", kMaxDepth, " levels");
-    if (event == Event::object_start) keys_.emplace_back();
-    if (event == Event::object_end) keys_.pop_back();
-    if (event == Event::key) {
-      const auto key = parsed.get<std::string>();
-      require(keys_.back().insert(key).second, exit_, where_, ": key '", key,
-              "' is given twice; keep one of them");
-    }
-    return true;
-  }
-
- private:
-  std::string where_;
-  Exit exit_;
-  std::vector<std::set<std::string>> keys_;
-};
+constexpr std::size_t kMaxDepth = 64;  // destructors and dump() recurse
 
 /// "line 3, column 7: …" from the library's "[json.exception.parse_error.101] parse error at line
 /// 3, …".
@@ -46,33 +21,74 @@ std::string short_reason(const std::string& what) {
   return bracket == std::string::npos ? what : what.substr(bracket + 2);
 }
 
-Json from_text(const Text& text) {
-  switch (text.type()) {
-    case Text::value_t::boolean:
-      return text.get<bool>();
-    case Text::value_t::number_integer:
-      return text.get<std::int64_t>();
-    case Text::value_t::number_unsigned:
-      return text.get<std::uint64_t>();
-    case Text::value_t::number_float:
-      return text.get<double>();
-    case Text::value_t::string:
-      return text.get<std::string>();
-    case Text::value_t::array: {
-      Json list = Json::array();
-      for (const Text& item : text) list.push_back(from_text(item));
-      return list;
-    }
-    case Text::value_t::object: {
-      Json object = Json::object();
-      auto& members = object.items();  // keys are single: no search for each
-      for (const auto& [key, item] : text.items()) members.emplace_back(key, from_text(item));
-      return object;
-    }
-    default:
-      return nullptr;
+/// Builds a document from the library's events, and refuses what its own tree would take silently:
+/// a key given twice, and nesting that exhausts the stack. Linear in the text, where that tree
+/// searches all members for each key and all items after each list.
+class Builder {
+ public:
+  bool null() { return add(nullptr); }
+  bool boolean(bool value) { return add(value); }
+  bool number_integer(std::int64_t value) { return add(value); }
+  bool number_unsigned(std::uint64_t value) { return add(value); }
+  bool number_float(double value, const std::string& /*text*/) { return add(value); }
+  bool string(std::string& value) { return add(std::move(value)); }
+  bool binary(Text::binary_t& /*value*/) { return false; }  // not in a text
+
+  bool start_object(std::size_t /*unknown*/) {
+    keys_.emplace_back();
+    return open(Json::object());
   }
-}
+  bool key(std::string& key) {
+    if (!keys_.back().insert(key).second) {
+      throw Json::exception("key '" + excerpt(key) + "' is given twice; keep one of them");
+    }
+    key_ = std::move(key);
+    return true;
+  }
+  bool end_object() {
+    keys_.pop_back();
+    return end_array();
+  }
+  bool start_array(std::size_t /*unknown*/) { return open(Json::array()); }
+  bool end_array() {
+    open_.pop_back();
+    return true;
+  }
+  bool parse_error(std::size_t /*place*/, const std::string& /*token*/,
+                   const nlohmann::detail::exception& error) {
+    throw Json::exception(excerpt(short_reason(error.what()), 300));
+  }
+
+  Json take() { return std::move(root_); }
+
+ private:
+  bool add(Json value) {
+    place(std::move(value));
+    return true;
+  }
+  bool open(Json value) {
+    if (open_.size() == kMaxDepth) {
+      throw Json::exception("nested deeper than " + std::to_string(kMaxDepth) + " levels");
+    }
+    open_.push_back(&place(std::move(value)));
+    return true;
+  }
+  /// Only the innermost list or object grows: pointers to those around it stay valid.
+  Json& place(Json value) {
+    if (open_.empty()) return root_ = std::move(value);
+    Json& parent = *open_.back();
+    if (parent.is_object()) {
+      return parent.items().emplace_back(std::move(key_), std::move(value)).second;
+    }
+    parent.push_back(std::move(value));
+    return parent.back();
+  }
+
+  Json root_;
+  std::vector<Json*> open_;
+  std::vector<std::set<std::string>> keys_;  // of the objects among them
+  std::string key_;
+};
 
 Text to_text(const Json& json) {
   if (json.is_boolean()) return json.get<bool>();
@@ -105,11 +121,9 @@ std::string Json::dump(int indent) const {
 }
 
 Json Json::parse(std::string_view text) {
-  try {
-    return from_text(Text::parse(text));
-  } catch (const Text::exception& error) {
-    throw exception(short_reason(error.what()));
-  }
+  Builder builder;
+  Text::sax_parse(text.begin(), text.end(), &builder);
+  return builder.take();
 }
 
 std::ostream& operator<<(std::ostream& out, const Json& json) { return out << json.dump(); }
@@ -118,9 +132,9 @@ Json parse_json(std::string_view text, const std::string& where, Exit exit) {
   // The library takes a NUL for the end of the text and would ignore what follows.
   require(text.find('\0') == text.npos, exit, where, ": has a NUL byte; it is not a JSON text");
   try {
-    return from_text(Text::parse(text.begin(), text.end(), Strictness(where, exit)));
-  } catch (const Text::exception& error) {
-    fail(exit, where, ": ", short_reason(error.what()));
+    return Json::parse(text);
+  } catch (const Json::exception& error) {
+    fail(exit, where, ": ", error.what());
   }
 }
 

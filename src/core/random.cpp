@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/elementary.h"
+
 namespace dcnn {
 
 Rng::Rng(std::initializer_list<std::uint64_t> key) {
@@ -42,11 +44,11 @@ double Rng::normal() {
     has_spare_ = false;
     return spare_;
   }
-  const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
+  const double radius = std::sqrt(-2.0 * elementary::log(1.0 - uniform()));
   const double angle = 2.0 * std::numbers::pi * uniform();
-  spare_ = radius * std::sin(angle);
+  spare_ = radius * elementary::sin(angle);
   has_spare_ = true;
-  return radius * std::cos(angle);
+  return radius * elementary::cos(angle);
 }
 
 std::vector<std::int64_t> permutation(std::int64_t n, Rng& rng) {

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/elementary.h"
 #include "data/feature_blocks.h"
 #include "dcnn/data/rotation.h"
 
@@ -9,10 +10,10 @@ Eigen::Vector3d circular_mean(const std::vector<Recording>& recordings) {
   Eigen::RowVector3d sine = Eigen::RowVector3d::Zero(), cosine = sine;
   for (const Recording& recording : recordings) {
     const Eigen::ArrayXXd euler = euler_angles(recording).array();
-    sine += euler.sin().colwise().sum().matrix();
-    cosine += euler.cos().colwise().sum().matrix();
+    sine += elementary::sin(euler).colwise().sum().matrix();
+    cosine += elementary::cos(euler).colwise().sum().matrix();
   }
-  const auto angle = [](double y, double x) { return std::atan2(y, x); };
+  const auto angle = [](double y, double x) { return elementary::atan2(y, x); };
   return sine.binaryExpr(cosine, angle).transpose();
 }
 

@@ -12,6 +12,7 @@ constexpr double kEpoch = 1e6;       // s; a larger t is a date, not a duration
 constexpr double kGap = 5.0;         // times dt
 constexpr double kOff = 0.2;         // of dt
 constexpr double kTolerated = 0.01;  // of the steps
+constexpr double kMostLost = 0.1;    // of the rows; with more the median step is no clock's
 constexpr double kSlowest = 1000.0;  // s
 
 std::string place(const std::string& file, Index row) {
@@ -111,20 +112,31 @@ void set_clock(Recording& recording, const std::string& file) {
   }
 }
 
-void check_regular(const Recording& recording, const std::string& file) {
+void check_regular(Recording& recording, const std::string& file) {
   if (recording.dt == 0.0) return;
   const Eigen::VectorXd t = recording.column("t");
-  Index off = 0, steps = 0, first = 0;
+  Index off = 0, steps = 0, first = 0, lost = 0;
   for (const Segment& segment : recording.segments) {
     for (Index i = segment.begin + 1; i < segment.end; ++i, ++steps) {
+      const double ticks = (t[i] - t[i - 1]) / recording.dt;
       // The smallest of margins: a clock written with few digits may sit exactly on the limit.
-      if (std::abs(t[i] - t[i - 1] - recording.dt) <= (kOff + 1e-9) * recording.dt) continue;
+      if (std::abs(ticks - 1.0) <= kOff + 1e-9) continue;
+      if (ticks > 1.5 && std::abs(ticks - std::round(ticks)) <= kOff + 1e-9) {
+        lost += std::llround(ticks) - 1;
+        continue;
+      }
       if (off++ == 0) first = i;
     }
   }
+  if (static_cast<double>(lost) > kMostLost * static_cast<double>(steps)) off += lost;
   require(static_cast<double>(off) <= kTolerated * static_cast<double>(steps), Exit::kData,
           place(file, first), ": irregular clock: ", off, " of ", steps,
           " steps are off by more than 20 % of the median ", recording.dt, " s; use --resample");
+  if (lost == 0) return;
+  std::ostringstream note;
+  note << lost << " rows are lost, at most " << kGap - 1.0
+       << " in a row: derivatives bridge them by a cubic spline";
+  recording.notes.push_back(note.str());
 }
 
 void resample(Recording& recording, double hz, const std::vector<std::string>& smooth) {

@@ -9,8 +9,9 @@ namespace dcnn {
 /// epoch time, and fills dt and segments. A recording without t becomes one segment with dt 0.
 void set_clock(Recording& recording, const std::string& file);
 
-/// More than 1 % of the steps inside segments off by more than 20 % of dt is an Error(kData).
-void check_regular(const Recording& recording, const std::string& file);
+/// More than 1 % of the steps inside segments off by more than 20 % of dt is an Error(kData); steps
+/// of two to five dt are rows that were lost, at most a tenth of all, which derivatives bridge.
+void check_regular(Recording& recording, const std::string& file);
 
 /// Puts every segment on a regular clock of `hz` (0: the recording's own rate): the columns in
 /// `smooth` by cubic spline, all others linearly. Angles must be unwrapped and quaternions

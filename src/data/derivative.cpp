@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "data/spectral.h"
 #include "data/spline.h"
 
@@ -93,6 +94,39 @@ void by_spline(const Input& t, const Input& x, Output first, Output second) {
   for (Index i = 0; i < x.size(); ++i) first[i] = spline.slope(i);
 }
 
+/// Where the rows of a segment stand on a clock that ticks every dt: 0, 1, … but for lost rows.
+std::vector<Index> clock_places(const Eigen::VectorXd& t, const Segment& s, double dt) {
+  std::vector<Index> places{0};
+  for (Index i = s.begin + 1; i < s.end; ++i) {
+    const Index ticks = std::llround((t[i] - t[i - 1]) / dt);
+    places.push_back(places.back() + std::max<Index>(1, ticks));
+  }
+  return places;
+}
+
+/// The signal on every tick of the clock, lost rows by a cubic spline through the others.
+Eigen::VectorXd bridged(const Input& x, const std::vector<Index>& places) {
+  if (places.back() + 1 == x.size()) return x;
+  Eigen::VectorXd t(x.size()), all(places.back() + 1);
+  for (Index i = 0; i < x.size(); ++i) t[i] = static_cast<double>(places[std::size_t(i)]);
+  const Spline spline(t, x);
+  for (Index i = 0; i < x.size(); ++i) {
+    all[places[std::size_t(i)]] = x[i];
+    const Index next = i + 1 < x.size() ? places[std::size_t(i + 1)] : all.size();
+    for (Index k = places[std::size_t(i)] + 1; k < next; ++k) {
+      all[k] = spline.value(static_cast<double>(k), i);
+    }
+  }
+  return all;
+}
+
+void by_spectrum(const LowPass& filter, double dt, Output x, Output first, Output second) {
+  const Smoothed smoothed = smooth(x, dt, filter);
+  first = smoothed.first;
+  second = smoothed.second;
+  x = smoothed.value;
+}
+
 int shortest(const DerivativeSpec& spec, double dt) {
   if (spec.kind == Kind::kCentral) return 2;
   if (spec.kind == Kind::kSpline || spec.kind == Kind::kSpectral) return 3;
@@ -128,6 +162,7 @@ DerivativeSpec parse_derivative(Options options) {
   }
   spec.window_s = options.number("window_s", spec.window_s, 0.0, 100.0);
   spec.cutoff_hz = options.number("cutoff_hz", spec.cutoff_hz, 1e-3, 1e6);
+  spec.subtraction = options.number("subtraction", spec.subtraction, 0.0, 100.0);
   spec.order = options.get("order", spec.kind == Kind::kCausalSavitzkyGolay ? 2 : 3);
   if (spec.order < 2 || spec.order > 7) options.reject("order", "must be between 2 and 7");
   options.finish();
@@ -135,7 +170,11 @@ DerivativeSpec parse_derivative(Options options) {
 }
 
 Json to_json(const DerivativeSpec& spec) {
-  if (spec.kind == Kind::kSpectral) return {{"kind", "spectral"}, {"cutoff_hz", spec.cutoff_hz}};
+  if (spec.kind == Kind::kSpectral) {
+    Json json{{"kind", "spectral"}, {"cutoff_hz", spec.cutoff_hz}};
+    if (spec.subtraction > 0.0) json["subtraction"] = spec.subtraction;
+    return json;
+  }
   return {{"kind", kKinds[static_cast<std::size_t>(spec.kind)]},
           {"window_s", spec.window_s},
           {"order", spec.order}};
@@ -161,7 +200,7 @@ Eigen::VectorXd savitzky_golay_weights(int window, int order, int derivative, do
     q_before = q, q = q_next;
     norm_before = norm, norm = p.square().sum();
   }
-  return weights / std::pow(half, derivative);
+  return weights / elementary::pow(half, derivative);
 }
 
 Derivatives differentiate(Eigen::MatrixXd signals, const Recording& recording,
@@ -169,37 +208,46 @@ Derivatives differentiate(Eigen::MatrixXd signals, const Recording& recording,
   check_lengths(recording, spec);
   const double dt = recording.dt;
   const int window = spec.window(dt);
-  Eigen::VectorXd t;
-  if (spec.kind == Kind::kSpline) t = recording.column("t");
+  const Index samples = signals.rows();
+  const Eigen::VectorXd t =
+      recording.has("t") ? recording.column("t")
+                         : Eigen::VectorXd::LinSpaced(samples, 0.0, dt * double(samples - 1));
+  std::vector<std::vector<Index>> places;
+  for (const Segment& s : recording.segments) places.push_back(clock_places(t, s, dt));
   Derivatives out{Eigen::MatrixXd(signals.rows(), signals.cols()),
                   Eigen::MatrixXd(signals.rows(), signals.cols()), std::move(signals)};
+  const auto estimate = [&](Input t_here, Output x, Output first, Output second) {
+    switch (spec.kind) {
+      case Kind::kSavitzkyGolay:
+        return centred(x, window, spec.order, dt, first, second);
+      case Kind::kCausalSavitzkyGolay:
+        return causal(x, window, spec.order, dt, first, second);
+      case Kind::kSpline:
+        return by_spline(t_here, x, first, second);
+      case Kind::kSpectral:
+        return by_spectrum({spec.cutoff_hz, spec.subtraction}, dt, x, first, second);
+      case Kind::kCentral:
+        gradient(x, dt, first);
+        return gradient(first, dt, second);
+    }
+  };
   const auto one_column = [&](Index column) {
-    for (const Segment& s : recording.segments) {
+    for (std::size_t k = 0; k < recording.segments.size(); ++k) {
+      const Segment& s = recording.segments[k];
+      const auto t_here = t.segment(s.begin, s.size());
       auto x = out.value.col(column).segment(s.begin, s.size());
       auto first = out.first.col(column).segment(s.begin, s.size());
       auto second = out.second.col(column).segment(s.begin, s.size());
-      switch (spec.kind) {
-        case Kind::kSavitzkyGolay:
-          centred(x, window, spec.order, dt, first, second);
-          break;
-        case Kind::kCausalSavitzkyGolay:
-          causal(x, window, spec.order, dt, first, second);
-          break;
-        case Kind::kSpline:
-          by_spline(t.segment(s.begin, s.size()), x, first, second);
-          break;
-        case Kind::kSpectral: {
-          const Smoothed smoothed = smooth(x, dt, spec.cutoff_hz);
-          first = smoothed.first;
-          second = smoothed.second;
-          x = smoothed.value;
-          break;
-        }
-        case Kind::kCentral:
-          gradient(x, dt, first);
-          gradient(first, dt, second);
-          break;
+      const std::vector<Index>& at = places[k];
+      if (spec.kind == Kind::kSpline || at.back() + 1 == s.size()) {
+        estimate(t_here, x, first, second);
+        continue;
       }
+      Eigen::VectorXd all = bridged(x, at), all_first(all.size()), all_second(all.size());
+      estimate(t_here, all, all_first, all_second);
+      x = all(at);
+      first = all_first(at);
+      second = all_second(at);
     }
   };
   const bool slides = spec.kind == Kind::kSavitzkyGolay || spec.kind == Kind::kCausalSavitzkyGolay;

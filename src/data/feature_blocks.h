@@ -38,7 +38,7 @@ std::vector<Block> used_blocks(const FeatureLayout& layout, const std::string& w
 /// The log itself holds the rates of the block, so that nothing is differentiated (wrist only).
 bool is_logged(const Block& block, const Recording& recording);
 
-/// Mean direction of each Euler angle over all rows: the branch of spec 1.2.
+/// Mean direction of each Euler angle over all rows: to which later recordings are shifted.
 Eigen::Vector3d circular_mean(const std::vector<Recording>& recordings);
 /// (T, 3) Euler angles, unwrapped; each segment begins within pi of the branch.
 Eigen::MatrixXd aligned_euler(const Recording& recording, const Eigen::Vector3d& branch);

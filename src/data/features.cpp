@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "data/feature_blocks.h"
 #include "data/rows.h"
 #include "dcnn/data/pose_noise.h"
@@ -13,7 +14,7 @@ namespace {
 using Set = FeatureSpec::Set;
 
 constexpr double kRateTolerance = 0.01;
-constexpr double kSingular = 0.05;  // |cos beta| below which Euler angles mean nothing (spec 1.2)
+constexpr double kSingular = 0.05;  // |cos beta| below which Euler angles mean nothing
 
 const std::vector<std::string> kSets = {"pose", "body", "axes"};  // in enum order
 
@@ -177,7 +178,7 @@ Features make_features(const Recording& recording, const FeatureLayout& layout) 
   if (layout.spec.set == Set::kPose) {
     for_each_row(recording.samples(), [&](Index i) {
       features.valid[static_cast<std::size_t>(i)] =
-          std::abs(std::cos(features.x(i, 1))) >= kSingular;
+          std::abs(elementary::cos(features.x(i, 1))) >= kSingular;
     });
   }
   return features;

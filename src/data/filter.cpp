@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
+
 namespace dcnn {
 namespace {
 
@@ -27,7 +29,7 @@ struct Section {
 /// Low-pass section of quality Q by the bilinear transform with the cutoff prewarped; gain 1 at
 /// rest.
 Section make_section(double hz, double dt, double quality) {
-  const double k = std::tan(std::numbers::pi * hz * dt);
+  const double k = elementary::tan(std::numbers::pi * hz * dt);
   const double norm = 1.0 / (1.0 + k / quality + k * k);
   const double b0 = k * k * norm;
   return {b0, 2.0 * b0, b0, 2.0 * (k * k - 1.0) * norm, (1.0 - k / quality + k * k) * norm};
@@ -59,8 +61,9 @@ Eigen::MatrixXd low_pass(const Eigen::MatrixXd& signals, const std::vector<Segme
                          double dt, double hz) {
   if (hz == 0.0) return signals;
   // Poles of the Butterworth filter of order 4 at pi/8 and 3·pi/8 from the real axis.
-  const Section sections[] = {make_section(hz, dt, 0.5 / std::cos(std::numbers::pi / 8.0)),
-                              make_section(hz, dt, 0.5 / std::cos(3.0 * std::numbers::pi / 8.0))};
+  const Section sections[] = {
+      make_section(hz, dt, 0.5 / elementary::cos(std::numbers::pi / 8.0)),
+      make_section(hz, dt, 0.5 / elementary::cos(3.0 * std::numbers::pi / 8.0))};
   const auto settling = static_cast<Index>(std::ceil(5.0 / (hz * dt)));
   Eigen::MatrixXd filtered(signals.rows(), signals.cols());
   for (const Segment& segment : segments) {

@@ -18,6 +18,13 @@ constexpr std::size_t kMaxLine = std::size_t{1} << 20;
 }  // namespace
 
 LineReader::LineReader(const std::filesystem::path& path) : name_(path.string()) {
+  buffer_.resize(kChunkBytes);
+  if (path == "-") {
+    name_ = "standard input";
+    fd_ = ::dup(STDIN_FILENO);
+    require(fd_ >= 0, Exit::kData, name_, ": cannot read: ", std::strerror(errno));
+    return;
+  }
   std::error_code error;
   const auto status =
       std::filesystem::status(path, error);  // opening a pipe would wait for its writer
@@ -26,11 +33,10 @@ LineReader::LineReader(const std::filesystem::path& path) : name_(path.string())
   require(!std::filesystem::is_directory(status), Exit::kData, name_,
           ": is a folder; name the CSV file in it");
   require(std::filesystem::is_regular_file(status), Exit::kData, name_,
-          ": is not a regular file; write the recording to a file first");
+          ": is not a regular file; pipe it in as - or write it to a file first");
   fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   require(fd_ >= 0, Exit::kData, name_, ": cannot open: ", std::strerror(errno),
           "; check the permissions");
-  buffer_.resize(kChunkBytes);
 }
 
 LineReader::~LineReader() {

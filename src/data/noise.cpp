@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/elementary.h"
 #include "dcnn/core/parallel.h"
 #include "dcnn/core/random.h"
 
@@ -53,7 +54,7 @@ Eigen::VectorXd noise_deviation(const NoiseSpec& spec, const InputMap& training,
                               ? Eigen::VectorXd(training.deviation().array().square())
                               : Eigen::VectorXd(x.array().square().colwise().mean().transpose());
   if (spec.scope == NoiseSpec::Scope::kMatrix) power.setConstant(power.mean());
-  return (power / std::pow(10.0, *snr / 10.0)).array().sqrt();
+  return (power / elementary::pow(10.0, *snr / 10.0)).array().sqrt();
 }
 
 void add_noise(double* x, Index stride, const Eigen::VectorXd& deviation, std::uint64_t key,

@@ -3,15 +3,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "data/rows.h"
 
 namespace dcnn {
 namespace {
 
 Eigen::Vector4d quaternion_from_euler(double alpha, double beta, double gamma) {
-  const double ca = std::cos(alpha / 2), sa = std::sin(alpha / 2);
-  const double cb = std::cos(beta / 2), sb = std::sin(beta / 2);
-  const double cg = std::cos(gamma / 2), sg = std::sin(gamma / 2);
+  const double ca = elementary::cos(alpha / 2), sa = elementary::sin(alpha / 2);
+  const double cb = elementary::cos(beta / 2), sb = elementary::sin(beta / 2);
+  const double cg = elementary::cos(gamma / 2), sg = elementary::sin(gamma / 2);
   return {ca * cb * cg + sa * sb * sg, ca * cb * sg - sa * sb * cg, ca * sb * cg + sa * cb * sg,
           sa * cb * cg - ca * sb * sg};
 }
@@ -19,20 +20,16 @@ Eigen::Vector4d quaternion_from_euler(double alpha, double beta, double gamma) {
 }  // namespace
 
 Eigen::Matrix3d rotation_from_euler(const Eigen::Vector3d& euler) {
-  using Eigen::AngleAxisd;
-  using Eigen::Vector3d;
-  return (AngleAxisd(euler[0], Vector3d::UnitZ()) * AngleAxisd(euler[1], Vector3d::UnitY()) *
-          AngleAxisd(euler[2], Vector3d::UnitX()))
-      .toRotationMatrix();
+  return rotation_from_quaternion(quaternion_from_euler(euler[0], euler[1], euler[2]));
 }
 
 Eigen::Vector3d euler_from_rotation(const Eigen::Matrix3d& R) {
   // Below this cos(beta), alpha and gamma cannot be told apart.
   constexpr double kGimbalLock = 1e-9;
-  const double cosine = std::hypot(R(0, 0), R(1, 0));
-  const double beta = std::atan2(-R(2, 0), cosine);
-  if (cosine < kGimbalLock) return {std::atan2(-R(0, 1), R(1, 1)), beta, 0.0};
-  return {std::atan2(R(1, 0), R(0, 0)), beta, std::atan2(R(2, 1), R(2, 2))};
+  const double cosine = R.col(0).head<2>().norm();
+  const double beta = elementary::atan2(-R(2, 0), cosine);
+  if (cosine < kGimbalLock) return {elementary::atan2(-R(0, 1), R(1, 1)), beta, 0.0};
+  return {elementary::atan2(R(1, 0), R(0, 0)), beta, elementary::atan2(R(2, 1), R(2, 2))};
 }
 
 Eigen::Matrix3d rotation_from_quaternion(const Eigen::Vector4d& q) {
@@ -98,8 +95,8 @@ std::vector<Eigen::Matrix3d> rotations(const Recording& recording) {
 }
 
 Eigen::Matrix3d euler_rate_matrix(const Eigen::Vector3d& euler) {
-  const double cb = std::cos(euler[1]), sb = std::sin(euler[1]);
-  const double cg = std::cos(euler[2]), sg = std::sin(euler[2]);
+  const double cb = elementary::cos(euler[1]), sb = elementary::sin(euler[1]);
+  const double cg = elementary::cos(euler[2]), sg = elementary::sin(euler[2]);
   Eigen::Matrix3d W;
   W << -sb, 0.0, 1.0,    //
       cb * sg, cg, 0.0,  //
@@ -109,8 +106,8 @@ Eigen::Matrix3d euler_rate_matrix(const Eigen::Vector3d& euler) {
 
 Eigen::Matrix3d euler_rate_matrix_derivative(const Eigen::Vector3d& euler,
                                              const Eigen::Vector3d& rates) {
-  const double cb = std::cos(euler[1]), sb = std::sin(euler[1]);
-  const double cg = std::cos(euler[2]), sg = std::sin(euler[2]);
+  const double cb = elementary::cos(euler[1]), sb = elementary::sin(euler[1]);
+  const double cg = elementary::cos(euler[2]), sg = elementary::sin(euler[2]);
   const double db = rates[1], dg = rates[2];
   Eigen::Matrix3d D;
   D << -cb * db, 0.0, 0.0,                          //

@@ -5,6 +5,7 @@
 #include <complex>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "core/linear_algebra.h"
 #include "dcnn/data/fourier.h"
 
@@ -20,7 +21,8 @@ double bend(const Eigen::VectorXd& x, double dt) {
   if (n < 8) return 0.0;
   const Eigen::ArrayXd u = Eigen::ArrayXd::LinSpaced(n, 0.0, 1.0);
   Eigen::MatrixXd A(n, 5);
-  for (Index k = 0; k < A.cols(); ++k) A.col(k) = u.pow(static_cast<double>(k));
+  A.col(0).setOnes();
+  for (Index k = 1; k < A.cols(); ++k) A.col(k) = A.col(k - 1).cwiseProduct(u.matrix());
   const Eigen::VectorXd c = solve_symmetric(A.transpose() * A, A.transpose() * x);
   const double seconds = dt * static_cast<double>(n - 1);
   return 2.0 * c(2) / (seconds * seconds);
@@ -37,12 +39,12 @@ struct Ends {
     first = bend(x.head(window), dt);
     last = bend(x.tail(window).reverse(), dt);
     for (Index i = 0; i < decay.size(); ++i) {
-      decay(i) = std::exp(-dt * static_cast<double>(i) / kEndSeconds);
+      decay(i) = elementary::exp(-dt * static_cast<double>(i) / kEndSeconds);
     }
   }
   /// Their k-th derivative.
   Eigen::VectorXd derivative(int k) const {
-    const double scale = std::pow(kEndSeconds, 2 - k);
+    const double scale = elementary::pow(kEndSeconds, 2 - k);
     return scale * ((k % 2 ? -first : first) * decay + last * decay.reverse());
   }
 };
@@ -75,28 +77,62 @@ Padded pad_oddly(const Eigen::Ref<const Eigen::VectorXd>& x, double dt) {
   return padded;
 }
 
+/// Means of `power` over 2 half + 1 bins, fewer at the ends.
+Eigen::VectorXd running_mean(const Eigen::VectorXd& power, Index half) {
+  Eigen::VectorXd sum(power.size() + 1), mean(power.size());
+  sum(0) = 0.0;
+  for (Index k = 0; k < power.size(); ++k) sum(k + 1) = sum(k) + power(k);
+  for (Index k = 0; k < power.size(); ++k) {
+    const Index first = std::max<Index>(0, k - half), end = std::min(power.size(), k + half + 1);
+    mean(k) = (sum(end) - sum(first)) / static_cast<double>(end - first);
+  }
+  return mean;
+}
+
+/// The filter's gain in every bin of a spectrum over `seconds`.
+Eigen::VectorXd gains(const Eigen::VectorXcd& spectrum, double seconds, const LowPass& filter) {
+  constexpr double kHalfBand = 0.25;  // Hz
+  const Index bins = spectrum.size();
+  Eigen::VectorXd gain = Eigen::VectorXd::Ones(bins);
+  if (filter.subtraction > 0.0) {
+    const Index half = std::max<Index>(4, std::llround(kHalfBand * seconds));
+    const Eigen::VectorXd power = running_mean(spectrum.cwiseAbs2(), half);
+    std::vector<double> upper(power.begin() + bins / 2, power.end());
+    std::nth_element(upper.begin(), upper.begin() + std::ptrdiff_t(upper.size() / 2), upper.end());
+    const double noise = filter.subtraction * upper[upper.size() / 2] *
+                         (1.0 + 2.0 / std::sqrt(2.0 * double(half) + 1.0));
+    gain = (1.0 - noise / power.array().max(1e-300)).max(0.0);
+  }
+  for (Index k = 0; k < bins; ++k) {
+    const double ratio = static_cast<double>(k) / seconds / filter.cutoff_hz;
+    const double square = ratio * ratio, fourth = square * square;
+    gain(k) *= 1.0 / (1.0 + fourth * fourth);
+  }
+  return gain;
+}
+
 }  // namespace
 
-Smoothed smooth(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, double cutoff_hz) {
+Smoothed smooth(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, const LowPass& filter) {
   const Index n = x.size();
-  const Ends ends(x, dt, cutoff_hz);
+  const Ends ends(x, dt, filter.cutoff_hz);
   const Padded padded = pad_oddly(x - ends.derivative(0), dt);
   const Index length = padded.values.size();
-  const Eigen::VectorXcd spectrum = fourier(padded.values);
+  const Fourier transform(length);
+  const Eigen::VectorXcd spectrum = transform(padded.values);
+  const Eigen::VectorXd gain = gains(spectrum, static_cast<double>(length) * dt, filter);
   Eigen::VectorXcd value(spectrum.size()), first(spectrum.size()), second(spectrum.size());
   for (Index k = 0; k < spectrum.size(); ++k) {
     const double hz = static_cast<double>(k) / (static_cast<double>(length) * dt);
-    const double square = (hz / cutoff_hz) * (hz / cutoff_hz), fourth = square * square;
-    const double gain = 1.0 / (1.0 + fourth * fourth);
     const std::complex<double> s(0.0, 2.0 * std::numbers::pi * hz);
-    value(k) = gain * spectrum(k);
+    value(k) = gain(k) * spectrum(k);
     first(k) = s * value(k);
     second(k) = s * first(k);
   }
   if (length % 2 == 0) first(first.size() - 1) = 0.0;  // the Nyquist term has no derivative
-  Smoothed out{inverse_fourier(value, length).segment(padded.pad, n),
-               inverse_fourier(first, length).segment(padded.pad, n),
-               inverse_fourier(second, length).segment(padded.pad, n)};
+  Smoothed out{transform.inverse(value).segment(padded.pad, n),
+               transform.inverse(first).segment(padded.pad, n),
+               transform.inverse(second).segment(padded.pad, n)};
   out.value += ends.derivative(0);
   for (Index k = 0; k < n; ++k) {
     out.value(k) += padded.level + padded.slope * static_cast<double>(k);
@@ -104,6 +140,20 @@ Smoothed smooth(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, double cu
   out.first += ends.derivative(1);
   out.first.array() += padded.slope / dt;
   out.second += ends.derivative(2);
+  return out;
+}
+
+Eigen::VectorXd gain_of(const Eigen::Ref<const Eigen::VectorXd>& x, double dt,
+                        const LowPass& filter, Index steps) {
+  const Ends ends(x, dt, filter.cutoff_hz);
+  const Padded padded = pad_oddly(x - ends.derivative(0), dt);
+  const double seconds = dt * static_cast<double>(padded.values.size());
+  const Eigen::VectorXd gain = gains(fourier(padded.values), seconds, filter);
+  Eigen::VectorXd out(steps);
+  for (Index k = 0; k < steps; ++k) {
+    const Index first = k * (gain.size() - 1) / steps, end = (k + 1) * (gain.size() - 1) / steps;
+    out(k) = gain.segment(first, std::max<Index>(1, end - first)).mean();
+  }
   return out;
 }
 

@@ -5,12 +5,27 @@
 
 namespace dcnn {
 
-/// Value, first and second derivative of x after the zero-phase low-pass 1/(1 + (f/cutoff)^8), which
-/// leaves the motion band as it is: what a causal or a local polynomial fit cannot do. The signal is
-/// mirrored oddly through its ends over up to 2 s.
+/// A zero-phase filter |H| = W(f)/(1 + (f/cutoff)^8). W = 1, or with `subtraction` > 0 the Wiener
+/// gain max(0, 1 - c N/P): P the signal's own spectrum, averaged over half a hertz, N its noise,
+/// the median of P in the upper half of the band, and c = subtraction (1 + 2/sqrt(n)) for averages
+/// over n bins, so that noise alone passes in one bin of forty (Wiener 1949; spectral subtraction,
+/// Boll 1979). What moves in several bands, a hand that moves slowly and trembles fast, passes;
+/// what lies between them does not.
+struct LowPass {
+  double cutoff_hz = 11.0;
+  double subtraction = 0.0;
+};
+
+/// Value, first and second derivative of x behind the filter, which leaves the motion's band as it
+/// is: what a causal or a local polynomial fit cannot do. The signal is mirrored oddly through its
+/// ends over up to 2 s.
 struct Smoothed {
   Eigen::VectorXd value, first, second;
 };
-Smoothed smooth(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, double cutoff_hz);
+Smoothed smooth(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, const LowPass& filter);
+
+/// The filter's gain for x at frequencies 0 … half the rate, in so many even steps.
+Eigen::VectorXd gain_of(const Eigen::Ref<const Eigen::VectorXd>& x, double dt,
+                        const LowPass& filter, Index steps);
 
 }  // namespace dcnn

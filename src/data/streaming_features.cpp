@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/elementary.h"
 #include "data/feature_blocks.h"
 #include "dcnn/data/rotation.h"
 
@@ -20,7 +21,7 @@ StreamingFeatures::StreamingFeatures(const FeatureLayout& layout)
   const auto weights = [&](int order) -> Eigen::VectorXd {
     return savitzky_golay_weights(static_cast<int>(window_), derivative.order, order,
                                   static_cast<double>(window_ - 1)) /
-           std::pow(layout.dt, order);
+           elementary::pow(layout.dt, order);
   };
   first_weights_ = weights(1);
   second_weights_ = weights(2);
@@ -74,7 +75,7 @@ const Eigen::VectorXd& StreamingFeatures::advance(Sample sample) {
 }
 
 /// Branch of the angles, or sign of the quaternion, nearest to the sample before; the first sample
-/// lies on the branch of training (spec 1.2).
+/// lies on the branch of training.
 void StreamingFeatures::join(Sample& sample) const {
   if (body_) {
     if (count_ > 0 && sample.tail<4>().dot(last_.tail<4>()) < 0.0) sample.tail<4>() *= -1.0;

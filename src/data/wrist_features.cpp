@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/elementary.h"
 #include "data/feature_blocks.h"
 #include "data/rows.h"
 #include "dcnn/data/rotation.h"
@@ -31,11 +32,11 @@ const std::vector<std::string>& rate_columns(Quantity quantity) {
 
 /// W with a cosine that keeps it regular.
 Matrix3d regular_rate_matrix(Vector3d euler) {
-  if (std::abs(std::cos(euler[1])) < kSmallestCosine) {
-    const double limit = std::acos(kSmallestCosine);
-    const double sign = std::cos(euler[1]) < 0.0 ? -1.0 : 1.0;
-    euler[1] =
-        std::atan2(std::copysign(std::sin(limit), std::sin(euler[1])), sign * kSmallestCosine);
+  if (std::abs(elementary::cos(euler[1])) < kSmallestCosine) {
+    const double limit = elementary::acos(kSmallestCosine);
+    const double sign = elementary::cos(euler[1]) < 0.0 ? -1.0 : 1.0;
+    euler[1] = elementary::atan2(std::copysign(elementary::sin(limit), elementary::sin(euler[1])),
+                                 sign * kSmallestCosine);
   }
   return euler_rate_matrix(euler);
 }

@@ -17,7 +17,7 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
     const Member& own = fit_.members[m];
     if (own.fixed) continue;
     const JointFit& rest = without(m);
-    const double net = net_gain(m), own_gain = rest.chi2 - fit_.chi2;
+    const double net = net_gain(m), own_gain = gain(m);
     const double each = own_gain < kFaint * price ? kAkaike : kLeastOfMore;
     for (const Trial& trial : others(m)) {
       // What explains a remainder better than the member explains its own is none in its place.
@@ -31,14 +31,13 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
       const JointFit other = joint_fit(*setting_, members);
       // One that needs more numbers holds the named one as a special case: where they gain nothing,
       // nothing speaks for it.
-      const int more = trial.member.parameters() - own.parameters();
+      const int numbers = trial.member.parameters(), more = numbers - own.parameters();
       const double near = 0.1 * kAsLikely * price;
       double least = more > 0 ? each * price * more * loud : price * more - near;
       // A small force hides how it bends.
       if (more > 0 && same_family(trial.member, own))
         least = std::min(least, kBend * own_gain - near);
       // Nor does noise stand in its place.
-      const int numbers = trial.member.parameters();
       const double noise = least_gain(*setting_, numbers, rest.members.empty()) - near;
       if (fit_.chi2 - other.chi2 > least && rest.chi2 - other.chi2 > noise &&
           std::find(all[m].begin(), all[m].end(), trial.member.name()) == all[m].end()) {

@@ -111,6 +111,13 @@ Json merged(const std::vector<Json>& reports, const System& system) {
   report["where"] = merged_places(reports, system);
   report["fit"] = merged_errors(reports);
   report["unnamed"] = merged_unnamed(reports, system);
+  report.erase("posterior");
+  report.erase("structures");
+  for (std::size_t k = 0; k < reports.size(); ++k) {
+    report["posteriors"].push_back(reports[k]["posterior"]);
+    report["posteriors"].back()["axis"] = system.axes[k].name;
+    report["posteriors"].back()["structures"] = reports[k]["structures"];
+  }
   for (const char* key : {"targets", "units", "findings", "not_detected", "not_testable"}) {
     report[key] = Json::array();
     for (const Json& one : reports) append(report[key], one[key]);

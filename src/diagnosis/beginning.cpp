@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/elementary.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {
@@ -24,7 +25,7 @@ Eigen::MatrixXd beginnings(const Setting& setting, const Member& member, Detail 
         Eigen::VectorXd left = Eigen::VectorXd::Ones(motion.samples());
         for (Index i = 1; i < left.size(); ++i) {
           const double way = motion.euler(i, at.angle) - motion.euler(i - 1, at.angle);
-          left(i) = left(i - 1) * std::exp(-std::abs(way) / width);
+          left(i) = left(i - 1) * elementary::exp(-std::abs(way) / width);
         }
         push_along(at.axis, motion, left, wrench);
       }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
+
 namespace dcnn {
 namespace {
 
@@ -43,7 +45,7 @@ Vector dragged(const Vector& rate, double dt, double reach) {
   for (Index i = 1; i < z.size(); ++i) {
     const double way = rate(i) * dt;
     z(i) = std::copysign(reach, way) +
-           (z(i - 1) - std::copysign(reach, way)) * std::exp(-std::abs(way) / reach);
+           (z(i - 1) - std::copysign(reach, way)) * elementary::exp(-std::abs(way) / reach);
   }
   return z / reach;
 }
@@ -116,7 +118,7 @@ void add_state(BudgetColumns& columns) {
                             return law(velocity(motion, axis, kind).array());
                           }));
       };
-      along([&](const auto& v) -> Vector { return (v / small).tanh(); });
+      along([&](const auto& v) -> Vector { return elementary::tanh(v / small); });
       along([&](const auto& v) -> Vector { return v; });
       along([&](const auto& v) -> Vector { return v.abs() * v; });
     }
@@ -127,8 +129,8 @@ void add_state(BudgetColumns& columns) {
         return law(motion.euler.col(angle).array());
       }));
     };
-    of_angle([](const auto& q) -> Vector { return q.sin(); });
-    of_angle([](const auto& q) -> Vector { return q.cos(); });
+    of_angle([](const auto& q) -> Vector { return elementary::sin(q); });
+    of_angle([](const auto& q) -> Vector { return elementary::cos(q); });
     of_angle([](const auto& q) -> Vector { return q; });
   }
 }
@@ -174,7 +176,7 @@ void add_clock(BudgetColumns& columns) {
   }
   for (int wave = 1; wave <= kWaves; ++wave) {
     columns.add_by_channel(of_logs(columns, [&](const Motion& motion) -> Vector {
-      return (wave * std::numbers::pi * (motion.t.array() - begin) / (end - begin)).cos();
+      return elementary::cos(wave * std::numbers::pi * (motion.t.array() - begin) / (end - begin));
     }));
   }
   const bool warm = std::all_of(logs.begin(), logs.end(), [](const Log& log) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/elementary.h"
 #include "core/linear_algebra.h"
 #include "diagnosis/spectral_lines.h"
 #include "physics/effect_law.h"
@@ -82,8 +83,9 @@ double best_order(const AngleBins& bins) {
   for (double order = least_order(bins); order < std::min(120.0, 0.5 / bins.width); order += step) {
     Eigen::Matrix4d gram = Eigen::Matrix4d::Zero();
     Eigen::Vector4d b = Eigen::Vector4d::Zero();
-    std::complex<double> wave = std::polar(1.0, order * first);
-    const std::complex<double> turn = std::polar(1.0, order * bins.width);  // from bin to bin
+    std::complex<double> wave = elementary::polar(1.0, order * first);
+    const std::complex<double> turn =
+        elementary::polar(1.0, order * bins.width);  // from bin to bin
     for (Index k = 0; k < n; ++k, wave *= turn) {
       const Eigen::Vector4d row(1.0, first + bins.width * static_cast<double>(k), wave.imag(),
                                 wave.real());

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "dcnn/data/filter.h"
 
 namespace dcnn {
@@ -17,9 +18,9 @@ void round_mean(const Case& study, Eigen::MatrixXd& mean) {
   const Eigen::ArrayXXd angle = 2.0 * kPi / q * mean.array();
   for (int k = 1; k <= 6; ++k) {
     const double a = kPi * k * study.rounding_noise / q;
-    const double size = q / (kPi * k) * std::exp(-2.0 * a * a);
+    const double size = q / (kPi * k) * elementary::exp(-2.0 * a * a);
     if (size < 1e-4 * q) break;
-    mean.array() += (k % 2 ? -size : size) * (k * angle).sin();
+    mean.array() += (k % 2 ? -size : size) * elementary::sin(k * angle);
   }
 }
 

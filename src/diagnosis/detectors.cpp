@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/spectral_lines.h"
 #include "physics/effect_law.h"
@@ -20,6 +21,7 @@ constexpr double kFast = 1.25;       // of the motion's band: half the rate of t
 std::vector<Clipping> clipping(const Case& study) {
   std::vector<Clipping> list;
   for (Index j = 0; j < study.channel_count(); ++j) {
+    if (study.channels[static_cast<std::size_t>(j)] > 2) continue;  // the law limits forces
     double high = -1e300, low = 1e300;
     for (const Log& log : study.logs) {
       high = std::max(high, log.measured.col(j).maxCoeff());
@@ -72,8 +74,8 @@ std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
     cosine.setZero();
     for (std::size_t k = 0; k < left.size(); ++k) {
       const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * hz * study.logs[k].motion.t.array();
-      sine += angle.sin().matrix().transpose() * left[k];
-      cosine += angle.cos().matrix().transpose() * left[k];
+      sine += elementary::sin(angle).matrix().transpose() * left[k];
+      cosine += elementary::cos(angle).matrix().transpose() * left[k];
     }
     sine *= 2.0 / samples;
     cosine *= 2.0 / samples;

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
+#include "dcnn/core/blocking.h"
 #include "diagnosis/axes.h"
 #include "diagnosis/budget.h"
 #include "diagnosis/candidates.h"
+#include "diagnosis/evidence/posterior_json.h"
 #include "diagnosis/formula.h"
 #include "diagnosis/holdout.h"
 #include "diagnosis/locate.h"
@@ -60,9 +63,11 @@ class Writer {
       JointFit rest = member.fixed ? fit : search_.without(m);
       std::vector<Member>& others = rest.members;
       if (member.fixed) others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
-      const double net = rest.chi2 - fit.chi2 - search_.setting().price * member.parameters();
-      entry["confidence"] = confidence(member, net, alternatives[m].size());
-      entry["p_value"] = flip_p_value(search_.setting(), fit, m);
+      entry["confidence"] = entry["p_value"] = nullptr;
+      if (!member.fixed) {
+        entry["confidence"] = search_.posterior().inclusion(member);
+        entry["p_value"] = flip_p_value(search_.setting(), fit, m);
+      }
       entry["alternatives"] = alternatives[m];
       entry["holdout_gain"] =
           1.0 - after / std::max(1e-300, mean(holdout_.rmse(others, rest.base)));
@@ -113,25 +118,16 @@ class Writer {
     return entry;
   }
 
-  /// Probability that the name is right after the search: net gain as evidence, shared with what
-  /// the recordings cannot exclude.
-  static double confidence(const Member& member, double net, std::size_t alternatives) {
-    if (member.fixed) return 0.99;
-    const double odds = std::exp(-0.5 * std::min(net, 60.0));
-    return std::clamp((1.0 - odds) * 0.998 / (1.0 + 0.25 * static_cast<double>(alternatives)), 0.0,
-                      0.998);
-  }
-
   Json found_apart(const Member& member) const {
     JointFit alone;
     alone.members = {member};
     alone.residual = search_.fit().residual;
     alone.tangent.resize(alone.residual.size(), 0);
     Json entry = base_entry(member, estimates(search_.setting(), alone)[0]);
-    entry.update({{"confidence", 0.99},
-                  {"p_value", 0.001},
+    entry.update({{"confidence", nullptr},
+                  {"p_value", nullptr},
                   {"alternatives", Json::array()},
-                  {"holdout_gain", 0.0}});
+                  {"holdout_gain", nullptr}});
     return entry;
   }
 
@@ -269,6 +265,8 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
     floors.push_back(floor.deviation());
     sources.push_back(floor.source);
   }
+  report["posterior"] = evidence::posterior_json(search.posterior());
+  report["structures"] = evidence::structures_json(search.posterior());
   report["fit"] = errors_json(search, holdout, given);
   report["fit"]["noise_floor"] = floors;
   report["fit"]["noise_floor_source"] = sources;
@@ -290,6 +288,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
 
 Diagnosis diagnose(const DiagnosisRequest& request,
                    const std::function<void(const std::string&)>& progress) {
+  fix_blocking();
   if (request.system) return diagnose_axes(request, progress);
   return diagnose_case(load_wrist(request), progress).diagnosis;
 }

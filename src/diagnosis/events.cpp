@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "physics/effect_law.h"
+
 namespace dcnn {
 namespace {
 
@@ -155,6 +157,10 @@ Trial find_step(const Scan& scan) {
   // Coarse: the change of the running mean of the residual, every 0.25 s.
   const Cells cells = make_cells(scan, false);
   const auto n = static_cast<Index>(cells.t.size());
+  double end_of_fit = -kInfinity;
+  for (const Log& log : study.logs) {
+    end_of_fit = std::max(end_of_fit, log.motion.t(log.motion.samples() - 1));
+  }
   std::vector<std::pair<double, Index>> ranked;
   Eigen::VectorXd total = cells.sum.colwise().sum();
   const double all = cells.weight.sum();
@@ -164,7 +170,7 @@ Trial find_step(const Scan& scan) {
     const auto& motion = study.logs[cells.log[static_cast<std::size_t>(c)]].motion;
     const double t = cells.t[static_cast<std::size_t>(c)];
     const double first = study.shared_clock ? study.logs.front().motion.t(0) : motion.t(0);
-    const double last = study.shared_clock ? study.end_of_clock : motion.t(motion.samples() - 1);
+    const double last = study.shared_clock ? end_of_fit : motion.t(motion.samples() - 1);
     const double rest = all - weight;
     if (t > first + kStepEnds && t < last - kStepEnds && weight > 0.0 && rest > 0.0) {
       const double gain =

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/elementary.h"
 #include "diagnosis/spectral_lines.h"
 
 namespace dcnn {
@@ -48,7 +49,7 @@ std::optional<std::vector<double>> flicker_below(const Case& study, const Signal
       double likelihood = 0.0;
       for (const Bin& bin : bins) {
         const double density = floor.density(bin.hz) + flicker / bin.hz;
-        likelihood -= std::log(density) + bin.power / density;
+        likelihood -= elementary::log(density) + bin.power / density;
       }
       if (likelihood > most) most = likelihood, best = flicker;
     }

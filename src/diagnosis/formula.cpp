@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "diagnosis/judgement.h"
 #include "diagnosis/words.h"
 
@@ -89,7 +90,7 @@ std::vector<Term> terms_of(const std::vector<Quantity>& list) {
     double square = 0.0, count = 0.0;
     for (const auto& v : p.values) square += v.square().sum(), count += double(v.size());
     const double small = 0.1 * std::sqrt(square / count);
-    const auto sign = [&, small](std::size_t k) { return (p.values[k] / small).tanh(); };
+    const auto sign = [&, small](std::size_t k) { return elementary::tanh(p.values[k] / small); };
     add(p.text(), p.unit, [&](std::size_t k) { return p.values[k]; });
     add(p.text() + "^2", p.unit + "^2", [&](std::size_t k) { return p.values[k].square(); });
     add(p.text() + "^3", p.unit + "^3", [&](std::size_t k) { return p.values[k].cube(); });
@@ -203,7 +204,7 @@ std::pair<std::size_t, double> best_of(const std::vector<Eigen::VectorXd>& colum
     const Eigen::VectorXd c = columns[k] - basis * (basis.transpose() * columns[k]);
     const double energy = c.squaredNorm();
     if (!(energy > 1e-4 * columns[k].squaredNorm())) continue;
-    const double gain = std::pow(c.dot(left), 2) / energy;
+    const double gain = elementary::pow(c.dot(left), 2) / energy;
     if (gain > best.second) best = {k, gain};
   }
   return best;

@@ -10,17 +10,27 @@ namespace {
 constexpr double kPiece = 5.0, kGuard = 0.5, kEnds = 0.5;  // s
 constexpr int kEvery = 5;
 
+double seconds_of(const Motion& motion) { return motion.t(motion.samples() - 1) - motion.t(0); }
+
+/// A recording that no whole piece fits into is cut into kEvery pieces, guards and ends in
+/// proportion.
+double shortened(double seconds, const Motion& motion) {
+  const double length = seconds_of(motion);
+  return length >= (kEvery - 2) * kPiece ? seconds : seconds * length / (kEvery * kPiece);
+}
+
 }  // namespace
 
 std::vector<Span> held_out_blocks(const Case& study, bool with_guards) {
   std::vector<Span> spans;
-  const double guard = with_guards ? kGuard : 0.0;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     const Motion& motion = study.logs[k].motion;
     if (motion.is_static()) continue;
     const double first = motion.t(0), last = motion.t(motion.samples() - 1);
-    for (double t = first + (kEvery - 3) * kPiece; t + kPiece <= last; t += kEvery * kPiece) {
-      spans.push_back({k, t - guard, t + kPiece + guard});
+    const double piece = shortened(kPiece, motion);
+    const double guard = with_guards ? shortened(kGuard, motion) : 0.0;
+    for (double t = first + (kEvery - 3) * piece; t + piece <= last + 1e-9; t += kEvery * piece) {
+      spans.push_back({k, t - guard, t + piece + guard});
     }
   }
   return spans;
@@ -40,7 +50,8 @@ HoldOut::HoldOut(const Case& fitted, const Case& recordings) {
       for (const Span& span : blocks) {
         if (!own && span.log == k && t >= span.begin && t < span.end) row = 1;
       }
-      if (t < motion.t(0) + kEnds || t > motion.t(motion.samples() - 1) - kEnds) row = 0;
+      const double ends = shortened(kEnds, motion);
+      if (t < motion.t(0) + ends || t > motion.t(motion.samples() - 1) - ends) row = 0;
     }
     held_.push_back(held);
   }

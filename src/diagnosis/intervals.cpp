@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "diagnosis/judgement.h"
 #include "diagnosis/scan.h"
 
@@ -92,7 +93,7 @@ Estimate interval_of(std::string name, double value, double deviation, bool loga
   if (!logarithmic || value == 0.0) {
     return {std::move(name), unit, value, value - kNormal * deviation, value + kNormal * deviation};
   }
-  const double factor = std::exp(std::min(kWidest, kNormal * deviation / std::abs(value)));
+  const double factor = elementary::exp(std::min(kWidest, kNormal * deviation / std::abs(value)));
   const double near = value / factor, far = value * factor;
   return {std::move(name), unit, value, std::min(near, far), std::max(near, far)};
 }

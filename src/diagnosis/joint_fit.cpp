@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numeric>
 
 #include "core/linear_algebra.h"
 #include "diagnosis/beginning.h"
+#include "physics/effect_law.h"
 
 namespace dcnn {
 namespace {
 
 constexpr int kMostSteps = 12;
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kSettled = 0.02;   // of chi-square: far below what decides anything
 constexpr double kStraight = 1e-4;  // of chi-square: how far a step may end from its tangent
 
@@ -56,7 +55,7 @@ void move(Member& member, const Coordinate& c, double step) {
 /// A shape may not leap out of the region its derivative tells of: a factor of e, or a part of its
 /// range.
 double longest_step(const std::vector<Member>& members, const Coordinate& c) {
-  if (!c.is_shape) return kInfinite;
+  if (!c.is_shape) return kInfinity;
   const ShapeParameter& shape = members[c.member].form->shapes[static_cast<std::size_t>(c.index)];
   return shape.low > 0.0 ? 1.0 : std::max(1.0, 0.15 * (shape.high - shape.low));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/median.h"
 #include "diagnosis/noise_floor.h"
@@ -122,8 +123,7 @@ struct Evidence {
 
 class Ear {
  public:
-  Ear(const Case& study, const Signals& left, const std::vector<Eigen::VectorXd>& levels,
-      std::size_t channel)
+  Ear(const Case& study, const Signals& left, const Signals& levels, std::size_t channel)
       : dt_(study.dt()) {
     ToolModel moving = study.simulator.model;
     moving.inertial = ToolModel::Inertial::kLinear;
@@ -131,7 +131,8 @@ class Ear {
     for (std::size_t k = 0; k < study.logs.size(); ++k) {
       const Motion& motion = study.logs[k].motion;
       fields_.push_back({felt_acceleration(moving, motion).col(study.channels[channel]), {}});
-      channels_.emplace_back(left[k].col(static_cast<Index>(channel)), levels[k]);
+      channels_.emplace_back(left[k].col(static_cast<Index>(channel)),
+                             levels[k].col(static_cast<Index>(channel)));
       for (Index i = 0; i < motion.samples(); i += 3) {
         if (const auto a = channels_.back().above(i, 1)) heights.push_back(std::abs(*a));
       }
@@ -212,10 +213,10 @@ class Ear {
     for (const auto& [gap, e] : tried_) {
       if (e.sum <= 0.0) continue;
       const double below = heard.strength() * heard.strength() - e.strength() * e.strength();
-      const double weight = std::exp(-0.5 * below / (scale * scale));
+      const double weight = elementary::exp(-0.5 * below / (scale * scale));
       const Eigen::Vector2d at(e.slug(), gap);
       const Eigen::Vector2d own(scale * scale / e.square,
-                                std::pow(0.5 * (kNextGap - 1.0) * gap, 2));
+                                elementary::pow(0.5 * (kNextGap - 1.0) * gap, 2));
       all += weight;
       sum += weight * at;
       squares += weight * (at.cwiseAbs2() + own);

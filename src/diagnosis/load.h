@@ -13,7 +13,7 @@ struct LoadedCase {
 };
 LoadedCase load_wrist(const DiagnosisRequest& request);
 
-/// Whether the recordings share one clock, and when it ends (contract.md section 2). Error(kData)
+/// Whether the recordings share one clock, and when it ends. Error(kData)
 /// where they are told to share one and overlap.
 void set_clock(const DiagnosisRequest& request, const std::vector<Recording>& recordings,
                Case& study);

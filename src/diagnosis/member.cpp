@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/elementary.h"
+
 namespace dcnn {
 
 bool same_family(const Member& a, const Member& b) {
@@ -41,12 +43,12 @@ std::vector<EffectSpec> specs_of(const std::vector<Member>& members) {
 }
 
 double search_scale(const ShapeParameter& shape, double value) {
-  return shape.low > 0.0 ? std::log(value) : value;
+  return shape.low > 0.0 ? elementary::log(value) : value;
 }
 
 double from_search_scale(const Member& member, Index i, double coordinate) {
   const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(i)];
-  const double value = shape.low > 0.0 ? std::exp(coordinate) : coordinate;
+  const double value = shape.low > 0.0 ? elementary::exp(coordinate) : coordinate;
   const double least = member.least_shapes.size() > i ? member.least_shapes(i) : shape.low;
   const double most = member.most_shapes.size() > i ? member.most_shapes(i) : shape.high;
   return std::clamp(value, std::min(least, most), most);

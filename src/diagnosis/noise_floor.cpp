@@ -5,10 +5,9 @@
 #include <complex>
 #include <numbers>
 
-#include "core/linear_algebra.h"
-#include "dcnn/data/fourier.h"
-#include "dcnn/data/rotation.h"
+#include "core/elementary.h"
 #include "diagnosis/median.h"
+#include "diagnosis/periodograms.h"
 
 namespace dcnn {
 namespace {
@@ -16,40 +15,14 @@ namespace {
 constexpr double kColourGain = 12.0;  // of the log-likelihood, before noise is called coloured
 constexpr double kUpperPart = 1.4;    // of the lowest frequency of the quiet band: its upper part
 constexpr double kColourAbove = 3.0;  // of the log-likelihood there
-constexpr Index kWindow = 1024;       // samples of one periodogram
-constexpr Index kShortestWindow = 64;
-constexpr double kSlowest = 0.02;  // Hz: flicker noise is taken for flat below
+constexpr double kSlowest = 0.02;     // Hz: flicker noise is taken for flat below
 constexpr double kLeastOfDifferences = 1e-6;
 constexpr Index kFewestBins = 12;  // below this the quiet band says nothing
 
 /// Shape of AR(1) noise of unit variance.
 double ar_shape(double rho, double hz, double dt) {
   return (1.0 - rho * rho) /
-         (1.0 - 2.0 * rho * std::cos(2.0 * std::numbers::pi * hz * dt) + rho * rho);
-}
-
-/// Periodograms of windows of one signal, (bins, windows), scaled so that white noise of variance
-/// s^2 has mean s^2. Windows never cross a gap.
-struct Periodograms {
-  Eigen::MatrixXd power;
-  Eigen::VectorXd hz;
-};
-
-/// Samples of a window of which segments long enough hold half of the recordings.
-Index window_of(const Case& study) {
-  Index longest = 0;
-  for (Index n = kWindow; n >= kShortestWindow; n /= 2) {
-    Index all = 0, held = 0;
-    for (const Log& log : study.logs) {
-      for (const Segment& s : log.motion.segments) {
-        all += s.size();
-        if (s.size() >= n) held += s.size();
-        longest = std::max(longest, s.size());
-      }
-    }
-    if (2 * held >= all) return n;
-  }
-  return std::max<Index>(16, std::min(longest, kShortestWindow));
+         (1.0 - 2.0 * rho * elementary::cos(2.0 * std::numbers::pi * hz * dt) + rho * rho);
 }
 
 /// Variance of white noise with these second differences.
@@ -64,68 +37,22 @@ double variance_of_differences(const Signals& signals, Index channel) {
   return count > 0.0 ? sum / count : 0.0;
 }
 
-Periodograms periodograms(const Case& study, const Signals& signals, Index channel) {
-  const Index n = window_of(study);
-  const Eigen::VectorXd taper =
-      (1.0 - (Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5) * 2.0 *
-              std::numbers::pi / static_cast<double>(n))
-                 .cos())
-          .matrix() *
-      0.5;
-  const double power = taper.squaredNorm();
-  Periodograms result;
-  const Index bins = n / 2 + 1;
-  result.hz = Eigen::VectorXd::LinSpaced(bins, 0.0, static_cast<double>(bins - 1)) /
-              (static_cast<double>(n) * study.dt());
-  std::vector<Eigen::VectorXd> columns;
-  for (std::size_t k = 0; k < study.logs.size(); ++k) {
-    for (const Segment& s : study.logs[k].motion.segments) {
-      for (Index begin = s.begin; begin + n <= s.end; begin += n) {
-        Eigen::VectorXd x = signals[k].col(channel).segment(begin, n);
-        x.array() -= x.mean();
-        columns.push_back(fourier(x.cwiseProduct(taper)).cwiseAbs2() / power);
-      }
-    }
-  }
-  result.power.resize(bins, static_cast<Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    result.power.col(static_cast<Index>(k)) = columns[k];
-  }
-  return result;
-}
-
-/// Median over windows of each bin, as an estimate of the density: the upper middle of n values of
-/// an exponential distribution is on the average sum_{i=0}^{n/2} 1/(n-i) of its mean (ln 2 for
-/// many).
-/// `coarse`: readings on a coarse lattice are noisy near the middle between two values and still
-/// elsewhere, so that most windows hold less noise than all do together.
-Eigen::VectorXd density_of(const Periodograms& p, bool coarse = false) {
-  if (coarse && p.power.cols() > 0) return p.power.rowwise().mean();
-  Eigen::VectorXd density(p.power.rows());
-  double expected = 0.0;
-  for (Index i = 0; p.power.cols() > 0 && i <= p.power.cols() / 2; ++i)
-    expected += 1.0 / double(p.power.cols() - i);
-  for (Index i = 0; i < density.size(); ++i) {
-    std::vector<double> values(static_cast<std::size_t>(p.power.cols()));
-    for (Index k = 0; k < p.power.cols(); ++k) values[static_cast<std::size_t>(k)] = p.power(i, k);
-    density(i) = values.empty() ? 0.0 : median(values) / expected;
-  }
-  return density;
-}
-
 struct Whittle {
   double level = 0.0, likelihood = 0.0;
 };
 
 /// Lines replaced by the level beside them.
-Eigen::VectorXd without_lines(const Eigen::VectorXd& density) {
+Eigen::VectorXd without_lines(const Eigen::VectorXd& density, double windows) {
   constexpr Index kBeside = 10;  // bins
+  // What chance alone reaches in one bin of a thousand: the upper middle of n exponential variables
+  // over its median is above 10, 6, 5 and 3.5 for n = 1, 2, 3 and 15.
+  const double most = 3.0 + 7.0 / windows;
   Eigen::VectorXd smooth = density;
   for (Index i = 0; i < density.size(); ++i) {
     const Index first = std::max<Index>(0, i - kBeside);
     const Index last = std::min(density.size(), i + kBeside + 1);
     const double level = median({density.data() + first, density.data() + last});
-    smooth(i) = density(i) < 3.0 * level ? density(i) : level;
+    smooth(i) = density(i) < most * level ? density(i) : level;
   }
   return smooth;
 }
@@ -135,7 +62,9 @@ Whittle fit_level(const Eigen::VectorXd& density, const Eigen::VectorXd& shape, 
   Whittle fit;
   fit.level = density.cwiseQuotient(shape).mean();
   const auto n = static_cast<double>(density.size());
-  fit.likelihood = -windows * (shape.array().log().sum() + n * (std::log(fit.level) + 1.0));
+  fit.likelihood =
+      -windows * (shape.array().unaryExpr([](double d) { return elementary::log(d); }).sum() +
+                  n * (elementary::log(fit.level) + 1.0));
   return fit;
 }
 
@@ -184,10 +113,23 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
   return best;
 }
 
+/// The factor at a frequency: on straight lines over log f, constant beyond the ends.
+double bound_at(const std::vector<std::pair<double, double>>& bounds, double hz) {
+  if (bounds.empty()) return 1.0;
+  if (hz <= bounds.front().first) return bounds.front().second;
+  for (std::size_t k = 1; k < bounds.size(); ++k) {
+    const auto& [from, low] = bounds[k - 1];
+    const auto& [to, high] = bounds[k];
+    if (hz < to)
+      return low + (high - low) * elementary::log(hz / from) / elementary::log(to / from);
+  }
+  return bounds.back().second;
+}
+
 }  // namespace
 
 double Floor::deviation() const {
-  if (lowpass_hz == 0.0 && flicker == 0.0) return std::sqrt(white + coloured);
+  if (lowpass_hz == 0.0 && flicker == 0.0 && bounds.empty()) return std::sqrt(white + coloured);
   constexpr int kPoints = 8192;
   double sum = 0.0;
   for (int i = 0; i < kPoints; ++i) sum += density((i + 0.5) / kPoints * 0.5 / dt);
@@ -195,15 +137,19 @@ double Floor::deviation() const {
 }
 
 double Floor::density(double hz) const {
-  const double plain = white + (coloured > 0.0 ? coloured * ar_shape(rho, hz, dt) : 0.0) +
-                       flicker / std::max(hz, kSlowest);
+  const double fitted = white + (coloured > 0.0 ? coloured * ar_shape(rho, hz, dt) : 0.0) +
+                        flicker / std::max(hz, kSlowest);
+  const double plain = fitted * bound_at(bounds, hz);
   if (lowpass_hz == 0.0) return plain;
-  const double gain = 1.0 / (1.0 + std::pow(hz / lowpass_hz, 8.0));  // Butterworth, there and back
+  const double gain =
+      1.0 / (1.0 + elementary::pow(hz / lowpass_hz, 8.0));  // Butterworth, there and back
   return plain * gain * gain;
 }
 
-double Floor::pose_density(double hz, double cutoff_hz) const {
-  if (cutoff_hz <= 0.0) return 0.0;
+double Floor::pose_density(double hz) const {
+  if (pose_gain.empty()) return 0.0;
+  const double place = 2.0 * hz * dt * static_cast<double>(pose_gain.size());
+  const auto step = std::min(pose_gain.size() - 1, static_cast<std::size_t>(place));
   const double w = 2.0 * std::numbers::pi * hz;
   double rung = 1.0;
   for (const Mode& mode : modes) {
@@ -211,7 +157,7 @@ double Floor::pose_density(double hz, double cutoff_hz) const {
     const std::complex<double> below(1.0 - r * r, 2.0 * mode.zeta * r);
     rung *= std::norm(1.0 + mode.fraction * (1.0 / below - 1.0));
   }
-  return rung * (static_part + moving_part * w * w * w * w) / (1.0 + std::pow(hz / cutoff_hz, 8.0));
+  return rung * (static_part + moving_part * w * w * w * w) * pose_gain[step];
 }
 
 double quiet_band(const Case& study) {
@@ -219,12 +165,11 @@ double quiet_band(const Case& study) {
   return std::min(study.motion_hz, most / study.dt());
 }
 
-std::vector<Floor> noise_floor(const Case& study, const Signals& residual,
-                               const std::vector<Eigen::VectorXd>& levels) {
+std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const Signals& levels) {
   if (study.is_static()) return floor_at_rest(study, residual);
   Signals even;
   for (std::size_t k = 0; k < residual.size(); ++k) {
-    even.push_back(levels[k].cwiseInverse().asDiagonal() * residual[k]);
+    even.push_back(residual[k].cwiseQuotient(levels[k]));
   }
   const double dt = study.dt(), from = quiet_band(study), to = 0.49 / dt;
   std::vector<Floor> floors;
@@ -237,8 +182,9 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual,
     }
     Floor floor;
     if (static_cast<Index>(quiet.size()) >= kFewestBins && p.power.cols() > 0) {
-      floor = fit_floor(without_lines(density(quiet)), p.hz(quiet), dt,
-                        static_cast<double>(p.power.cols()), study.without.coloured_floor);
+      floor =
+          fit_floor(without_lines(density(quiet), static_cast<double>(p.power.cols())), p.hz(quiet),
+                    dt, static_cast<double>(p.power.cols()), study.without.coloured_floor);
       floor.source = "spectrum of the residual above " +
                      std::to_string(static_cast<int>(std::lround(from))) + " Hz";
     }
@@ -252,46 +198,6 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual,
     floors.push_back(floor);
   }
   return floors;
-}
-
-void add_pose_noise(const Case& study, std::vector<Floor>& floors) {
-  if (study.is_static() || study.axis) return;
-  const auto quiet_density = [&](const std::vector<std::string>& names) {
-    double most = 0.0;
-    for (const auto& name : names) {
-      Signals pose;
-      for (const Log& log : study.logs) {
-        if (!log.recording.has(name)) return 0.0;
-        Eigen::VectorXd x = log.recording.column(name);
-        if (names.size() == 3 && name != "x" && name != "y" && name != "z") unwrap(x);
-        pose.emplace_back(x);
-      }
-      const Periodograms p = periodograms(study, pose, 0);
-      const Eigen::VectorXd density = density_of(p);
-      std::vector<double> quiet;
-      for (Index i = 0; i < p.hz.size(); ++i) {
-        if (p.hz(i) >= quiet_band(study) && p.hz(i) <= 0.49 / study.dt()) {
-          quiet.push_back(density(i));
-        }
-      }
-      if (!quiet.empty()) most = std::max(most, median(quiet));
-    }
-    return most;
-  };
-  const ToolModel& tool = study.simulator.model;
-  const double position = quiet_density({"x", "y", "z"});
-  const bool angles = study.logs.front().recording.has("alpha");
-  const double angle = angles ? quiet_density({"alpha", "beta", "gamma"})
-                              : 4.0 * quiet_density({"qw", "qx", "qy", "qz"});
-  const double lever = tool.mass * tool.com.norm(), weight = tool.mass * tool.gravity.norm();
-  const bool moving = tool.inertial != ToolModel::Inertial::kNone;
-  for (std::size_t j = 0; j < floors.size(); ++j) {
-    const bool force = study.channels[j] < 3;
-    const double arm = force ? 1.0 : tool.com.norm();
-    floors[j].static_part = weight * weight * angle * arm * arm;
-    floors[j].moving_part =
-        moving ? (tool.mass * tool.mass * position + lever * lever * angle) * arm * arm : 0.0;
-  }
 }
 
 }  // namespace dcnn

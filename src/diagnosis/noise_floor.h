@@ -19,18 +19,24 @@ struct Floor {
   double rho = 0.0;                    ///< coefficient of the coloured part
   double flicker = 0.0;                ///< density [per sample] times frequency [Hz]
   /// Spectral density of what the pose's noise adds through accelerations and gravity:
-  /// static_part·|H| + moving_part·w^4·|H|, per sample.
+  /// (static_part + moving_part·w^4)·|H|, per sample, with |H| the gain of the pose's filter in
+  /// even steps up to half the rate. Behind a Wiener filter that is the variance of its error.
   double static_part = 0.0, moving_part = 0.0;
-  std::vector<Mode> modes = {};  ///< in which motion that the pose does not show rings
-  std::string source = {};       ///< in words
-  double lowpass_hz = 0.0;       ///< of the filter that the noise has passed; 0: none
-  double dt = 0.0;               ///< s, between samples
+  std::vector<double> pose_gain = {};  ///< empty: no pose is differentiated
+  std::vector<Mode> modes = {};        ///< in which motion that the pose does not show rings
+  std::string source = {};             ///< in words
+  double lowpass_hz = 0.0;             ///< of the filter that the noise has passed; 0: none
+  double dt = 0.0;                     ///< s, between samples
+
+  /// Frequency and factor, at most 1, of octaves in which the residual is below what was fitted
+  /// above the motion: no noise exceeds what the model leaves.
+  std::vector<std::pair<double, double>> bounds = {};
 
   double deviation() const;  ///< of the sensor alone
   /// Density at `hz`, scaled so that white noise of variance s^2 has density s^2.
   double density(double hz) const;
-  /// What the pose's noise adds to it behind a smoother that cuts at `cutoff_hz` (0: none).
-  double pose_density(double hz, double cutoff_hz) const;
+  /// What the pose's noise adds to it.
+  double pose_density(double hz) const;
 };
 
 /// Lowest frequency that is free of motion in these recordings.
@@ -40,8 +46,12 @@ double quiet_band(const Case& study);
 /// band, divided by the noise's relative level (of noise_level()), by channel: over the whole band
 /// an effect would raise its own floor. Lines and knocks are kept out by medians. Colour needs a
 /// likelihood gain above 12.
-std::vector<Floor> noise_floor(const Case& study, const Signals& residual,
-                               const std::vector<Eigen::VectorXd>& levels);
+std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const Signals& levels);
+
+/// Lowers the floors to the residual's spectrum in octaves where they exceed it by more than its
+/// sampling error (99.9 %).
+void bound_by_residual(const Case& study, const Signals& residual, const Signals& levels,
+                       std::vector<Floor>& floors);
 
 /// Of poses at rest: what a free matrix on the direction of gravity and an offset leave, which
 /// holds every linear fault of tool and sensor. Error(kData) for fewer than 7 poses.
@@ -51,8 +61,10 @@ std::vector<Floor> floor_at_rest(const Case& study, const Signals& residual);
 /// prediction: through accelerations (mass and lever) and through gravity.
 void add_pose_noise(const Case& study, std::vector<Floor>& floors);
 
-/// Relative level of the noise over time, (T) per recording, from the second differences of the
-/// residual over 1 s; ones where it hardly varies.
-std::vector<Eigen::VectorXd> noise_level(const Case& study, const Signals& residual);
+/// Relative level of each channel's noise over time, (T, channels) per recording, of mean square 1:
+/// the logarithm of the mean absolute second difference of the residual over 0.5 s, linear in the
+/// force that is predicted beside a burst of its own, both shrunk by how well they are known (the
+/// empirical Bayes estimate of James and Stein 1961), so that noise of one level has level 1.
+Signals noise_level(const Case& study, const Signals& residual);
 
 }  // namespace dcnn

@@ -1,58 +1,162 @@
-// How the noise's level varies over a recording.
+// How the level of each channel's noise varies over a recording: with the force it reads, and in
+// bursts.
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "diagnosis/noise_floor.h"
+#include "physics/effect_law.h"
 
 namespace dcnn {
+namespace {
 
-std::vector<Eigen::VectorXd> noise_level(const Case& study, const Signals& residual) {
-  if (study.is_static()) {
-    std::vector<Eigen::VectorXd> ones;
-    for (const auto& r : residual) ones.push_back(Eigen::VectorXd::Ones(r.rows()));
-    return ones;
-  }
-  constexpr double kSeconds = 1.0, kVaries = 2.5;
+constexpr double kSeconds = 0.5;
+// Relative deviation of a mean of n absolute second differences of white noise, times sqrt(n):
+// 0.756 of one, sqrt(2) for their correlation.
+constexpr double kOfMean = 1.07;
+
+struct Window {
+  std::size_t log;
+  Index begin, end;
+  double level;  ///< logarithm of the mean absolute second difference
+  double load;   ///< mean of the load's covariate
+  double variance() const { return kOfMean * kOfMean / static_cast<double>(end - begin); }
+};
+
+/// log(1 + |F|/knee) of the predicted force F.
+double covariate(double force, double knee) { return elementary::log1p(std::abs(force) / knee); }
+
+std::vector<Window> windows_of(const Case& study, const Signals& residual, Index channel) {
   const Index n = std::max<Index>(8, std::llround(kSeconds / study.dt()));
-  std::vector<Eigen::VectorXd> levels;
-  std::vector<double> logs;
+  std::vector<Window> windows;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
-    const Eigen::MatrixXd& r = residual[k];
-    Eigen::VectorXd level = Eigen::VectorXd::Ones(r.rows());
+    const auto r = residual[k].col(channel);
     for (const Segment& s : study.logs[k].motion.segments) {
       for (Index begin = s.begin; begin < s.end; begin += n) {
-        const Index end = std::min(begin + n, s.end);
-        double sum = 0.0, count = 0.0;
-        for (Index j = 0; j < r.cols(); ++j) {
-          for (Index i = std::max(begin, s.begin + 2); i < end; ++i, ++count) {
-            sum += std::abs(r(i, j) - 2.0 * r(i - 1, j) + r(i - 2, j));
-          }
-        }
-        const double mean = count > 0.0 ? sum / count : 0.0;
-        level.segment(begin, end - begin).setConstant(mean);
-        if (mean > 0.0 && end - begin == n) logs.push_back(std::log(mean));
+        const Index end = std::min(begin + n, s.end), first = std::max(begin, s.begin + 2);
+        double sum = 0.0;
+        for (Index i = first; i < end; ++i) sum += std::abs(r(i) - 2.0 * r(i - 1) + r(i - 2));
+        const double mean = end > first ? sum / static_cast<double>(end - first) : 0.0;
+        windows.push_back({k, begin, end, mean > 0.0 ? elementary::log(mean) : -kInfinity, 0.0});
       }
     }
-    levels.push_back(level);
   }
-  double mean = 0.0, square = 0.0;
-  for (const double x : logs)
-    mean += x / static_cast<double>(std::max<std::size_t>(1, logs.size()));
-  for (const double x : logs) square += (x - mean) * (x - mean);
-  const double spread =
-      logs.size() > 3 ? std::sqrt(square / static_cast<double>(logs.size() - 1)) : 0.0;
-  // Mean of n·channels absolute second differences of white noise: relative spread 0.756·sqrt(2)/
-  // sqrt(n·channels), the second factor for their correlation.
-  const double expected =
-      1.07 / std::sqrt(static_cast<double>(n * std::max<Index>(1, study.channel_count())));
+  return windows;
+}
+
+/// level = mean + slope (load - mean load), weighted by the windows' own variances.
+struct Line {
+  double level = 0.0, load = 0.0, slope = 0.0;
+  double gain = 0.0;  ///< of chi-square, by the slope
+};
+
+Line fit_line(const std::vector<Window>& windows) {
+  Line line;
+  double weights = 0.0, xx = 0.0, xy = 0.0;
+  for (const Window& w : windows) {
+    if (!std::isfinite(w.level)) continue;
+    weights += 1.0 / w.variance();
+    line.level += w.level / w.variance();
+    line.load += w.load / w.variance();
+  }
+  if (weights == 0.0) return line;
+  line.level /= weights;
+  line.load /= weights;
+  for (const Window& w : windows) {
+    if (!std::isfinite(w.level)) continue;
+    xx += (w.load - line.load) * (w.load - line.load) / w.variance();
+    xy += (w.load - line.load) * (w.level - line.level) / w.variance();
+  }
+  if (xx <= 0.0) return line;
+  line.slope = xy / xx;
+  line.gain = xy * xy / xx;
+  return line;
+}
+
+/// The share of an estimate that James and Stein keep of one with so large a square, in units of
+/// its variance, where chance alone makes `chance` of it.
+double kept(double square, double chance) { return square > chance ? 1.0 - chance / square : 0.0; }
+
+/// The line whose knee, relative to the rms of the force, fits best; the windows' loads become its.
+Line best_line(const Signals& force, Index channel, double* knee, std::vector<Window>& windows) {
+  double square = 0.0, rows = 0.0;
+  for (const auto& f : force) square += f.col(channel).squaredNorm(), rows += double(f.rows());
+  const double rms = std::sqrt(square / std::max(1.0, rows));
+  Line best;
+  std::vector<Window> chosen = windows;
+  for (const double relative : {0.1, 0.3, 1.0, 3.0}) {
+    if (rms == 0.0) break;
+    for (Window& w : windows) {
+      w.load = 0.0;
+      for (Index i = w.begin; i < w.end; ++i) {
+        w.load += covariate(force[w.log](i, channel), relative * rms) / double(w.end - w.begin);
+      }
+    }
+    const Line line = fit_line(windows);
+    if (line.gain >= best.gain) best = line, chosen = windows, *knee = relative * rms;
+  }
+  windows = std::move(chosen);
+  // A burst that lasts is one observation, not one a window.
+  constexpr double kWindowsOfBurst = 4.0;
+  double scatter = 0.0, count = 0.0;
+  for (const Window& w : windows) {
+    if (!std::isfinite(w.level)) continue;
+    const double off = w.level - best.level - best.slope * (w.load - best.load);
+    scatter += off * off / w.variance(), ++count;
+  }
+  const double inflation = std::max(1.0, kWindowsOfBurst * scatter / std::max(1.0, count - 2.0));
+  best.slope *= kept(best.gain / inflation, 4.0);
+  return best;
+}
+
+/// Fills column `channel` of the levels.
+void level_of(const Case& study, const Signals& residual, const Signals& force, Index channel,
+              Signals& levels) {
+  std::vector<Window> windows = windows_of(study, residual, channel);
+  double knee = 1.0;
+  Line line = best_line(force, channel, &knee, windows);
+  if (line.slope == 0.0) line = fit_line(windows), line.slope = 0.0;
+  double scatter = 0.0, expected = 0.0;
+  for (const Window& w : windows) {
+    if (!std::isfinite(w.level)) continue;
+    const double off = w.level - line.level - line.slope * (w.load - line.load);
+    scatter += off * off, expected += w.variance();
+  }
+  // The spread of the expected scatter over so many windows is part of chance.
+  const auto count = static_cast<double>(std::max<std::size_t>(1, windows.size()));
+  const double share = kept(scatter, expected * (1.0 + 2.0 * std::sqrt(2.0 / count)));
+  constexpr double kLeast = -7.0;  // logarithm of a level, where the log repeats one value
   double power = 0.0, rows = 0.0;
-  for (auto& level : levels) {
-    if (spread <= kVaries * expected) level.setOnes();
-    level = level.cwiseMax(1e-3 * std::exp(mean));
-    power += level.squaredNorm();
-    rows += static_cast<double>(level.size());
+  for (const Window& w : windows) {
+    const double own = std::isfinite(w.level) ? w.level - line.level : kLeast;
+    const double burst = share * (own - line.slope * (w.load - line.load));
+    for (Index i = w.begin; i < w.end; ++i) {
+      double log_level = burst;
+      if (line.slope != 0.0) {
+        log_level += line.slope * (covariate(force[w.log](i, channel), knee) - line.load);
+      }
+      const double level = elementary::exp(std::clamp(log_level, kLeast, -kLeast));
+      levels[w.log](i, channel) = level;
+      power += level * level, ++rows;
+    }
   }
-  for (auto& level : levels) level /= std::sqrt(power / std::max(1.0, rows));
+  const double scale = std::sqrt(power / std::max(1.0, rows));
+  for (auto& level : levels) level.col(channel) /= scale > 0.0 ? scale : 1.0;
+}
+
+}  // namespace
+
+Signals noise_level(const Case& study, const Signals& residual) {
+  Signals levels, force;
+  for (std::size_t k = 0; k < residual.size(); ++k) {
+    levels.push_back(Eigen::MatrixXd::Ones(residual[k].rows(), residual[k].cols()));
+    force.push_back(study.logs[k].measured - residual[k]);
+  }
+  // On a coarse lattice differences tell where the force is, not how noisy it is.
+  if (study.is_static() || study.rounding_step > 0.0) return levels;
+  for (Index j = 0; j < study.channel_count(); ++j) {
+    level_of(study, residual, force, j, levels);
+  }
   return levels;
 }
 

@@ -6,6 +6,7 @@
 #include "diagnosis/candidates.h"
 #include "diagnosis/modulation.h"
 #include "diagnosis/search.h"
+#include "physics/effect_law.h"
 
 namespace dcnn {
 namespace {
@@ -69,8 +70,11 @@ std::vector<double> Search::doubts(double little) {
     // are is one of several.
     if (fit_.members[m].kind->stage == Stage::kResonance) {
       const double unseen = kUnseen * net_gain(m);
-      const bool one =
-          swings <= unseen && second_mode(*setting_, fit_, fit_.members[m]) < kSecondMode + unseen;
+      // Nor is it one where a second mode takes off most of what is left.
+      const double second = second_mode(*setting_, fit_, fit_.members[m]);
+      const double left = fit_.chi2 - static_cast<double>(setting_->whitener.rows());
+      const bool most = second > kSecondMode && second > 0.5 * left;
+      const bool one = swings <= unseen && second < kSecondMode + unseen && !most;
       apart = one ? 0.0 : kInfinity;
     }
   }

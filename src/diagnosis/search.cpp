@@ -70,8 +70,10 @@ const JointFit& Search::without(std::size_t member) const {
   return *place.rest;
 }
 
+double Search::gain(std::size_t member) const { return without(member).chi2 - fit_.chi2; }
+
 double Search::net_gain(std::size_t member) const {
-  return without(member).chi2 - fit_.chi2 - setting_->price * fit_.members[member].parameters();
+  return gain(member) - setting_->price * fit_.members[member].parameters();
 }
 
 const std::vector<Trial>& Search::others(std::size_t member) const {
@@ -140,8 +142,7 @@ bool Search::simplify() {
       ++m;
       continue;
     }
-    const double needed = least_gain(*setting_, fit_.members[m].parameters(), false);
-    if (without(m).chi2 - fit_.chi2 >= needed) {
+    if (gain(m) >= least_gain(*setting_, fit_.members[m].parameters(), false)) {
       ++m;
       continue;
     }
@@ -173,11 +174,11 @@ bool Search::swap() {
       const bool gives_way = is_degenerate(fit_.members[m]) && fewer > 0;
       const double least = own + setting_->price * (gives_way ? -fewer : 0.2);
       const int numbers = trial.member.parameters();
-      const double gain = rest.chi2 - other.chi2;
+      const double better = rest.chi2 - other.chi2;
       // What noise reaches takes no place; on a machine simplify() sees to that.
       const double needed =
           study_.axis ? 0.0 : least_gain(*setting_, numbers, rest.members.empty());
-      if (gain - setting_->price * numbers > least && gain >= needed) {
+      if (better - setting_->price * numbers > least && better >= needed) {
         settle(members);
         return true;
       }
@@ -231,6 +232,7 @@ void Search::run() {
   }
   let_ring();
   judge();
+  weigh();
 }
 
 }  // namespace dcnn

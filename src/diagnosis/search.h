@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/evidence/posterior.h"
 #include "diagnosis/judgement.h"
 #include "diagnosis/scan.h"
 
@@ -35,6 +36,7 @@ class Search {
   const std::optional<Member>& rounding() const { return rounding_; }
   const std::optional<Member>& knocking() const { return knocking_; }
   const std::vector<BandTest>& bands() const { return bands_; }
+  const evidence::Posterior& posterior() const { return posterior_; }
   /// For each member, other effects that the recordings cannot exclude in its place.
   std::vector<std::vector<std::string>> alternatives() const;
 
@@ -58,7 +60,8 @@ class Search {
                                std::optional<double> needed) const;
   /// The best effects in place of a member, its own among them.
   const std::vector<Trial>& others(std::size_t member) const;
-  /// What a member gains beyond the price of its numbers.
+  /// What a member takes off chi-square, and that beyond the price of its numbers.
+  double gain(std::size_t member) const;
   double net_gain(std::size_t member) const;
   void forget_places();
   /// Chi-square that the members took off: all, for what an error of the motion makes of their
@@ -87,6 +90,7 @@ class Search {
   void detect();
   bool hear_knocks();
   void drop_coincidences();
+  void drop_unconfirmed();
   void let_ring();
   bool is_alarming_now();
   bool are_constant() const;
@@ -103,6 +107,8 @@ class Search {
   bool take_back_relatives();
   bool keep_bystanders();
   bool uncover_relatives();
+  /// Evidence of the members, of subsets of them, and of none, with and without an unknown.
+  void weigh();
   void say(const std::string& text) const;
 
   Case study_, softer_, harder_;  // the two others smooth more and less: what smoothing alone does
@@ -116,6 +122,7 @@ class Search {
   std::vector<Member> apart_;                  // members found by tests of their own
   std::optional<Member> rounding_, knocking_;  // named, but no part of what is fitted
   std::vector<BandTest> bands_;
+  evidence::Posterior posterior_;
   std::vector<double> flicker_;  // of each channel, admitted beside the floor from above the motion
   bool events_allowed_ = true, remains_ = false;
   bool tuned_ = false;    // the smoother, to a mode

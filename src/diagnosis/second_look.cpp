@@ -93,10 +93,11 @@ void Search::prefer_flicker() {
         return m.fixed || m.kind->stage == Stage::kOffset;
       });
   if (!wanders && explained(true) > kFaint * setting_->price) return;
+  const double price = setting_->price;  // a slope of 1/f noise would make it dearer
   const auto unlikely = [&] {
     double numbers = 0.0;
     for (const Member& m : fit_.members) numbers += m.fixed ? 0.0 : m.parameters();
-    return fit_.chi2 + setting_->whitener.log_determinant() + 10.0 * numbers;
+    return fit_.chi2 + setting_->whitener.log_determinant() + price * numbers;
   };
   const std::vector<Member> members = fit_.members;
   const double with_names = unlikely();
@@ -104,7 +105,7 @@ void Search::prefer_flicker() {
   if (const auto flicker = flicker_below(study_, left_, floors_)) {
     flicker_ = *flicker;
     settle(apart_);
-    const double levels = 10.0 * static_cast<double>(flicker_.size());
+    const double levels = price * static_cast<double>(flicker_.size());
     if (unlikely() + levels < with_names && flicker_suffices()) return;
     flicker_.clear();
   }

@@ -37,6 +37,7 @@ void Search::make_setting(const std::vector<Member>& members) {
   const Signals raw = study_.lowpass_hz > 0.0 ? unfiltered_left(study_, members) : left_;
   const auto levels = noise_level(study_, raw);
   floors_ = noise_floor(study_, raw, levels);
+  bound_by_residual(study_, raw, levels, floors_);
   add_pose_noise(study_, floors_);
   for (std::size_t j = 0; j < flicker_.size(); ++j) {
     floors_[j].flicker += flicker_[j];
@@ -57,7 +58,9 @@ void Search::make_setting(const std::vector<Member>& members) {
     unfiltered.lowpass_hz = 0.0;
     floor.white = unfiltered.deviation() * unfiltered.deviation();
     floor.coloured = floor.flicker = 0.0;
+    floor.bounds.clear();
   }
+  if (study_.axis) bound_by_residual(study_, raw, levels, floors_);
   const Whitener whitener(study_, floors_, levels);
   const Index stride = whitener.coarse_stride();
   setting_ = std::make_unique<Setting>(Setting{

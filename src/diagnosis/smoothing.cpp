@@ -3,15 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/search.h"
+#include "physics/effect_law.h"
 
 namespace dcnn {
 namespace {
 
 constexpr double kTuning = 1.25;  // from one cut-off to the next
 constexpr int kMostTunings = 6;
+
+DerivativeSpec low_pass_spec(double cutoff_hz, double subtraction) {
+  return {
+      .kind = DerivativeSpec::Kind::kSpectral, .cutoff_hz = cutoff_hz, .subtraction = subtraction};
+}
 
 /// dF/dt and d2F/dt2 of the prediction: what a delay or a low-pass looks like when small.
 std::vector<Signals> lag_columns(const Case& study, const Signals& prediction) {
@@ -34,10 +41,10 @@ double linear_misfit(const Case& study, const std::vector<Member>& members) {
   const Signals prediction = predict(study, members);
   std::vector<Floor> floors(static_cast<std::size_t>(study.channel_count()));
   for (auto& floor : floors) floor.white = 1.0;
-  std::vector<Eigen::VectorXd> levels;
+  Signals levels;
   Signals measured;
   for (const Log& log : study.logs) {
-    levels.push_back(Eigen::VectorXd::Ones(log.motion.samples()));
+    levels.push_back(Eigen::MatrixXd::Ones(log.motion.samples(), study.channel_count()));
     measured.push_back(log.measured);
   }
   Case unsmoothed = study;  // its whitener must not depend on the cut-off
@@ -82,21 +89,27 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
   const double top = std::min(45.0 * pace, (pace > 1.0 ? 0.4 : 0.2) / study_.dt());
   for (double hz = 5.0 * pace; hz < top; hz *= 1.4) grid.push_back(hz);
   if (grid.empty()) grid.push_back(0.1 / study_.dt());
-  std::vector<double> misfit(grid.size());
-  const auto at = [&](double hz) {
+  // Each cut-off without and, where the pose is differentiated, with the Wiener gain.
+  // Its spectrum is averaged over half a hertz, which must hold five bins.
+  constexpr double kWienerSeconds = 10.0;  // s
+  const std::size_t kinds = study_.axis || longest_seconds(study_) < kWienerSeconds ? 1 : 2;
+  std::vector<double> all(kinds * grid.size());
+  for_each_piece(static_cast<Index>(all.size()), [&](Index k) {
+    const auto at = static_cast<std::size_t>(k);
     Case trial = study_;
-    set_derivative(trial, {.kind = DerivativeSpec::Kind::kSpectral, .cutoff_hz = hz});
-    return linear_misfit(trial, members);
-  };
-  for_each_piece(static_cast<Index>(grid.size()), [&](Index k) {
-    misfit[static_cast<std::size_t>(k)] = at(grid[static_cast<std::size_t>(k)]);
+    set_derivative(trial, low_pass_spec(grid[at % grid.size()], at < grid.size() ? 0.0 : 1.0));
+    all[at] = linear_misfit(trial, members);
   });
-  const auto best =
-      static_cast<std::size_t>(std::min_element(misfit.begin(), misfit.end()) - misfit.begin());
+  const auto least = std::min_element(all.begin(), all.end()) - all.begin();
+  const std::size_t kind = static_cast<std::size_t>(least) / grid.size();
+  const std::size_t best = static_cast<std::size_t>(least) % grid.size();
+  const auto first = all.begin() + static_cast<std::ptrdiff_t>(kind * grid.size());
+  const std::vector<double> misfit(first, first + static_cast<std::ptrdiff_t>(grid.size()));
+  study_.derivative.subtraction = kind == 0 ? 0.0 : 1.0;
   double cutoff = grid[best];
   if (best > 0 && best + 1 < grid.size()) {  // vertex of the parabola through the three
     const double below = misfit[best - 1] - misfit[best], above = misfit[best + 1] - misfit[best];
-    cutoff *= std::pow(1.4, 0.5 * (below - above) / (below + above));
+    cutoff *= elementary::pow(1.4, 0.5 * (below - above) / (below + above));
   }
   smooth(cutoff);
 }
@@ -129,14 +142,16 @@ void Search::tune_to_mode() {
 }
 
 void Search::smooth(double cutoff_hz) {
-  const auto smoothed = [&](double hz) {
+  constexpr double kOver = 3.0;  // of the noise that the Wiener gain takes off
+  const double subtraction = study_.derivative.subtraction;
+  const auto smoothed = [&](double hz, double times) {
     Case other = study_;
-    set_derivative(other, {.kind = DerivativeSpec::Kind::kSpectral, .cutoff_hz = hz});
+    set_derivative(other, low_pass_spec(hz, times * subtraction));
     return other;
   };
-  softer_ = smoothed(0.75 * cutoff_hz);
-  harder_ = smoothed(1.4 * cutoff_hz);
-  study_ = smoothed(cutoff_hz);
+  softer_ = smoothed(0.75 * cutoff_hz, kOver);
+  harder_ = smoothed(1.4 * cutoff_hz, 1.0 / kOver);
+  study_ = smoothed(cutoff_hz, 1.0);
 }
 
 }  // namespace dcnn

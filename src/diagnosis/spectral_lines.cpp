@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "core/elementary.h"
 #include "dcnn/data/fourier.h"
 
 namespace dcnn {
@@ -13,22 +15,26 @@ Eigen::VectorXd hann_power(const Eigen::VectorXd& x, Index length) {
   const Eigen::ArrayXd phase = Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5) *
                                2.0 * std::numbers::pi / double(n);
   Eigen::VectorXd tapered = Eigen::VectorXd::Zero(length);
-  tapered.head(n) = (x.array() - x.mean()) * (1.0 - phase.cos());
+  tapered.head(n) = (x.array() - x.mean()) * (1.0 - elementary::cos(phase));
   return fourier(tapered).cwiseAbs2() / (1.5 * static_cast<double>(n));
 }
 
 namespace {
 
-/// The mean level beside bin k of a sum of `terms` periodograms, from its median.
-double level_beside(const Eigen::VectorXd& power, Index k, Index around, int terms) {
+constexpr Index kFewestBeside = 12;  // bins, on each side
+
+/// The mean level beside bin k of a sum of `terms` periodograms, from its median; none of a
+/// spectrum with nothing beside it.
+std::optional<double> level_beside(const Eigen::VectorXd& power, Index k, Index around, int terms) {
   std::vector<double> beside;
   for (Index i = std::max<Index>(1, k - around); i < std::min(power.size(), k + around); ++i) {
     if (std::abs(i - k) > 3) beside.push_back(power(i));
   }
+  if (beside.empty()) return std::nullopt;
   const auto middle = beside.begin() + static_cast<std::ptrdiff_t>(beside.size() / 2);
   std::nth_element(beside.begin(), middle, beside.end());
   // Of an exponential distribution, and nearly of a gamma distribution.
-  const double median = terms == 1 ? std::log(2.0) : 1.0 - 1.0 / (3.0 * terms);
+  const double median = terms == 1 ? elementary::log(2.0) : 1.0 - 1.0 / (3.0 * terms);
   return *middle / median;
 }
 
@@ -91,9 +97,9 @@ std::vector<CommonLine> common_lines(const Case& study, const Signals& left,
   for (const auto& recording : left) longest = std::max(longest, recording.rows());
   const Index length = fast_length(longest);
   const double bin_hz = 1.0 / (static_cast<double>(length) * study.dt());
-  const auto around = static_cast<Index>(1.5 / bin_hz);
+  const auto around = std::max(kFewestBeside, static_cast<Index>(1.5 / bin_hz));
+  const auto terms = static_cast<int>(floors.size() * left.size());
   Eigen::VectorXd sum;
-  int terms = 0;
   for (std::size_t j = 0; j < floors.size(); ++j) {
     Eigen::VectorXd density;
     for (const auto& recording : left) {
@@ -101,12 +107,13 @@ std::vector<CommonLine> common_lines(const Case& study, const Signals& left,
       if (density.size() == 0) density = densities(floors[j], power.size(), bin_hz);
       if (sum.size() == 0) sum = Eigen::VectorXd::Zero(power.size());
       sum += power.cwiseQuotient(density);
-      ++terms;
     }
   }
   std::vector<CommonLine> lines;
   for (const Index k : maxima(sum, sum, bin_hz, from_hz, to_hz, most)) {
-    const double unit = std::max(1e-300, level_beside(sum, k, around, terms) / terms);
+    const auto level = level_beside(sum, k, around, terms);
+    if (!level) continue;
+    const double unit = std::max(1e-300, *level / terms);
     lines.push_back({static_cast<double>(k) * bin_hz, sum(k), sum(k) / unit - terms, terms});
   }
   return lines;

@@ -27,6 +27,38 @@ std::size_t telling_channel(const Json& fit) {
   return best;
 }
 
+/// "falls from 0.31 to 0.04 N": the held-out error of a channel, in words.
+std::string change_of(const Json& report, std::size_t j) {
+  const Json& fit = report["fit"];
+  const auto unit = report["units"][j].get<std::string>();
+  const double before = fit["holdout_rmse_before"][j], after = fit["holdout_rmse_after"][j];
+  const std::string a = brief(before), b = brief(after);
+  if (a == b) return "stays at " + a + " " + unit;
+  return (after < before ? "falls from " : "rises from ") + a + " to " + b + " " + unit;
+}
+
+/// The channels that got worse, and the one that is left farthest above its noise, where that is
+/// not the one that was named already.
+std::string other_channels(const Json& report, std::size_t named) {
+  constexpr double kFar = 1.2;
+  const Json& fit = report["fit"];
+  std::string text;
+  double most = kFar;
+  std::size_t worst = named;
+  for (std::size_t j = 0; j < report["targets"].size(); ++j) {
+    const double before = fit["holdout_rmse_before"][j], after = fit["holdout_rmse_after"][j];
+    const double noise = fit["noise_floor"][j];
+    if (j != named && after > before && brief(after) != brief(before)) {
+      text += "; that of " + report["targets"][j].get<std::string>() + " " + change_of(report, j);
+    } else if (after > most * noise) {
+      most = after / noise, worst = j;
+    }
+  }
+  if (worst == named) return text;
+  return text + "; that of " + report["targets"][worst].get<std::string>() + " " +
+         change_of(report, worst) + ", " + brief(most) + " times its noise";
+}
+
 std::string capitalised(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;
@@ -51,8 +83,8 @@ std::string headline(const Json& report) {
     text += (text.empty() ? "" : "; and ") + report["unnamed"]["words"].get<std::string>();
   }
   return capitalised(text) + ". The hold-out error of " + report["targets"][j].get<std::string>() +
-         " falls from " + at("holdout_rmse_before") + " to " + at("holdout_rmse_after") + " " +
-         unit + ", the sensor's noise is " + at("noise_floor") + " " + unit + ".";
+         " " + change_of(report, j) + ", the sensor's noise is " + at("noise_floor") + " " + unit +
+         other_channels(report, j) + ".";
 }
 
 std::string to_text(const Diagnosis& diagnosis) {

@@ -87,11 +87,31 @@ bool Search::is_alarming_now() {
   return !study_.without.omnibus && is_alarming(bands_, explained(true));
 }
 
+/// Of a tool: an effect that a fit to the other pieces of time does not show to help on each piece
+/// in turn explains some moments, and nothing outside them. What acts for some time alone is seen
+/// in few pieces, and an offset that drifts only as a whole.
+void Search::drop_unconfirmed() {
+  if (study_.axis || study_.is_static()) return;
+  while (true) {
+    const auto shares = left_out_shares(*setting_, fit_);
+    double least = 0.0;
+    std::optional<std::size_t> worst;
+    for (std::size_t m = 0; m < shares.size(); ++m) {
+      const Member& member = fit_.members[m];
+      const bool whole = !member.interval_s && member.kind->stage != Stage::kOffset;
+      if (whole && !stays(member) && shares[m] < least) least = shares[m], worst = m;
+    }
+    if (!worst) return;
+    settle(members_without(*worst));
+  }
+}
+
 /// Takes back what a remainder nobody can name makes doubtful: events, but for those of which only
 /// the shape is a little off, and members that fit in some places and not in others.
 void Search::judge() {
   constexpr double kPlain = 20.0;  // times what is left, that an event explains
   drop_coincidences();
+  drop_unconfirmed();
   if (study_.axis) keep_what_carries_over();
   prefer_flicker();
   remains_ = is_alarming_now();
@@ -155,7 +175,8 @@ void Search::drop_minor() {
 }
 
 /// Of a machine, where laws are never constant to the last digit: a name must help on pieces of
-/// time on which it was not fitted; and a mode takes nothing off.
+/// time on which it was not fitted; and a mode takes nothing off. What stays may need fewer
+/// numbers.
 void Search::keep_what_carries_over() {
   constexpr double kMostOfIt = 0.5;
   std::vector<Member> members = fit_.members;

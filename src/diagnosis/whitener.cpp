@@ -4,6 +4,8 @@
 #include <complex>
 #include <numbers>
 
+#include "core/elementary.h"
+
 namespace dcnn {
 namespace {
 
@@ -20,26 +22,23 @@ Eigen::VectorXd block_covariance(const Density& density, Index block, double dt,
   const auto b = static_cast<double>(block);
   for (int i = 0; i < kFrequencies; ++i) {
     const double hz = (i + 0.5) / kFrequencies * 0.5 / dt, x = std::numbers::pi * hz * dt;
-    const double mean = std::sin(b * x) / (b * std::sin(x));
+    const double mean = elementary::sin(b * x) / (b * elementary::sin(x));
     const double power = density(hz) * mean * mean / kFrequencies;
-    for (int lag = 0; lag <= order; ++lag) covariance(lag) += power * std::cos(2.0 * x * b * lag);
+    for (int lag = 0; lag <= order; ++lag)
+      covariance(lag) += power * elementary::cos(2.0 * x * b * lag);
   }
   return covariance;
 }
 
 }  // namespace
 
-Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
-                   const std::vector<Eigen::VectorXd>& levels)
+Whitener::Whitener(const Case& study, const std::vector<Floor>& floors, const Signals& levels)
     : floors_(floors), channels_(study.channel_count()) {
   const bool moving = !study.is_static();
   const double dt = moving ? study.dt() : 1.0;
   block_ = moving ? std::max<Index>(1, std::llround(kBlockPeriods / study.motion_hz / dt)) : 1;
   if (block_ > 3) block_ += block_ % 2;  // two halves: coarse_stride()
   block_seconds_ = static_cast<double>(block_) * dt;
-  const double cutoff = study.derivative.kind == DerivativeSpec::Kind::kSpectral && moving
-                            ? study.derivative.cutoff_hz
-                            : 0.0;
   block_deviation_.resize(channels_);
   Eigen::VectorXd pose_share = Eigen::VectorXd::Zero(channels_);  // of a block's variance
   for (Index j = 0; j < channels_; ++j) {
@@ -47,8 +46,8 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
     const int longest = !moving ? 0 : floor.flicker > 0.0 ? kLongOrder : kOrder;
     Eigen::VectorXd c = Eigen::VectorXd::Zero(longest + 1);
     if (moving) {
-      const Eigen::VectorXd pose = block_covariance(
-          [&](double hz) { return floor.pose_density(hz, cutoff); }, block_, dt, longest);
+      const Eigen::VectorXd pose =
+          block_covariance([&](double hz) { return floor.pose_density(hz); }, block_, dt, longest);
       c = pose +
           block_covariance([&](double hz) { return floor.density(hz); }, block_, dt, longest);
       pose_share(j) = c(0) > 0.0 ? pose(0) / c(0) : 0.0;
@@ -97,7 +96,8 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors,
         const Index middle = run.first + b * block_ + block_ / 2;
         info_.push_back({static_cast<std::uint32_t>(run.log), static_cast<std::uint32_t>(j),
                          study.logs[run.log].motion.t(middle)});
-        const double level = levels[run.log](middle);  // of the sensor's noise, not of the pose's
+        const double level =
+            levels[run.log](middle, j);  // of the sensor's noise, not of the pose's
         inverse_level_(row) =
             1.0 / std::sqrt(pose_share(j) + (1.0 - pose_share(j)) * level * level);
       }
@@ -123,8 +123,8 @@ Whitener Whitener::at_stride(Index stride) const {
 double Whitener::log_determinant() const {
   double sum = 0.0;
   for (std::size_t row = 0; row < info_.size(); ++row) {
-    sum += std::log(filters_[info_[row].channel].deviation.back() /
-                    inverse_level_(static_cast<Index>(row)));
+    sum += elementary::log(filters_[info_[row].channel].deviation.back() /
+                           inverse_level_(static_cast<Index>(row)));
   }
   return 2.0 * sum;
 }
@@ -136,7 +136,7 @@ double Whitener::expected_density(Index channel, double hz) const {
   std::complex<double> gain = 1.0;
   for (std::size_t i = 0; i < filter.coefficients.back().size(); ++i) {
     const double angle = 2.0 * std::numbers::pi * hz * block_seconds_ * double(i + 1);
-    gain -= filter.coefficients.back()[i] * std::polar(1.0, -angle);
+    gain -= filter.coefficients.back()[i] * elementary::polar(1.0, -angle);
   }
   // Of block means below half their rate, where the average over a block hardly attenuates.
   const double variance = filter.deviation.back() * filter.deviation.back();

@@ -10,14 +10,14 @@ namespace dcnn {
 /// the smoother has one side only, are left out.
 class Whitener {
  public:
-  Whitener(const Case& study, const std::vector<Floor>& floors,
-           const std::vector<Eigen::VectorXd>& levels);
+  Whitener(const Case& study, const std::vector<Floor>& floors, const Signals& levels);
 
   /// The same map for signals seen at every stride-th sample (thinned()).
   Whitener at_stride(Index stride) const;
   /// A stride at which a block still holds two samples.
   Index coarse_stride() const { return block_ % 2 == 0 ? block_ / 2 : 1; }
 
+  Index block() const { return block_; }  ///< samples of a mean
   Index rows() const { return rows_; }
   Eigen::VectorXd operator()(const Signals& signals) const;
 

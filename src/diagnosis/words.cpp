@@ -94,7 +94,8 @@ std::string in_words(const Member& member, const Estimates& n) {
     return "the sensor's axes leak into each other, by " + brief(100.0 * length_of(n, "c_", "")) +
            " % in all";
   if (id == "time_delay")
-    return "the force lags the pose by " + milli(value_of(n, "delay_s"), "ms");
+    return std::string("the force ") + (value_of(n, "delay_s") < 0.0 ? "leads" : "lags") +
+           " the pose by " + milli(std::abs(value_of(n, "delay_s")), "ms");
   if (id == "lowpass")
     return "the sensor smooths with a time constant of " + milli(value_of(n, "tau_s"), "ms");
   if (id == "thermal_drift") return "the sensor's offset drifts with its temperature";

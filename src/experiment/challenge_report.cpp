@@ -149,6 +149,7 @@ std::string challenge_html(const Json& scores) {
                        {"verdict", "verdict"},
                        {"after_over_oracle", "hold-out over the true law's"}};
   add_table(page, "By group", tables["group"], groups);
+  add_table(page, "By family of conditions", tables["family"], groups);
   add_table(page, "By motion", tables["motion"], groups);
   add_table(page, "By noise", tables["noise"], groups);
   add_failures(page, scores["scenarios"]);

@@ -162,6 +162,9 @@ std::string challenge_text(const Json& scores) {
     text += std::to_string(scores["missing"].size()) + " scenarios are not yet run\n";
   }
   text += "\n" + comparison_text(scores["tables"]["group"]);
+  if (scores["tables"]["family"].size() > 1) {
+    text += "\n" + comparison_text(scores["tables"]["family"]);
+  }
   const Json& single = scores["tables"]["single"];
   if (single.size() > 1) {
     text += "\n" + comparison_text(single) + "\n" + singles_text(scores["tables"]["single_effect"]);

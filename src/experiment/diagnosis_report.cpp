@@ -1,6 +1,7 @@
 #include "dcnn/experiment/diagnosis_report.h"
 
 #include <algorithm>
+#include <set>
 
 #include "dcnn/core/file.h"
 #include "dcnn/data/csv.h"
@@ -21,36 +22,58 @@ std::string text_of(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump();
 }
 
+const std::vector<std::pair<const char*, const char*>> kStages{
+    {"holdout_rmse_before", "as given"},
+    {"holdout_rmse_parameters", "own numbers refitted"},
+    {"holdout_rmse_after", "with all findings"},
+    {"noise_floor", "sensor's noise"}};
+
+/// The errors of the targets that share a unit.
+Chart error_chart(const Json& report, const std::string& unit) {
+  Chart chart{"RMSE on held-out data", "", "RMSE [" + unit + "]", {}, {}, false, 720, 280, true};
+  for (const auto& [key, label] : kStages) {
+    const Json& values = report["fit"][key];
+    if (values.is_null()) continue;
+    Series series{label, {}, {}, {}, Series::Style::kMarkers};
+    for (std::size_t j = 0; j < values.size(); ++j) {
+      if (text_of(report["units"][j]) != unit || values[j].is_null()) continue;
+      series.x.push_back(static_cast<double>(series.x.size()));
+      series.y.push_back(values[j].get<double>());
+    }
+    chart.series.push_back(series);
+  }
+  for (std::size_t j = 0; j < report["targets"].size(); ++j) {
+    if (text_of(report["units"][j]) == unit) chart.categories.push_back(text_of(report["targets"][j]));
+  }
+  return chart;
+}
+
 void add_errors(const Json& report, HtmlReport& page) {
   page.heading("Error on held-out data");
   const Json& fit = report["fit"];
   std::vector<std::vector<std::string>> rows;
-  Chart chart{"RMSE on held-out data", "", "RMSE", {}, {}, false, 720, 280, true};
-  const std::vector<std::pair<const char*, const char*>> stages{
-      {"holdout_rmse_before", "as given"},
-      {"holdout_rmse_parameters", "own numbers refitted"},
-      {"holdout_rmse_after", "with all findings"},
-      {"noise_floor", "sensor's noise"}};
-  for (const auto& [key, label] : stages) {
+  for (const auto& [key, label] : kStages) {
     if (fit[key].is_null()) continue;
-    Series series{label, {}, {}, {}, Series::Style::kMarkers};
     std::vector<std::string> row{label};
-    for (std::size_t j = 0; j < fit[key].size(); ++j) {
-      series.x.push_back(static_cast<double>(j));
-      series.y.push_back(fit[key][j].get<double>());
-      row.push_back(shown(fit[key][j]));
-    }
+    for (const Json& value : fit[key]) row.push_back(shown(value));
     rows.push_back(row);
-    chart.series.push_back(series);
   }
   std::vector<std::string> header{"RMSE"};
   for (std::size_t j = 0; j < report["targets"].size(); ++j) {
-    const auto name = report["targets"][j].get<std::string>();
-    header.push_back(name + " [" + report["units"][j].get<std::string>() + "]");
-    chart.categories.push_back(name);
+    header.push_back(text_of(report["targets"][j]) + " [" + text_of(report["units"][j]) + "]");
+  }
+  const auto units = report["units"].get<std::vector<std::string>>();
+  for (const std::string& unit : std::set<std::string>(units.begin(), units.end())) {
+    page.chart(error_chart(report, unit),
+               "The first and last 0.5 s of each recording are left out.");
   }
   page.table(header, rows);
-  page.chart(chart, "The first and last 0.5 s of each recording are left out.");
+}
+
+/// An identifier as words: "coulomb_friction" is "coulomb friction".
+std::string in_words(std::string id) {
+  std::replace(id.begin(), id.end(), '_', ' ');
+  return id;
 }
 
 void add_findings(const Json& report, HtmlReport& page) {
@@ -65,9 +88,10 @@ void add_findings(const Json& report, HtmlReport& page) {
     }
     std::string alternatives;
     for (const Json& a : f["alternatives"]) {
-      alternatives += (alternatives.empty() ? "" : ", ") + a.get<std::string>();
+      const Json& effect = a.is_object() ? a["effect"] : a;
+      alternatives += (alternatives.empty() ? "" : ", ") + in_words(text_of(effect));
     }
-    rows.push_back({text_of(f["effect"]), text_of(f["axis"]), parameters, shown(f["confidence"]),
+    rows.push_back({in_words(text_of(f["effect"])), in_words(text_of(f["axis"])), parameters, shown(f["confidence"]),
                     shown(f["holdout_gain"]), alternatives});
   }
   if (rows.empty()) {
@@ -77,6 +101,10 @@ void add_findings(const Json& report, HtmlReport& page) {
   page.table({"effect", "axis", "parameters with 95 % intervals", "confidence", "hold-out gain",
               "cannot be excluded"},
              rows);
+  page.paragraph(
+      "Confidence: the probability that the finding is true, after the search over the whole "
+      "catalogue. Hold-out gain: the share of the held-out RMSE that would come back without this "
+      "finding, 1 - after / (after without it).");
 }
 
 void add_portraits(const Diagnosis& diagnosis, HtmlReport& page) {
@@ -99,10 +127,20 @@ void add_portraits(const Diagnosis& diagnosis, HtmlReport& page) {
   }
 }
 
+/// First row and number of rows without the first and last 0.5 s; all of a recording too short.
+std::pair<Eigen::Index, Eigen::Index> scored_rows(const Eigen::VectorXd& t) {
+  constexpr double kEnd = 0.5;  // s
+  const auto first = std::lower_bound(t.begin(), t.end(), t[0] + kEnd) - t.begin();
+  const auto last = std::upper_bound(t.begin(), t.end(), t[t.size() - 1] - kEnd) - t.begin();
+  return last > first ? std::pair(first, last - first) : std::pair<Eigen::Index, Eigen::Index>(0, t.size());
+}
+
 void add_traces(const Diagnosis& diagnosis, HtmlReport& page) {
   if (diagnosis.holdout.empty()) return;
   page.heading("Held-out recording, before and after");
   const HeldOut& record = diagnosis.holdout.front();
+  const auto [from, rows] = scored_rows(record.t);
+  const std::vector<double> t = list_of(record.t.segment(from, rows));
   for (Eigen::Index j = 0; j < record.measured.cols(); ++j) {
     const auto& target = diagnosis.report["targets"][static_cast<std::size_t>(j)];
     const auto& unit = diagnosis.report["units"][static_cast<std::size_t>(j)];
@@ -114,11 +152,11 @@ void add_traces(const Diagnosis& diagnosis, HtmlReport& page) {
                 false,
                 720,
                 240};
-    const Eigen::VectorXd before = record.measured.col(j) - record.before.col(j);
-    const Eigen::VectorXd after = record.measured.col(j) - record.after.col(j);
-    chart.series.push_back({"as given", list_of(record.t), list_of(before), {}});
-    chart.series.push_back({"with all findings", list_of(record.t), list_of(after), {}});
-    page.chart(chart, record.recording);
+    const Eigen::VectorXd before = (record.measured.col(j) - record.before.col(j)).segment(from, rows);
+    const Eigen::VectorXd after = (record.measured.col(j) - record.after.col(j)).segment(from, rows);
+    chart.series.push_back({"as given", t, list_of(before), {}});
+    chart.series.push_back({"with all findings", t, list_of(after), {}});
+    page.chart(chart, record.recording + ", without the ends that the score leaves out");
   }
 }
 
@@ -171,10 +209,10 @@ void add_limits(const Json& report, HtmlReport& page) {
   page.heading("What was not found, and from which size on it would have been");
   std::vector<std::vector<std::string>> rows;
   for (const Json& n : report["not_detected"]) {
-    rows.push_back({text_of(n["effect"]), shown(n["minimum_detectable_rms"]), ""});
+    rows.push_back({in_words(text_of(n["effect"])), shown(n["minimum_detectable_rms"]), ""});
   }
   for (const Json& n : report["not_testable"]) {
-    rows.push_back({text_of(n["effect"]), "", text_of(n["why"])});
+    rows.push_back({in_words(text_of(n["effect"])), "", text_of(n["why"])});
   }
   page.table({"effect", "least detectable rms [unit of the target]", "not testable because"}, rows);
 }
@@ -186,8 +224,8 @@ std::string to_html(const Diagnosis& diagnosis) {
   HtmlReport page("Diagnosis: what the simulator leaves out");
   page.paragraph(headline(report));
   page.paragraph("Verdict: " + report["verdict"].get<std::string>() + ".");
-  add_findings(report, page);
   add_errors(report, page);
+  add_findings(report, page);
   add_portraits(diagnosis, page);
   add_traces(diagnosis, page);
   add_budget(report, page);

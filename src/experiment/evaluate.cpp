@@ -8,6 +8,7 @@
 
 #include "dcnn/data/pose_noise.h"
 #include "dcnn/models/network_model.h"
+#include "experiment/references.h"
 
 namespace dcnn {
 namespace {
@@ -204,6 +205,20 @@ void note_beyond(Evaluation& evaluation, const std::string& file) {
   }
 }
 
+/// The rigid tool beside a model and the noise; after the model's own predictions.
+void add_references(const std::filesystem::path& model, const EvaluationRequest& request,
+                    RecordingCache& recordings, Evaluation& evaluation) {
+  EvaluationReferences& references = evaluation.references;
+  const auto file = rigid_file(model);
+  if (references.rigid || !std::filesystem::exists(file)) return;
+  const Identifier rigid = read_identifier(file);
+  if (rigid.targets.names != evaluation.targets.names) return;
+  const TestSet set = thinned(make_test_set(rigid, recordings.get(rigid.layout)), request.every);
+  references.rigid = score(predict_every(*rigid.model, set.stream, request.every) + set.base,
+                           set.wanted, rigid.targets);
+  references.rigid_file = (file.parent_path().filename() / file.filename()).string();
+}
+
 void check_targets(const Evaluation& evaluation, const Identifier& identifier,
                    const std::string& file) {
   require(evaluation.targets.names.empty() || evaluation.targets.names == identifier.targets.names,
@@ -265,7 +280,10 @@ Evaluation evaluate(const EvaluationRequest& request,
       std::move(rows.begin(), rows.end(), std::back_inserter(evaluation.rows));
     }
     note_beyond(evaluation, file);
+    if (identifier.layout.dt > 0.0) evaluation.references.noise = white_noise(set.unfiltered);
+    add_references(path, request, recordings, evaluation);
   }
+  add_warnings(evaluation);
   for (const auto& path : request.data) evaluation.data.push_back(path.filename().string());
   return evaluation;
 }

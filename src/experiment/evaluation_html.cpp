@@ -8,6 +8,7 @@
 #include "dcnn/experiment/report.h"
 #include "dcnn/experiment/train.h"
 #include "experiment/levels.h"
+#include "experiment/markup.h"
 
 namespace dcnn {
 namespace {
@@ -50,6 +51,23 @@ Chart level_chart(const Evaluation& evaluation, const std::string& title, const 
   return chart;
 }
 
+/// The first model's error in one sentence, beside the references.
+std::string answer(const Evaluation& evaluation) {
+  const EvaluationSummary& s = evaluation.summary.front();
+  const auto& unit = evaluation.targets.units.front();
+  const auto& beside = evaluation.references;
+  if (!s.overall) return s.file + " on " + std::to_string(evaluation.samples) + " samples.";
+  std::string text = s.file + " predicts " + evaluation.data.front() + " with an RMSE of " +
+                     significant(s.overall->mean, 3) + " " + unit + " (" + level_name(s.snr_db) + ")";
+  if (evaluation.unidentified.overall) {
+    text += "; without identification it is " + significant(*evaluation.unidentified.overall, 3) + " " + unit;
+  }
+  if (beside.rigid && beside.rigid->overall) {
+    text += ", with the rigid tool " + significant(*beside.rigid->overall, 3) + " " + unit;
+  }
+  return text + ".";
+}
+
 void add_table(HtmlReport& page, const Evaluation& evaluation) {
   std::vector<std::string> header{"model", "SNR", "runs"};
   for (std::size_t j = 0; j < evaluation.targets.names.size(); ++j) {
@@ -70,12 +88,23 @@ void add_table(HtmlReport& page, const Evaluation& evaluation) {
     row.emplace_back(text);
     rows.push_back(row);
   }
+  const auto reference = [&](const std::string& name, const std::vector<double>& rmse,
+                             const std::optional<double>& overall) {
+    std::vector<std::string> row{name, "clean", "–"};
+    for (const double value : rmse) row.push_back(significant(value, 3));
+    row.push_back(overall ? significant(*overall, 3) : "–");
+    row.insert(row.end(), {"–", "–"});
+    rows.push_back(row);
+  };
+  const auto& beside = evaluation.references;
+  if (beside.rigid) reference("rigid tool", beside.rigid->rmse, beside.rigid->overall);
+  reference("no identification", evaluation.unidentified.rmse, evaluation.unidentified.overall);
+  reference("white noise of the sensor", beside.noise, std::nullopt);
   page.table(header, rows);
   page.paragraph(
       "RMSE as mean ± standard deviation over noise draws; the largest error over all targets "
-      "and the least R² of them are those of the first draw. Without identification the overall "
-      "RMSE is " +
-      std::to_string(evaluation.unidentified.overall.value_or(0.0)) + ".");
+      "and the least R² of them are those of the first draw. The rigid tool was fitted to the "
+      "training rows of the first model; no model can be better than the white noise.");
 }
 
 std::vector<double> values(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
@@ -173,21 +202,23 @@ void add_settings(HtmlReport& page, const Evaluation& evaluation,
 
 std::string to_html(const Evaluation& evaluation, const EvaluationRequest& request) {
   HtmlReport page("Tool dynamics identification: evaluation");
-  page.heading("Error against input noise");
   const auto& targets = evaluation.targets;
+  page.paragraph(answer(evaluation));
+  for (const auto& warning : evaluation.references.warnings) page.paragraph(warning);
   if (evaluation.summary.front().overall) {
     page.chart(level_chart(evaluation, "overall", targets.units[0],
                            [](const EvaluationSummary& s) { return *s.overall; }),
                "mean of the RMSEs per axis (Eq. 6); bars: mean, whiskers: one standard deviation "
                "over draws");
   }
+  add_table(page, evaluation);
+  add_traces(page, evaluation);
+  page.heading("Error of each target against input noise");
   for (std::size_t j = 0; j < targets.names.size(); ++j) {
     page.chart(level_chart(evaluation, targets.names[j], targets.units[j],
                            [j](const EvaluationSummary& s) { return s.rmse[j]; }),
                "");
   }
-  add_table(page, evaluation);
-  add_traces(page, evaluation);
   if (std::any_of(request.models.begin(), request.models.end(), [](const auto& model) {
         return std::filesystem::exists(run_directory(model) / "metrics.jsonl");
       })) {

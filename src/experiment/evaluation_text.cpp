@@ -71,6 +71,13 @@ Json to_json(const Evaluation& evaluation) {
   for (const auto& s : evaluation.summary) {
     json["summary"].push_back(summary_json(s, evaluation.unidentified));
   }
+  const EvaluationReferences& beside = evaluation.references;
+  json["references"] = {{"none", evaluation.unidentified.rmse},
+                        {"rigid", beside.rigid ? Json(beside.rigid->rmse) : Json()},
+                        {"rigid_overall", beside.rigid ? or_null(beside.rigid->overall) : Json()},
+                        {"rigid_file", beside.rigid ? Json(beside.rigid_file) : Json()},
+                        {"white_noise", beside.noise}};
+  json["warnings"] = beside.warnings;
   json["unidentified"] = {{"rmse", evaluation.unidentified.rmse},
                           {"rmse_overall", or_null(evaluation.unidentified.overall)}};
   if (!evaluation.unfiltered.empty()) {
@@ -83,7 +90,9 @@ Json to_json(const Evaluation& evaluation) {
 std::string to_text(const Evaluation& evaluation) {
   std::size_t width = std::string(kUnidentified).size() + 2;
   for (const auto& s : evaluation.summary) width = std::max(width, s.file.size() + 2);
-  std::string text = padded("file", width) + padded("SNR [dB]", 10) + padded("runs", 6);
+  std::string text;
+  for (const auto& warning : evaluation.references.warnings) text += warning + "\n";
+  text += padded("file", width) + padded("SNR [dB]", 10) + padded("runs", 6);
   for (std::size_t j = 0; j < evaluation.targets.names.size(); ++j) {
     text += padded(evaluation.targets.names[j] + " [" + evaluation.targets.units[j] + "]", kColumn);
   }
@@ -100,11 +109,16 @@ std::string to_text(const Evaluation& evaluation) {
   for (const auto& s : evaluation.summary) {
     line(s.file, s.snr_db ? cell("%g", *s.snr_db) : "clean", s.runs, s.rmse, s.overall);
   }
-  std::vector<Spread> zero;
-  for (const double value : evaluation.unidentified.rmse) zero.push_back({value, 0.0});
-  std::optional<Spread> overall;
-  if (evaluation.unidentified.overall) overall = Spread{*evaluation.unidentified.overall, 0.0};
-  line(kUnidentified, "-", 1, zero, overall);
+  const auto reference = [&](const std::string& name, const std::vector<double>& rmse,
+                             const std::optional<double>& overall) {
+    text += padded(name, width) + padded("clean", 10) + padded("1", 6);
+    for (const double value : rmse) text += padded(cell("%.5f", value), kColumn);
+    text += (overall ? cell("%.5f", *overall) : "-") + "\n";
+  };
+  const auto& beside = evaluation.references;
+  if (beside.rigid) reference("(rigid tool)", beside.rigid->rmse, beside.rigid->overall);
+  reference(kUnidentified, evaluation.unidentified.rmse, evaluation.unidentified.overall);
+  reference("(white noise)", beside.noise, std::nullopt);
   for (const auto& row : evaluation.unfiltered) {
     text += row.file + ": against the unfiltered targets, clean:";
     for (const double value : row.score.rmse) text += " " + cell("%.5f", value);

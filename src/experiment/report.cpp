@@ -2,34 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
+#include "dcnn/core/digest.h"
+#include "dcnn/core/file.h"
+#include "dcnn/experiment/provenance.h"
 #include "experiment/markup.h"
+#include "experiment/page_assets.h"
+#include "experiment/plot_data.h"
 
 namespace dcnn {
 namespace {
-
-// Always dark on white: figures keep their colours on a dark desktop and on paper.
-constexpr const char* kStyle = R"(
-:root { color-scheme: light; }
-body { max-width: 900px; margin: 2em auto; padding: 0 1em; background: #fff; color: #1a1a1a;
-  font: 16px/1.5 system-ui, "Helvetica Neue", Arial, sans-serif; }
-h1 { font-size: 1.6em; line-height: 1.25; }
-h2 { font-size: 1.2em; margin-top: 2em; border-bottom: 1px solid #ccc; padding-bottom: .2em; }
-p { max-width: 44em; }
-table { border-collapse: collapse; margin: 1em 0; font-size: .9em; font-variant-numeric: tabular-nums;
-  border-top: 2px solid #1a1a1a; border-bottom: 2px solid #1a1a1a; }
-th, td { white-space: nowrap; padding: .25em .8em; text-align: left; vertical-align: top; }
-thead { border-bottom: 1px solid #1a1a1a; }
-.n { text-align: right; white-space: nowrap; }
-.t { white-space: normal; min-width: 12em; overflow-wrap: anywhere; }
-.wide { overflow-x: auto; }
-pre { background: #f5f5f5; padding: .8em; overflow-x: auto; font-size: .85em; }
-figure { margin: 1.5em 0; break-inside: avoid; }
-svg { max-width: 100%; height: auto; }
-.panels { display: grid; grid-template-columns: 1fr 1fr; gap: 0 .5em; }
-figcaption { font-size: .9em; color: #444; max-width: 50em; }
-@media print { body { margin: 0; max-width: none; font-size: 11pt; } h2 { break-after: avoid; } }
-)";
 
 /// Numbers, with unit, sign or bounds, and marks for what does not exist are set to the right.
 bool looks_numeric(const std::string& cell) {
@@ -58,12 +41,69 @@ std::string table_row(const std::vector<std::string>& cells, const std::vector<b
   return row + "</tr>\n";
 }
 
+constexpr const char* kHeading = "<h2 id=\"";
+
+/// Links to the headings of a page, in order.
+std::string contents(const std::string& body) {
+  std::string list;
+  for (auto at = body.find(kHeading); at != body.npos; at = body.find(kHeading, at + 1)) {
+    const auto id = at + std::string(kHeading).size(), end = body.find('"', id);
+    const auto text = body.find('>', end) + 1;
+    list += "<li><a href=\"#" + body.substr(id, end - id) + "\">" +
+            body.substr(text, body.find("</h2>", text) - text) + "</a></li>\n";
+  }
+  return list.empty() ? "" : "<nav><ul>\n" + list + "</ul></nav>\n";
+}
+
+/// The page with its contents after what stands before the first heading: the answer.
+std::string lead(const std::string& body) {
+  const auto first = std::min(body.find("<h2"), body.size());
+  std::string answer = body.substr(0, first);
+  if (answer.starts_with("<p>")) answer.replace(0, 3, "<p class=\"answer\">");
+  return answer + contents(body) + body.substr(first);
+}
+
+/// Largest input whose digest is worth the time.
+constexpr std::size_t kMostHashed = std::size_t{1} << 30;
+
+std::string digest_line(const std::filesystem::path& input) {
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(input, missing)) return "";
+  try {
+    return "<br/>" + escape_markup(input.filename().string()) + " SHA-256 " +
+           sha256_hex({read_file(input, kMostHashed, Exit::kData)});
+  } catch (const Error&) {
+    return "";
+  }
+}
+
+/// Command, version, day and inputs of the program that makes the page.
+std::string origin() {
+  const Provenance& from = provenance();
+  if (from.command.empty()) return "";
+  char day[16];
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  std::strftime(day, sizeof day, "%Y-%m-%d", gmtime_r(&now, &utc));
+  std::string text = "<details><summary>made by " + escape_markup(from.version) + " on " + day +
+                     "</summary>" + escape_markup(from.command);
+  for (const auto& input : from.inputs) text += digest_line(input);
+  return text + "</details>\n";
+}
+
+std::string scripts(const std::string& body) {
+  const bool plots = body.find("class=\"data\"") != body.npos;
+  return (plots ? "<script>" + std::string(plot_library()) + "</script>\n" : "") + "<script>" +
+         std::string(page_script()) + "</script>\n";
+}
+
 }  // namespace
 
 HtmlReport::HtmlReport(std::string title) : title_(std::move(title)) {}
 
 void HtmlReport::heading(const std::string& text) {
-  body_ += "<h2>" + escape_markup(text) + "</h2>\n";
+  const auto id = std::to_string(std::count(body_.begin(), body_.end(), '\n'));
+  body_ += kHeading + ("s" + id) + "\">" + escape_markup(text) + "</h2>\n";
 }
 
 void HtmlReport::paragraph(const std::string& text) {
@@ -87,7 +127,11 @@ void HtmlReport::table(const std::vector<std::string>& header,
 }
 
 void HtmlReport::chart(const Chart& chart, const std::string& caption) {
-  drawing(to_svg(chart), caption);
+  const std::string data = plot_data(chart);
+  drawing(to_svg(chart) + (data.empty() ? ""
+                                        : "\n<script type=\"application/json\" class=\"data\">" +
+                                              data + "</script>"),
+          caption);
 }
 
 void HtmlReport::drawing(const std::string& svg, const std::string& caption) {
@@ -112,8 +156,9 @@ std::string HtmlReport::html() const {
   const auto title = escape_markup(title_);
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
-         title + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n<h1>" + title +
-         "</h1>\n" + body_ + "</body>\n</html>\n";
+         title + "</title>\n<style>" + std::string(plot_style()) + std::string(page_style()) +
+         "</style>\n</head>\n<body>\n<h1>" + title + "</h1>\n" + origin() + lead(body_) +
+         scripts(body_) + "</body>\n</html>\n";
 }
 
 Chart histogram(const std::string& title, const std::string& x_label,

@@ -1,13 +1,7 @@
 #include "experiment/run_directory.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <sstream>
 #include <utility>
-
-#include "dcnn/core/file.h"
 
 namespace dcnn {
 namespace {
@@ -16,21 +10,8 @@ constexpr std::size_t kMaxMetricsBytes = std::size_t{1} << 30;
 
 }  // namespace
 
-RunDirectory::RunDirectory(std::filesystem::path folder) : folder_(std::move(folder)) {
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  require(!error, Exit::kFailure, folder_.string(), ": cannot make this folder: ", error.message());
-  const auto path = folder_ / "lock";
-  lock_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  require(lock_ >= 0, Exit::kFailure, path.string(), ": cannot write");
-  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) {
-    ::close(lock_);
-    fail(Exit::kUsage, folder_.string(),
-         ": another training is writing here; wait for it or choose another --out");
-  }
-}
-
-RunDirectory::~RunDirectory() { ::close(lock_); }
+RunDirectory::RunDirectory(std::filesystem::path folder)
+    : folder_(std::move(folder)), lock_(folder_) {}
 
 std::optional<Container> RunDirectory::find_checkpoint(const std::string& identity) const {
   const auto path = folder_ / "checkpoint.safetensors";

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dcnn/core/file.h"
 #include "dcnn/core/json.h"
 #include "dcnn/models/container.h"
 #include "dcnn/models/model.h"
@@ -17,9 +18,6 @@ class RunDirectory {
  public:
   /// Makes the folder and locks it: a second training into it fails at once with Error(kUsage).
   explicit RunDirectory(std::filesystem::path folder);
-  ~RunDirectory();
-  RunDirectory(const RunDirectory&) = delete;
-  RunDirectory& operator=(const RunDirectory&) = delete;
 
   /// The checkpoint to go on from; none where there is none yet. `identity` names configuration and
   /// data: a checkpoint of another one is Error(kUsage).
@@ -39,7 +37,7 @@ class RunDirectory {
   void write_metrics() const;
 
   std::filesystem::path folder_;
-  int lock_ = -1;
+  FolderLock lock_;
   std::vector<std::string> metrics_;  // JSON lines, in order
 };
 

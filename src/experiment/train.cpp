@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "dcnn/core/file.h"
+#include "experiment/references.h"
 #include "experiment/run_directory.h"
 #include "experiment/splitter.h"
 #include "models/weighted_model.h"
@@ -157,6 +158,26 @@ Index independent_rows(const FeatureLayout& layout) {
   return layout.dt > 0.0 ? static_cast<Index>(std::llround(kSeconds / layout.dt)) : 1;
 }
 
+/// Sets the error on the validation rows beside those of the references, and keeps the rigid tool
+/// for later evaluations.
+void compare_with_references(const std::filesystem::path& out, const Identifier& identifier,
+                             const Samples& training, const Samples& validation,
+                             TrainingOutcome& outcome) {
+  const Identifier rigid = fit_rigid(identifier, training, validation);
+  if (rigid.model) write_container(rigid_file(out), pack(rigid));
+  if (validation.x.rows() == 0) return;
+  References references;
+  if (identifier.layout.dt > 0.0) references.noise = white_noise(validation.y);
+  for (const auto y : validation.y.colwise()) {
+    references.none.push_back(std::sqrt(y.squaredNorm() / static_cast<double>(y.size())));
+  }
+  if (rigid.model) references.rigid = rmse_of(*rigid.model, validation);
+  outcome.summary["references"] = to_json(references);
+  outcome.summary["warnings"] =
+      warnings(out.filename().string(), outcome.summary["validation_rmse"], references,
+               identifier.targets);
+}
+
 }  // namespace
 
 std::filesystem::path run_directory(const std::filesystem::path& model) {
@@ -221,6 +242,7 @@ TrainingOutcome train(const TrainingRequest& request, const TrainingObserver& ob
     outcome.summary["validation_rmse"] = rmse_of(*identifier.model, validation);
     write_container(request.out, pack(identifier));
     outcome.summary["file"] = request.out.string();
+    compare_with_references(request.out, identifier, training, validation, outcome);
   }
   return outcome;
 }

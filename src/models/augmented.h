@@ -7,7 +7,7 @@
 
 namespace dcnn {
 
-/// The samples once, each row with noise of one of the levels (spec 5.1, protocol A): of every L
+/// The samples once, each row with noise of one of the levels (protocol A): of every L
 /// consecutive rows, L the number of levels, each level has one, in random order. Every level thus
 /// sees the whole motion, and neither a stride nor a period of the motion can favour one. Rows
 /// remain in time; the result has no pose_noise. With the single level clean it is the samples.

@@ -3,7 +3,7 @@
 namespace dcnn {
 namespace {
 
-/// The paper's network (spec 2.4): four modules of 2x2 convolution, batch norm and ReLU with 8, 16,
+/// The network of Su et al. 2020: four modules of 2x2 convolution, batch norm and ReLU with 8, 16,
 /// 32 and 32 filters on the map of Eq. 7, dropout on the flattened maps, a fully connected layer.
 Json dcnn_layers(Options options, Index targets, Index features) {
   const auto padding = options.choice("padding", "same", {"same", "valid"});

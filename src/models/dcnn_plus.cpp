@@ -67,7 +67,7 @@ Json preset_dcnn_plus(const std::string& name, bool axes) {
 
 /// Noise on the pose leaves the convolutions little to find and much of the training's own to
 /// learn: half of what they say, learned with more dropout, was worth having in each of four pairs
-/// of development trajectories at every level; all of it was not (docs/accuracy.md). With noise on
+/// of development trajectories at every level; all of it was not (docs/results/accuracy.md). With noise on
 /// the features all of it was.
 Problem cautious_under_pose_noise(Problem problem) {
   Json& all = problem.configuration;

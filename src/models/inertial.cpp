@@ -31,7 +31,7 @@ Matrix3d inertia_of(const InertialParameters& p) {
 }
 
 /// The wrench without bias: F = m·f + h x dw - w x (w x h), T = h x f - I·dw - w x (I·w), with
-/// f = -9.81·u - a (contract.md section 1).
+/// f = -9.81·u - a, all in S.
 Wrench6 wrench(const InertialParameters& p, const Vector3d& u, const Vector3d& a,
                const Vector3d& dw, const Vector3d& w) {
   const Vector3d h = p.segment<3>(1), field = -kGravity * u - a;

@@ -1,4 +1,4 @@
-// Levenberg-Marquardt as the toolbox runs it (spec 2.3; Hagan and Menhaj 1994).
+// Levenberg-Marquardt as the toolbox runs it (Hagan and Menhaj 1994).
 #pragma once
 
 #include <Eigen/Dense>

@@ -8,6 +8,7 @@
 #include "dcnn/core/random.h"
 #include "dcnn/data/line_filter.h"
 #include "models/random_streams.h"
+#include "physics/vectors.h"
 
 namespace dcnn {
 namespace {
@@ -49,11 +50,6 @@ Eigen::RowVectorXd spread_of(const Eigen::MatrixXd& x, const Eigen::RowVectorXd&
   const Eigen::RowVectorXd spread =
       (x.rowwise() - mean).array().square().colwise().mean().sqrt().matrix();
   return (spread.array() > 1e-12).select(spread, 1.0);
-}
-
-template <class Matrix>
-Json json_of(const Matrix& m) {
-  return std::vector<double>(m.data(), m.data() + m.size());
 }
 
 Eigen::VectorXd read(Options& options, const char* key) {
@@ -162,10 +158,10 @@ Eigen::MatrixXd LineMixture::of(const Eigen::MatrixXd& x, const std::vector<Inde
 }
 
 Json LineMixture::to_json() const {
-  return {{"scale", json_of(scale_)},
-          {"mean", json_of(mean_)},
-          {"levels", json_of(levels_)},
-          {"weights", json_of(weights_)}};
+  return {{"scale", to_list(scale_)},
+          {"mean", to_list(mean_)},
+          {"levels", to_list(levels_)},
+          {"weights", to_list(weights_.reshaped())}};
 }
 
 LineMixture LineMixture::parse(const Json& json, Index features, Index windows,

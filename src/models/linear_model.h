@@ -58,7 +58,7 @@ class LinearModel : public ClosedFormModel {
   std::unique_ptr<Predictor> predictor() const override;
   Index parameter_count() const override { return weights_.size(); }
   void save(Container& file) const override;
-  /// Says so when the fitted mass is negative (contract.md section 1).
+  /// Says so when the fitted mass is negative.
   std::vector<std::string> notes() const override;
 
  protected:

@@ -14,7 +14,7 @@ class NsPredictor final : public Predictor {
   Eigen::VectorXd zero_;
 };
 
-/// No identification (spec 2.1): what every other model is measured by.
+/// No identification: what every other model is measured by.
 class Ns : public ClosedFormModel {
  public:
   explicit Ns(const Problem& problem)

@@ -11,11 +11,11 @@ namespace dcnn {
 
 /// What a closed-form identifier is linear in. On a wrist u = R_BS^T·e_z is the direction of the
 /// vertical, everything else is in the frame of u:
-///   gravity  u, 1                                                        (spec 2.2, cf)
+///   gravity  u, 1                                                        (cf)
 ///   fourier  the 27 products of {1, sin, cos} of the three angles; where only u is there (feature
-///            set body), those of {1, u_i, u_i^2}                         (spec 2.2, cf)
+///            set body), those of {1, u_i, u_i^2}                         (cf)
 ///   rigid    u, acceleration of the origin, angular acceleration, the 6 products w_i·w_j
-///            (xx, yy, zz, xy, xz, yz), 1                                 (spec 2.2, rigid16)
+///            (xx, yy, zz, xy, xz, yz), 1                                 (rigid)
 /// and with a system of axes, where every target sees every axis:
 ///   gravity  q, sin q, cos q of each axis, 1
 ///   fourier  the same with sin 2q, cos 2q

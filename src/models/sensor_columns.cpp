@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dcnn/data/line_filter.h"
+#include "physics/vectors.h"
 
 namespace dcnn {
 namespace {
@@ -38,11 +39,6 @@ Eigen::VectorXd read_vector(Options& options, const std::string& key, Index size
     options.reject(key, "must hold ", size, " finite numbers");
   }
   return result;
-}
-
-template <class Vector>
-Json json_of(const Vector& v) {
-  return std::vector<double>(v.data(), v.data() + v.size());
 }
 
 }  // namespace
@@ -162,12 +158,10 @@ void SensorColumns::write(const PreparedStream& stream, const InputMap& /*map*/,
 }
 
 Json SensorColumns::to_json() const {
-  Json json = {{"kind", is_lines() ? "lines" : "body"},
-               {"frame", frame_.to_json()},
-               {"channel_mean", json_of(channel_mean_)},
-               {"knee", json_of(knee_)},
-               {"mean", json_of(mean_)},
-               {"deviation", json_of(deviation_)}};
+  Json json = {
+      {"kind", is_lines() ? "lines" : "body"},  {"frame", frame_.to_json()},
+      {"channel_mean", to_list(channel_mean_)}, {"knee", to_list(knee_)},
+      {"mean", to_list(mean_.transpose())},     {"deviation", to_list(deviation_.transpose())}};
   if (is_lines()) json["line_lengths"] = lengths_;
   if (adaptive_) json["mixture"] = mixture_.to_json();
   return json;

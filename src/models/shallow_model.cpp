@@ -12,7 +12,7 @@ namespace dcnn {
 namespace {
 
 // Streams of random numbers that one seed feeds.
-constexpr double kTrainingShare = 0.70, kValidationShare = 0.15;  // the rest is unused (spec 2.3)
+constexpr double kTrainingShare = 0.70, kValidationShare = 0.15;  // as the toolbox divides
 constexpr Index kLeastRows = 20;
 constexpr std::size_t kMostHidden = 4;
 constexpr Index kMostUnits = 1000, kMostWeights = 3000;  // J^T J is dense

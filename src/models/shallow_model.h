@@ -1,4 +1,4 @@
-// The shallow networks as identifiers: trained by Levenberg-Marquardt (spec 2.3).
+// The shallow networks as identifiers: trained by Levenberg-Marquardt.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Feed-forward and cascade-forward networks with hidden tanh layers and linear outputs (spec 2.3).
+// Feed-forward and cascade-forward networks with hidden tanh layers and linear outputs.
 #pragma once
 
 #include <Eigen/Dense>

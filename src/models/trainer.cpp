@@ -210,7 +210,7 @@ void Trainer::finish_epoch() {
   save_checkpoint();
 }
 
-/// Batch norm's inference statistics: one pass over the whole clean training set (spec 2.4, D16),
+/// Batch norm's inference statistics (Ioffe and Szegedy 2015): one pass over the clean training set,
 /// in shuffled batches as in training, since neighbouring rows resemble each other too much to make
 /// a batch.
 void Trainer::collect_statistics() {

@@ -2,6 +2,6 @@
 
 namespace dcnn {
 
-constexpr double kBatchNormEpsilon = 1e-5;  // spec 2.4
+constexpr double kBatchNormEpsilon = 1e-5;  // added to the variance (Ioffe and Szegedy 2015)
 
 }  // namespace dcnn

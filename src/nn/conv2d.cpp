@@ -29,7 +29,7 @@ class Conv2dStep final : public PlanStep {
 
 /// Cross-correlation, stride 1, plus bias. (N, H, W, C) in, (N, H', W', filters) out; weight
 /// (window_h, window_w, C, filters). With `same` H' = H, W' = W and the odd zero of an even window
-/// lies at the bottom and at the right (spec 2.4).
+/// lies at the bottom and at the right (as in the paper's toolbox).
 class Conv2d final : public Layer {
  public:
   Conv2d(const ConvShape& shape, Tensor weight, Tensor bias)

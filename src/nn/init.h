@@ -28,7 +28,7 @@ inline Index read_units(Options& options, const std::string& key) {
 }
 
 /// Key `init`: "glorot" (uniform within ±sqrt(6/(fan_in + fan_out)), Glorot and Bengio 2010),
-/// "narrow" (normal, standard deviation 0.01, spec 2.4) or "zero" (the last layer of a network that
+/// "narrow" (normal, standard deviation 0.01) or "zero" (the last layer of a network that
 /// learns a remainder: it begins as nothing). Fans count the window.
 inline Tensor initial_weight(Options& options, Shape shape, Index fan_in, Index fan_out, Rng& rng) {
   const auto init = options.choice("init", "glorot", {"glorot", "narrow", "zero"});

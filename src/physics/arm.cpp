@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dcnn/core/options.h"
+#include "dcnn/data/rotation.h"
 
 namespace dcnn {
 namespace {
@@ -24,9 +25,9 @@ Arm::Row parse_row(const Json& json, Options& options) {
 
 /// A link as it moves, in the arm's base.
 struct Link {
-  Matrix3d R;                // of its frame
-  Vector3d p, axis, pivot;   // origin; the joint that carries it, and a point of that joint's axis
-  Vector3d w, dw, felt;      // rates; acceleration of the origin less gravity
+  Matrix3d R;               // of its frame
+  Vector3d p, axis, pivot;  // origin; the joint that carries it, and a point of that joint's axis
+  Vector3d w, dw, felt;     // rates; acceleration of the origin less gravity
 };
 
 std::vector<Link> forward(const Arm& arm, const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
@@ -37,8 +38,8 @@ std::vector<Link> forward(const Arm& arm, const Eigen::VectorXd& q, const Eigen:
   for (std::size_t i = 0; i < arm.rows.size(); ++i) {
     const Arm::Row& row = arm.rows[i];
     const auto k = static_cast<Eigen::Index>(i);
-    const Matrix3d turn = Eigen::AngleAxisd(q(k) + row.theta0, Vector3d::UnitZ()).toRotationMatrix();
-    const Matrix3d twist = Eigen::AngleAxisd(row.alpha, Vector3d::UnitX()).toRotationMatrix();
+    const Matrix3d turn = rotation_from_euler({q(k) + row.theta0, 0.0, 0.0});
+    const Matrix3d twist = rotation_from_euler({0.0, 0.0, row.alpha});
     Link next = at;
     Vector3d step;
     if (arm.modified) {
@@ -130,8 +131,10 @@ std::vector<Eigen::Index> independent_columns(const Eigen::MatrixXd& columns, do
   Eigen::MatrixXd left = columns;
   for (Eigen::Index k = 0; k < left.cols(); ++k) {
     const double length = left.col(k).norm();
-    if (length > 1e-9 * std::sqrt(static_cast<double>(left.rows()))) left.col(k) /= length;
-    else left.col(k).setZero();
+    if (length > 1e-9 * std::sqrt(static_cast<double>(left.rows())))
+      left.col(k) /= length;
+    else
+      left.col(k).setZero();
   }
   std::vector<Eigen::Index> chosen;
   for (Eigen::Index step = 0; step < left.cols(); ++step) {

@@ -57,31 +57,32 @@ void read_translation(const Recording& recording, const DerivativeSpec& spec, Mo
   if (recording.has_all(a)) motion.a_B = turn(motion.R_BS, recording.block(a));
 }
 
+/// Orientation without the noise that a smoothing estimator takes off its derivatives; `q` (T,4) is
+/// smoothed already.
+void smooth_orientation(const MatrixXd& q, const Recording& recording, const ToolModel& model,
+                        const DerivativeSpec& spec, Motion& motion) {
+  for (Index k = 0; k < q.rows(); ++k) {
+    motion.R_BS[static_cast<std::size_t>(k)] = rotation_from_quaternion(q.row(k)) * model.R_ES();
+  }
+  motion.euler = differentiate(motion.euler, recording, spec).value;
+}
+
 void read_rotation(const Recording& recording, const ToolModel& model, const DerivativeSpec& spec,
                    Motion& motion) {
   const std::vector<std::string> w{"wx", "wy", "wz"}, dw{"dwx", "dwy", "dwz"};
-  if (!recording.has_all(w)) {
+  const bool smoothed = spec.kind == DerivativeSpec::Kind::kSpectral;
+  if (smoothed || !recording.has_all(w)) {
     const auto derived = differentiate(quaternions(recording), recording, spec);
     const MatrixXd q = derived.value.rowwise().normalized();
+    if (smoothed) smooth_orientation(q, recording, model, spec, motion);
     motion.w_S = body_rates(q, derived.first) * model.R_ES();
     motion.dw_S = body_rates(q, derived.second) * model.R_ES();
-  } else {
+  }
+  if (recording.has_all(w)) {
     motion.w_S = recording.block(w);
     if (!recording.has_all(dw)) motion.dw_S = differentiate(motion.w_S, recording, spec).first;
   }
   if (recording.has_all(dw)) motion.dw_S = recording.block(dw);
-}
-
-/// Orientation without the noise that a smoothing estimator takes off its derivatives.
-void smooth_orientation(const Recording& recording, const ToolModel& model,
-                        const DerivativeSpec& spec, Motion& motion) {
-  if (spec.kind != DerivativeSpec::Kind::kSpectral) return;
-  const MatrixXd q = differentiate(quaternions(recording), recording, spec).value;
-  for (Index k = 0; k < q.rows(); ++k) {
-    motion.R_BS[static_cast<std::size_t>(k)] =
-        rotation_from_quaternion(q.row(k).normalized()) * model.R_ES();
-  }
-  motion.euler = differentiate(motion.euler, recording, spec).value;
 }
 
 void stand_still(Motion& motion, Index samples) {
@@ -118,9 +119,8 @@ Motion motion_of(const Recording& recording, const ToolModel& model,
     stand_still(motion, recording.samples());
   } else {
     motion.t = recording.column("t");
-    smooth_orientation(recording, model, derivative, motion);
-    read_translation(recording, derivative, motion);
     read_rotation(recording, model, derivative, motion);
+    read_translation(recording, derivative, motion);
   }
   return motion;
 }

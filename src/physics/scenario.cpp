@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dcnn/core/blocking.h"
 #include "dcnn/core/options.h"
 #include "dcnn/data/rotation.h"
 #include "dcnn/physics/simulator.h"
@@ -210,6 +211,7 @@ Json truth_of(const Setup& setup, const Json& recordings) {
 
 Scenario simulate_config(const Json& config, const std::string& where,
                          std::optional<std::uint64_t> seed_override) {
+  fix_blocking();
   Options options(config, where, Exit::kUsage);
   const Setup setup = read_setup(options, where, seed_override);
   const Json list = options.raw("recordings");

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/elementary.h"
 #include "physics/vectors.h"
 
 namespace dcnn {
@@ -27,7 +28,7 @@ Tones equal_tones(int tones, double low_hz, double high_hz, Rng& rng) {
   Tones list;
   for (int k = 0; k < tones; ++k) {
     const double place = (k + kShift * rng.uniform()) / (tones - 1 + kShift);
-    const double hz = low_hz * std::pow(high_hz / low_hz, place);
+    const double hz = low_hz * elementary::pow(high_hz / low_hz, place);
     list.push_back(
         {1.0 / tones, 2.0 * std::numbers::pi * hz, rng.uniform(0.0, 2.0 * std::numbers::pi)});
   }
@@ -37,8 +38,8 @@ Tones equal_tones(int tones, double low_hz, double high_hz, Rng& rng) {
 Tones band_tones(int tones, double low_hz, double high_hz, Rng& rng) {
   Tones list;
   for (int k = 0; k < tones; ++k) {
-    const double hz = low_hz * std::pow(high_hz / low_hz, (k + rng.uniform()) / tones);
-    const double amplitude = std::pow(hz, -0.9) * rng.uniform(0.6, 1.4);
+    const double hz = low_hz * elementary::pow(high_hz / low_hz, (k + rng.uniform()) / tones);
+    const double amplitude = elementary::pow(hz, -0.9) * rng.uniform(0.6, 1.4);
     list.push_back(
         {amplitude, 2.0 * std::numbers::pi * hz, rng.uniform(0.0, 2.0 * std::numbers::pi)});
   }
@@ -50,9 +51,9 @@ Eigen::MatrixXd sample(const Tones& tones, const Eigen::VectorXd& t) {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(t.size(), 3);
   for (const Tone& tone : tones) {
     const Eigen::ArrayXd angle = tone.omega * t.array() + tone.phase;
-    const Eigen::ArrayXd sine = tone.amplitude * angle.sin();
+    const Eigen::ArrayXd sine = tone.amplitude * elementary::sin(angle);
     out.col(0).array() += sine;
-    out.col(1).array() += tone.amplitude * tone.omega * angle.cos();
+    out.col(1).array() += tone.amplitude * tone.omega * elementary::cos(angle);
     out.col(2).array() -= tone.omega * tone.omega * sine;
   }
   return out;

@@ -12,7 +12,7 @@ namespace {
 constexpr double kFarthest = 1e3;    // m, of a position
 constexpr double kLargest = 1e5;     // N, N·m and rad
 constexpr double kLatest = 1e12;     // s
-constexpr double kNormError = 1e-3;  // of a quaternion (contract.md section 2)
+constexpr double kNormError = 1e-3;  // of a quaternion, from rounding in a log
 
 }  // namespace
 

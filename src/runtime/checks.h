@@ -27,7 +27,7 @@ inline bool is_causal(const DerivativeSpec& derivative) {
 /// All finite and within what a robot can be; the quaternion's norm is 1 to 1e-3.
 bool is_possible(const OnlineSample& sample) noexcept;
 
-/// |cos beta| < 0.05, as in training (spec 1.2).
+/// |cos beta| < 0.05, as in training (FeatureLayout).
 bool is_singular(const Eigen::Matrix3d& R_BE) noexcept;
 
 }  // namespace dcnn

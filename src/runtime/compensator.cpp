@@ -259,6 +259,7 @@ const OnlineResult& OnlineCompensator::step(const OnlineSample& sample) noexcept
   publish(cycle);
 
   const bool network = result_.state == RunState::kNetwork;
+  result_.tool = network || !physics_ ? predicted_ : simulated_;
   if (network || result_.state == RunState::kPhysics) {
     const Vector6d& tool = network ? predicted_ : simulated_;
     const Vector3d external = measured.head<3>() - tool.head<3>();

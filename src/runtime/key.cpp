@@ -11,9 +11,11 @@
 namespace dcnn {
 
 PacketKey read_packet_key(const std::filesystem::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
-  require(file >= 0, Exit::kUsage, path.string(), ": cannot open the key: ", std::strerror(errno),
-          "; make one with dcnn-run --make-key ", path.string());
+  const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) {
+    fail(Exit::kUsage, path.string(), ": cannot open the key: ", std::strerror(errno),
+         "; make one with dcnn-run --make-key ", path.string());
+  }
   PacketKey key;
   std::uint8_t beyond;
   struct stat about {};
@@ -33,8 +35,10 @@ void make_packet_key(const std::filesystem::path& path) {
   PacketKey key;
   randombytes_buf(key.data(), key.size());
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  require(file >= 0, errno == EEXIST ? Exit::kUsage : Exit::kFailure, path.string(),
-          ": cannot make the key: ", std::strerror(errno));
+  if (file < 0) {
+    fail(errno == EEXIST ? Exit::kUsage : Exit::kFailure, path.string(),
+         ": cannot make the key: ", std::strerror(errno));
+  }
   const bool whole =
       ::write(file, key.data(), key.size()) == ssize_t(key.size()) && ::fsync(file) == 0;
   ::close(file);

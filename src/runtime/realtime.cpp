@@ -10,14 +10,22 @@
 
 namespace dcnn {
 
+namespace {
+
+void check(bool ok, const char* what, const char* limit) {
+  if (!ok) {
+    fail(Exit::kFailure, "cannot ", what, ": ", std::strerror(errno), "; raise ", limit,
+         " or leave --realtime out");
+  }
+}
+
+}  // namespace
+
 void become_realtime(int priority) {
-  require(::mlockall(MCL_CURRENT | MCL_FUTURE) == 0, Exit::kFailure,
-          "cannot lock memory: ", std::strerror(errno),
-          "; raise RLIMIT_MEMLOCK or leave --realtime out");
+  check(::mlockall(MCL_CURRENT | MCL_FUTURE) == 0, "lock memory", "RLIMIT_MEMLOCK");
   const sched_param wanted{priority};
-  require(::sched_setscheduler(0, SCHED_FIFO, &wanted) == 0, Exit::kFailure,
-          "cannot take real-time priority: ", std::strerror(errno),
-          "; raise RLIMIT_RTPRIO or leave --realtime out");
+  check(::sched_setscheduler(0, SCHED_FIFO, &wanted) == 0, "take real-time priority",
+        "RLIMIT_RTPRIO");
 }
 
 }  // namespace dcnn

@@ -26,14 +26,14 @@ std::vector<OnlineSample> samples_of(const Recording& recording) {
   return samples;
 }
 
-/// Pages of this process in memory, bytes.
-std::uint64_t resident_bytes() {
-  std::uint64_t pages = 0, resident = 0;
+/// Memory of this process that no file backs, bytes: pages of code that are met late are no growth.
+std::uint64_t own_bytes() {
+  std::uint64_t pages = 0, resident = 0, shared = 0;
   if (FILE* file = std::fopen("/proc/self/statm", "r")) {
-    if (std::fscanf(file, "%lu %lu", &pages, &resident) != 2) resident = 0;
+    if (std::fscanf(file, "%lu %lu %lu", &pages, &resident, &shared) != 3) resident = shared = 0;
     std::fclose(file);
   }
-  return resident * 4096;
+  return (resident - shared) * 4096;
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ Json rehearse(OnlineCompensator& compensator, const Recording& recording, std::u
   std::uint64_t alarms = 0, before = 0;
   bool outside = false;
   for (std::uint64_t k = 0; k < cycles; ++k) {
-    if (k == cycles / 10) before = resident_bytes();
+    if (k == cycles / 10) before = own_bytes();
     const std::uint64_t place = k % (2 * (samples.size() - 1));
     OnlineSample sample = samples[std::min(place, 2 * (samples.size() - 1) - place)];
     sample.t = static_cast<double>(k) * dt;
@@ -74,7 +74,7 @@ Json rehearse(OnlineCompensator& compensator, const Recording& recording, std::u
   Json json = tally.to_json();
   json["hours"] = static_cast<double>(cycles) * dt / 3600.0;
   json["envelope_alarms"] = alarms;
-  json["memory_growth_bytes"] = static_cast<std::int64_t>(resident_bytes() - before);
+  json["memory_growth_bytes"] = static_cast<std::int64_t>(own_bytes() - before);
   return json;
 }
 

@@ -5,7 +5,7 @@
 namespace dcnn {
 namespace {
 
-constexpr double kContact = 0.05;  // N, spec 8
+constexpr double kContact = 0.05;  // N, above which there is contact
 constexpr double kSettled = 1.0;   // s after the start
 constexpr Index kMostBounces = 2;
 

@@ -162,7 +162,7 @@ TEST(Calibration, AFileThatIsNoRotationIsRefused) {
   EXPECT_TRUE(contains(error_of([&] { read_calibration(bad); }, Exit::kData), "not a rotation"));
 }
 
-/// 24 poses of a real ATI Gamma sensor on a KUKA LBR Med (see docs/calibrate.md).
+/// 24 poses of a real ATI Gamma sensor on a KUKA LBR Med (see docs/use/calibrate.md).
 TEST(Calibration, RealStaticPosesAreFittedToATenthOfANewton) {
   const auto path = testing::shared("data/ntnu_wrist/static_24_poses.csv");
   if (path.empty()) GTEST_SKIP() << "the recordings are not beside the checkout";

@@ -66,11 +66,11 @@ TEST(TeleopTool, AModelInTheLoopTakesMostOfTheWeightOffTheHand) {
     EXPECT_TRUE(std::filesystem::exists(out / file)) << file;
   }
   const auto refused =
-      run("teleop", {"--model", (folder / "off.dcnn").string(), "--out", out.string()});
+      run("teleop", {"--model", (folder / "off.dcnn").string(), "--out", (folder / "none").string()});
   EXPECT_EQ(refused.exit_code, 4);
   EXPECT_TRUE(contains(refused.err, "--online")) << refused.err;
-  EXPECT_EQ(run("teleop", {"--config", "absent.json", "--out", out.string()}).exit_code, 2);
-  EXPECT_EQ(run("teleop", {"--corrected", "absent.json", "--out", out.string()}).exit_code, 3);
+  EXPECT_EQ(run("teleop", {"--config", "absent.json", "--out", (folder / "none").string()}).exit_code, 2);
+  EXPECT_EQ(run("teleop", {"--corrected", "absent.json", "--out", (folder / "none").string()}).exit_code, 3);
 }
 
 }  // namespace

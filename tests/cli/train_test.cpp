@@ -218,12 +218,13 @@ TEST_F(Tools, AddsNothingToASimulatorThatLeavesNothing) {
   whole["effects"] = read_json(at("data/truth.json"), Exit::kFailure)["effects"];
   std::ofstream(at("whole.json")) << whole.dump();
   for (const char* kind : {"mlp", "dcnn"}) {
+    const std::string model = std::string(kind) + "_more.dcnn";
     const Result trained = run(
-        "train", training("more.dcnn", {"--base", at("whole.json"), "--model", kind, "--json"}));
+        "train", training(model, {"--base", at("whole.json"), "--model", kind, "--json"}));
     ASSERT_EQ(trained.exit_code, 0) << trained.err;
     const Json trust = parse_json(trained.out, "train", Exit::kFailure)["trust"];
     const Result result =
-        run("eval", {at("more.dcnn"), "--data", at("data/test.csv"), "--snr", "clean", "--json"});
+        run("eval", {at(model), "--data", at("data/test.csv"), "--snr", "clean", "--json"});
     const Json json = parse_json(result.out, "eval", Exit::kFailure);
     EXPECT_LT(json["summary"][0]["rmse_overall_mean"].get<double>(), 0.0412)
         << kind << ": 0.04 N is the noise; trust " << trust.dump();

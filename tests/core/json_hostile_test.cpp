@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <ctime>
+
 #include "dcnn/core/json.h"
 
 namespace dcnn {
@@ -35,6 +37,33 @@ TEST(JsonHostile, InvalidTextAndNumbersAreRejected) {
        {"", " ", "\"\xff\"", "\"\xc0\xaf\"", "\"\\ud800\"", "1e999", "-1e999", "01", "NaN", "nan",
         "Infinity", "1.", "+1", "{\"a\":1,\"a\":1}", "/*x*/1", "'a'", "{\"a\":1,}"}) {
     expect_rejected(text);
+  }
+}
+
+/// A tree that searches all members for each key, or all items after each list, takes minutes here.
+TEST(JsonHostile, ManyKeysAndItemsAreReadInOnePass) {
+  constexpr int kCount = 200'000;
+  std::string keys = "{", items = "[";
+  for (int i = 0; i < kCount; ++i) {
+    keys += (i > 0 ? ",\"k" : "\"k") + std::to_string(i) + "\":{}";
+    items += i > 0 ? ",[]" : "[]";
+  }
+  const std::clock_t before = std::clock();
+  EXPECT_EQ(parse_json(keys + "}", "a.json", Exit::kUsage).size(), std::size_t{kCount});
+  EXPECT_EQ(parse_json(items + "]", "a.json", Exit::kUsage).size(), std::size_t{kCount});
+  EXPECT_LT(double(std::clock() - before) / CLOCKS_PER_SEC, 20.0);
+  expect_rejected(keys + ",\"k7\":1}");
+}
+
+TEST(JsonHostile, ErrorsDoNotRepeatTheDocument) {
+  const std::string huge(1'000'000, 'x');
+  for (const std::string& text : {'"' + huge, huge, "{\"" + huge + "\":1,\"" + huge + "\":2}"}) {
+    try {
+      parse_json(text, "a.json", Exit::kUsage);
+      ADD_FAILURE() << "accepted";
+    } catch (const Error& error) {
+      EXPECT_LT(std::string(error.what()).size(), 500U);
+    }
   }
 }
 

@@ -159,7 +159,7 @@ TEST(Smooth, KeepsTheAccelerationUpToTheEnds) {
   const Index n = 2000;
   const double dt = 0.002, w = 2.0 * 3.14159265358979 * 0.7;
   const Eigen::ArrayXd t = Eigen::ArrayXd::LinSpaced(n, 0.0, dt * (n - 1));
-  const Smoothed s = smooth((0.1 * (w * t + 1.0).sin()).matrix(), dt, 8.0);
+  const Smoothed s = smooth((0.1 * (w * t + 1.0).sin()).matrix(), dt, {.cutoff_hz = 8.0});
   const Eigen::ArrayXd exact = -0.1 * w * w * (w * t + 1.0).sin();
   const double most = 0.1 * w * w;
   EXPECT_LT((s.second.array() - exact).abs().maxCoeff(), 0.05 * most);  // also at both ends

@@ -63,7 +63,7 @@ TEST(PoseNoise, HasTheVarianceEachCoordinateHadInTraining) {
 }
 
 TEST(PoseNoise, AccelerationNoiseFollowsTheClosedFormOfTheLocalFit) {
-  // spec 1.3: sigma·sqrt(720/(N(N^2-1)(N^2-4)))/dt^2 for a quadratic or a cubic on N samples
+  // sigma·sqrt(720/(N(N^2-1)(N^2-4)))/dt^2 for a quadratic or a cubic on N samples
   const Recording recording = sine_recording(20000);
   const FeatureLayout layout = layout_of(recording, Set::kPose);
   const double n = layout.spec.derivative.window(layout.dt), dt = layout.dt;

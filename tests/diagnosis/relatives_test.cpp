@@ -129,12 +129,17 @@ TEST(Relatives, ThePosesNoiseDoesNotVaryWithTheSensors) {
   Case& study = loaded.fit;
   set_derivative(study, {.kind = DerivativeSpec::Kind::kSpectral, .cutoff_hz = 8.0});
   const Index samples = study.logs[0].motion.samples();
-  Eigen::VectorXd level = Eigen::VectorXd::Ones(samples);
-  level.tail(samples / 2).setConstant(2.0);
+  Eigen::MatrixXd level = Eigen::MatrixXd::Ones(samples, study.channel_count());
+  level.bottomRows(samples / 2).setConstant(2.0);
   const Signals ones{Eigen::MatrixXd::Ones(samples, study.channel_count())};
   for (const double pose : {0.0, 1e6}) {
     std::vector<Floor> floors(3);
-    for (Floor& floor : floors) floor.white = 1.0, floor.static_part = pose, floor.dt = study.dt();
+    for (Floor& floor : floors) {
+      floor.white = 1.0;
+      floor.static_part = pose;
+      floor.pose_gain = {1.0};
+      floor.dt = study.dt();
+    }
     const Eigen::VectorXd white = Whitener(study, floors, {level})(ones);
     const Index blocks = white.size() / 3;
     EXPECT_NEAR(white(blocks / 4) / white(blocks - blocks / 4), pose > 0.0 ? 1.0 : 2.0, 1e-3);

@@ -126,11 +126,12 @@ TEST(WeakSigns, WhatHasNoNameGetsAFormula) {
 TEST(WeakSigns, UnseenMotionRingsInAMode) {
   Floor floor;
   floor.static_part = 2e-6;
-  const double plain = floor.pose_density(7.0, 5.0);
+  floor.pose_gain = {1.0};
+  const double plain = floor.pose_density(7.0);
   floor.modes = {{7.0, 0.02, 0.8}};
   const double real = 0.2, imaginary = 0.8 / 0.04;
-  EXPECT_NEAR(floor.pose_density(7.0, 5.0) / plain, real * real + imaginary * imaginary, 1e-9);
-  EXPECT_NEAR(floor.pose_density(0.01, 5.0) / floor.static_part, 1.0, 1e-4);
+  EXPECT_NEAR(floor.pose_density(7.0) / plain, real * real + imaginary * imaginary, 1e-9);
+  EXPECT_NEAR(floor.pose_density(0.01) / floor.static_part, 1.0, 1e-4);
 }
 
 // A slug of 4 g: each of its knocks is within the noise.

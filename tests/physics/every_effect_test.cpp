@@ -212,7 +212,7 @@ TEST(Catalogue, IsListedInTheOrderInWhichItActs) {
   }
 }
 
-// vocabulary.md: resonance, then misalignment, gain, crosstalk, then lowpass and delay.
+// Stages in their order: resonance, then misalignment, gain, crosstalk, then lowpass and delay.
 TEST(Catalogue, TheOrderOfWritingDoesNotMatter) {
   const Motion motion = example_motion(400);
   std::vector<EffectSpec> effects;

@@ -30,7 +30,7 @@ void expect_within_ten_percent(const Json& value, double reference) {
   EXPECT_NEAR(value.get<double>(), reference, 0.1 * reference);
 }
 
-/// The table of spec 8: an independent integration.
+/// From an independent integration.
 TEST(Teleop, IdealRowAgreesWithTheIndependentIntegration) {
   const Json row = run(defaults(), Variant::Kind::kIdeal).row;
   EXPECT_NEAR(row["contact_interval_s"][0].get<double>(), 69.8, 0.2);

@@ -9,7 +9,7 @@ namespace {
 
 namespace nn = torch::nn;
 
-/// The newest step's output of an LSTM over windows (N, T, 15), the rest as in spec 2.5.
+/// The newest step's output of an LSTM over windows (N, T, 15), the rest as in the networks here.
 struct TorchLstm : nn::Module {
   TorchLstm() { register_module("lstm", lstm), register_module("linear", linear); }
   torch::Tensor forward(const torch::Tensor& x) {

@@ -12,10 +12,12 @@ class Option;
 
 namespace dcnn {
 
+struct OptionRow;
+
 /// An option of Tool::option() or Tool::flag(); copies name the same one.
 class Option {
  public:
-  explicit Option(CLI::Option& option) : option_(&option) {}
+  Option(CLI::Option& option, OptionRow& row) : option_(&option), row_(&row) {}
 
   Option required() const;
   /// --help shows what the variable holds now.
@@ -30,6 +32,8 @@ class Option {
   /// Stands without a value too.
   Option value_optional() const;
   Option separated_by_commas() const;
+  /// What --help calls its value: "FILE", "HOST:PORT".
+  Option called(const std::string& value) const;
   Option needs(Option other) const;
   Option excludes(Option other) const;
   /// --help lists it under this heading.
@@ -40,6 +44,7 @@ class Option {
 
  private:
   CLI::Option* option_;
+  OptionRow* row_;
 };
 
 }  // namespace dcnn

@@ -1,7 +1,8 @@
-// What every dcnn-<verb> shares: common flags, one-line errors, exit codes (contract.md section 4).
+// What every dcnn-<verb> shares: common flags, the table of options, one-line errors, exit codes.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,31 +12,39 @@
 #include "dcnn/data/recording.h"
 #include "dcnn/nn/plan.h"
 #include "support/option.h"
+#include "support/option_table.h"
+#include "support/outputs.h"
 
 namespace dcnn {
 
 /// Flags that every tool has.
 struct CommonFlags {
-  bool json = false, quiet = false;
+  bool json = false, quiet = false, force = false;
   int threads = 0;
   std::optional<std::uint64_t> seed;
 };
 
 class Tool {
  public:
-  /// `examples` ends the --help text: lines that can be pasted.
+  /// `examples` stands first in the --help text: lines that can be pasted.
   Tool(const std::string& name, const std::string& summary, const std::string& examples);
   ~Tool();
 
   /// `names` as CLI11 reads them: "--out", "-q,--quiet", or "models" for arguments without a flag.
-  /// T: a number, text, a path, a vector or an optional of these.
+  /// T: a number, text, a path, a vector or an optional of these. Paths are files that are read:
+  /// no output may be one of them.
   template <typename T>
   Option option(const std::string& names, T& variable, const std::string& help);
   Option flag(const std::string& names, bool& variable, const std::string& help);
+  /// A file that the command writes; with `contents` (names with * and ?) a folder of such files.
+  /// What exists is kept without --force. T: a path or an optional one.
+  template <typename T>
+  Output output(const std::string& names, T& variable, const std::string& help,
+                const std::vector<std::string>& contents = {});
 
   const CommonFlags& common() const { return common_; }
 
-  /// Parses, then calls `body`. Returns the exit code; every failure has become one line on stderr.
+  /// Parses, claims the outputs, then calls `body`. Returns the exit code; every failure has become one line on stderr.
   int run(int argc, char** argv, const std::function<Exit()>& body);
 
   /// A line on stderr, unless --quiet.
@@ -44,11 +53,18 @@ class Tool {
   static void print(const Json& json);
 
  private:
+  OptionRow& add_row(const std::string& names, const std::string& value, const std::string& help);
+  void add_common();
+  OptionTable table() const;
+  std::optional<int> answer(int argc, char** argv) const;
   int parse(int argc, char** argv);
+  std::string unknown_word() const;
   int fail_line(const std::string& message, Exit exit) const;
 
-  std::string name_;
+  std::string name_, summary_, examples_;
   std::unique_ptr<CLI::App> app_;
+  std::deque<OptionRow> rows_;  // options point to them
+  Outputs outputs_;
   CommonFlags common_;
 };
 

@@ -1,4 +1,4 @@
-// Sensor frame to robot frame from pairs of one force seen in both (Wahba's problem, spec 7).
+// Sensor frame to robot frame from pairs of one force seen in both (Wahba 1965).
 #pragma once
 
 #include <Eigen/Dense>
@@ -68,7 +68,7 @@ Calibration calibrate(const ForcePairs& pairs, const CalibrationOptions& options
 AxisConvention best_convention(const ForcePairs& pairs, const Eigen::Matrix3d& R_ES,
                                bool with_bias);
 
-/// calibration.json (contract.md section 5).
+/// calibration.json (docs/use/calibrate.md).
 Json to_json(const Calibration& calibration);
 /// The rotation must be one, the offset finite; else Error(kData).
 Calibration read_calibration(const std::filesystem::path& path);

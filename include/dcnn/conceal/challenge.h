@@ -19,6 +19,10 @@ std::vector<std::string> plan(int scenarios, std::uint64_t seed);
 /// 0.3 and 0.1 or 0.05 times the noise, and 4 to 8 of every other group.
 std::vector<std::string> rates_plan(int rounds, std::uint64_t seed);
 
+/// The same scenarios under the conditions of a family (scenario.h), or of each in turn (`all`).
+/// Error(kUsage) for another name.
+std::vector<std::string> in_family(std::vector<std::string> ids, const std::string& family);
+
 /// Writes FOLDER/s0001/{sim.json,fit_*.csv,holdout_*.csv}, … and the sealed answers to the file
 /// `seal`, which must lie outside the folder; returns the SHA-256 of its bytes, which stands in
 /// FOLDER/seal.sha256 as well. The seal holds the SHA-256 of every file a scenario has.
@@ -35,7 +39,7 @@ std::string write_seal(const Json& answers, const std::filesystem::path& folder,
 /// Opens the seal of a folder; Error(kData) unless its SHA-256 is the one in FOLDER/seal.sha256.
 Json open_seal(const std::filesystem::path& folder, const std::filesystem::path& seal);
 
-/// Scores one report (contract.md section 5) against one answer; `report` null: it has failed.
+/// Scores one report against one answer; `report` null: it has failed.
 Json score(const Json& answer, const Json& report);
 
 /// Scores FOLDER/reports/<scenario>/report.json of every scenario of the seal. `scenarios` has one

@@ -14,7 +14,7 @@
 
 namespace dcnn::conceal {
 
-/// What is hidden: an id of vocabulary.md (or one that it lacks), in its units and names.
+/// What is hidden: an effect of the catalogue (or one that it lacks), in its units and names.
 struct Hidden {
   std::string effect;
   std::string axis;  ///< empty for none
@@ -38,6 +38,25 @@ struct Noise {
   double sigma = 0.04, pose_m = 1e-5, pose_rad = 1e-5;  ///< N, m, rad
 };
 
+/// Under which conditions a scenario is recorded: what its family adds to the plain ones.
+struct Conditions {
+  std::string family = "plain";
+  int samples_per_reading = 8;  ///< of the 4000 Hz world: 8 is a log of 500 Hz
+  /// Tremor of the hand on the pose: centre frequency, width [Hz] and rms of positions and angles.
+  double tremor_hz = 0.0, tremor_width_hz = 1.0, tremor_m = 0.0, tremor_rad = 0.0;
+  double tremor_period_s = 0.0;  ///< of bursts; 0: steady
+  /// Noise of each axis relative to Noise::sigma, and its growth with the force on the axis:
+  /// deviation = sigma·axis·(1 + growth·|F|/N).
+  Eigen::Vector3d axis{1.0, 1.0, 1.0};
+  double growth = 0.0;
+  double burst = 1.0;    ///< factor of the noise in seconds drawn at random (one in six)
+  double lost = 0.0;     ///< share of the rows that the log lacks, one to three in a row
+  double jitter = 0.0;   ///< rms of the error of t, in steps
+  double seconds = 0.0;  ///< of a recording; 0: 25 to 45
+
+  double hz() const { return 4000.0 / samples_per_reading; }
+};
+
 struct Recorded {
   std::string name;
   bool holdout = false;
@@ -51,22 +70,29 @@ struct Scenario {
   std::string id, group;  ///< what draw() was asked for, and the part before the colon
   Tool tool;              ///< as the simulator at hand has it
   Noise noise;
+  Conditions conditions;
   std::string motion;
   std::vector<Hidden> hidden;
   std::vector<Recorded> recordings;
 };
 
-/// Ids of vocabulary.md that a wrist force can show, and those beyond it.
+/// Ids of the catalogue that a wrist force can show, and those beyond it.
 const std::vector<std::string>& listed_effects();
 const std::vector<std::string>& unlisted_effects();
 
-/// Draws the scenario `id` = "group:value/effect/number" of a seed; the same arguments give the
-/// same bytes. Groups, A being an amplitude in sensor noises: `single:A`, `foreign:A` (the listed
-/// effect in another form), `poor:A` (on a motion that hardly excites), `faint:A`, `unlisted:A`,
-/// `mixed:A` (unlisted, and a listed one drawn) with an effect; `double:A`, `triple:A`,
-/// `collinear:A` (two neighbours) with effect `any`; `null:KIND` (a kind of noise, or `pose`) with
-/// effect `none`. What changes nothing on the motion that was drawn for it (dry friction along an
-/// axis that rests) is drawn anew, motion and all. Error(kUsage) for another id.
+/// Families of conditions: `plain` (500 Hz, 25 to 45 s, noise of one level), `tremor` (a hand's, 4
+/// to 14 Hz), `load` (noise of each axis its own, growing with the force, in bursts), `clock` (200
+/// to 2000 Hz, rows lost, an uneven clock) and `field` (some of each, recordings of 12 to 60 s).
+const std::vector<std::string>& families();
+
+/// Draws the scenario `id` = "group:value/effect/number", or "family+group:value/effect/number", of
+/// a seed; the same arguments give the same bytes. Groups, A being an amplitude in sensor noises:
+/// `single:A`, `foreign:A` (the listed effect in another form), `poor:A` (on a motion that hardly
+/// excites), `faint:A`, `unlisted:A`, `mixed:A` (unlisted, and a listed one drawn) with an effect;
+/// `double:A`, `triple:A`, `collinear:A` (two neighbours) with effect `any`; `null:KIND` (a kind of
+/// noise, or `pose`) with effect `none`. What changes nothing on the motion that was drawn for it
+/// (dry friction along an axis that rests) is drawn anew, motion and all. Error(kUsage) for another
+/// id.
 Scenario draw(const std::string& id, std::uint64_t seed);
 
 /// Writes sim.json and one CSV per recording; returns the files to fit on and those held out.

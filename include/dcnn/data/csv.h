@@ -15,7 +15,7 @@ struct Table {
 };
 
 /// Reads a header row and rows of finite decimal numbers, comma-separated. Everything else is an
-/// Error(kData) naming file, line, column and remedy (contract.md section 2). Accepted beside: CRLF, a
+/// Error(kData) naming file, line, column and remedy. Accepted beside: CRLF, a
 /// last row without line end, blank lines after the last row, spaces around a cell, a leading '+'.
 Table read_csv(const std::filesystem::path& path);
 

@@ -1,4 +1,4 @@
-// The four estimators of spec 1.3: first and second derivatives of sampled signals, length
+// Four estimators: first and second derivatives of sampled signals, length
 // preserved.
 #pragma once
 
@@ -16,7 +16,10 @@ struct DerivativeSpec {
   Kind kind = Kind::kSavitzkyGolay;
   double window_s = 0.1;
   int order = 3;            ///< degree of the local polynomial (sg: 3, sg_causal: 2 by default)
-  double cutoff_hz = 11.0;  ///< spectral: |H| = 1/(1 + (f/cutoff)^8), zero phase
+  double cutoff_hz = 11.0;  ///< spectral: |H| = W(f)/(1 + (f/cutoff)^8), zero phase
+  /// spectral: 0 for W = 1; else W is the Wiener gain of every column's own spectrum, its noise
+  /// taken this many times.
+  double subtraction = 0.0;
 
   /// Number of samples in the window: 2·round(window_s/(2·dt)) + 1, at least order + 4 (odd).
   int window(double dt) const;
@@ -30,7 +33,7 @@ inline DerivativeSpec causal_derivative() {
   return spec;
 }
 
-/// Keys: kind (sg|sg_causal|central|spline|spectral), window_s, order, cutoff_hz.
+/// Keys: kind (sg|sg_causal|central|spline|spectral), window_s, order, cutoff_hz, subtraction.
 DerivativeSpec parse_derivative(Options options);
 Json to_json(const DerivativeSpec& spec);
 
@@ -45,8 +48,8 @@ struct Derivatives {
       value;  ///< (T, columns) the signals as the estimator sees them: smoothed by `spectral`
 };
 
-/// Derivatives of every column, segment by segment. A segment shorter than the window is an
-/// Error(kData) that names the recording, the rows and the remedy.
+/// Derivatives of every column, segment by segment. Rows that a segment lacks (steps of two to five
+/// dt) are bridged by a cubic spline first. A segment shorter than the window is an Error(kData) that names the recording, the rows and the remedy.
 Derivatives differentiate(Eigen::MatrixXd signals, const Recording& recording,
                           const DerivativeSpec& spec);
 

@@ -1,4 +1,4 @@
-// Feature vectors from recordings (spec 1.4): `pose`, the paper's 15; `body`, 15 in the sensor
+// Feature vectors from recordings: `pose`, the paper's 15; `body`, 15 in the sensor
 // frame without singularity; `axes`, those of a system description.
 #pragma once
 
@@ -30,7 +30,7 @@ struct FeatureLayout {
   std::vector<std::string> names, units;  ///< rows of the map, in order
   double dt = 0.0;                        ///< s, of the training recordings
   Eigen::Vector3d circular_mean =
-      Eigen::Vector3d::Zero();  ///< pose: branch of each angle (spec 1.2)
+      Eigen::Vector3d::Zero();  ///< pose: branch of each angle
   /// (6) standard deviation of x, y, z (m) and the Euler angles (rad) over the training recordings,
   /// the power that noise on the pose refers to; empty without a pose.
   Eigen::VectorXd pose_deviation;

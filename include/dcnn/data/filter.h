@@ -1,4 +1,4 @@
-// The zero-phase low-pass that measured, simulated and base columns share (contract.md section 2).
+// The zero-phase low-pass that measured, simulated and base columns share.
 #pragma once
 
 #include <Eigen/Dense>

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <complex>
+#include <vector>
 
 #include "dcnn/core/parallel.h"
 
@@ -10,9 +12,22 @@ namespace dcnn {
 /// The least length of at least n that is a product of 2, 3 and 5, for which transforms are fast.
 Index fast_length(Index n);
 
-/// X_k = sum_n x_n exp(-2 pi i k n/N), k = 0 … N/2.
+/// The transform of real signals of one length: what depends on the length alone is prepared once.
+class Fourier {
+ public:
+  explicit Fourier(Index n);
+
+  /// X_k = sum_n x_n exp(-2 pi i k n/N), k = 0 … N/2.
+  Eigen::VectorXcd operator()(const Eigen::VectorXd& x) const;
+  /// The real signal whose transform it is.
+  Eigen::VectorXd inverse(const Eigen::VectorXcd& X) const;
+
+ private:
+  Index n_;
+  std::vector<std::complex<double>> roots_;  // exp(-2 pi i k/n)
+};
+
+/// The same for one signal.
 Eigen::VectorXcd fourier(const Eigen::VectorXd& x);
-/// The real signal of length n whose fourier() is `half`.
-Eigen::VectorXd inverse_fourier(const Eigen::VectorXcd& half, Index n);
 
 }  // namespace dcnn

@@ -12,7 +12,7 @@
 
 namespace dcnn {
 
-/// Columns of a pose (contract.md section 2).
+/// Columns of a pose.
 inline const std::vector<std::string> kPosition = {"x", "y", "z"};
 inline const std::vector<std::string> kEuler = {"alpha", "beta", "gamma"};
 inline const std::vector<std::string> kQuaternion = {"qw", "qx", "qy", "qz"};
@@ -23,7 +23,7 @@ struct Segment {
   Index size() const { return end - begin; }
 };
 
-/// How a file is turned into SI units on a regular clock (contract.md section 2).
+/// How a file is turned into SI units on a regular clock.
 struct ReadOptions {
   double position_unit = 1.0;  ///< metres per unit in the file (0.001: millimetres)
   double angle_unit = 1.0;     ///< radians per unit in the file (pi/180: degrees)

@@ -1,4 +1,4 @@
-// Orientation: R_BE = Rz(alpha)·Ry(beta)·Rx(gamma) maps E to B (contract.md section 1).
+// Orientation: R_BE = Rz(alpha)·Ry(beta)·Rx(gamma) maps E to B.
 #pragma once
 
 #include <Eigen/Dense>

@@ -9,7 +9,7 @@
 
 namespace dcnn {
 
-/// One axis of a machine (contract.md section 2); empty names mean "not there".
+/// One axis of a machine; empty names mean "not there".
 struct Axis {
   std::string name, measured, unit;
   std::string position, velocity, acceleration, simulated;

@@ -38,7 +38,7 @@ struct Portrait {
 };
 
 struct Diagnosis {
-  Json report;          ///< report.json (contract.md section 5)
+  Json report;          ///< report.json (docs/use/diagnose.md)
   Simulator corrected;  ///< of a wrist tool
   Json model;           ///< model.json: the corrected simulator of a tool or a machine
   std::vector<HeldOut> holdout;

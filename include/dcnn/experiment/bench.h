@@ -1,4 +1,4 @@
-// Time that predictions take, in calls of a few samples (Table I, spec 5.2).
+// Time that predictions take, in calls of a few samples (Table I of the paper).
 #pragma once
 
 #include <filesystem>

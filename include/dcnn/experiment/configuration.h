@@ -1,5 +1,5 @@
-// From a preset, a configuration file and flags to one resolved configuration (contract.md section
-// 4).
+// From a preset, a configuration file and flags to one resolved configuration, with
+// defaults for all that none of them says.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// The files a diagnosis writes (contract.md section 4).
+// The files a diagnosis writes (docs/use/diagnose.md).
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// RMSE of trained identifiers over levels of input noise (spec 5.1).
+// RMSE of trained identifiers over levels of input noise.
 #pragma once
 
 #include <filesystem>
@@ -48,6 +48,14 @@ struct EvaluationSummary {
   std::optional<double> beyond;
 };
 
+/// What the errors must be seen beside, on the same rows without added noise.
+struct EvaluationReferences {
+  std::string rigid_file;        ///< the rigid tool that dcnn-train fitted beside the first model
+  std::optional<Score> rigid;    ///< none where its file is not there
+  std::vector<double> noise;     ///< white noise of the measured targets
+  std::vector<std::string> warnings;  ///< models worse than the rigid tool or than nothing
+};
+
 /// What a model said on the first recording without noise: for figures.
 struct Trace {
   std::string model;
@@ -64,6 +72,7 @@ struct Evaluation {
   std::vector<EvaluationRow> rows;
   std::vector<EvaluationSummary> summary;
   Score unidentified;  ///< of the prediction zero (NS)
+  EvaluationReferences references;
   std::vector<EvaluationRow>
       unfiltered;  ///< against the raw targets where the system low-passes them
   std::vector<Trace> traces;
@@ -73,7 +82,7 @@ struct Evaluation {
 Evaluation evaluate(const EvaluationRequest& request,
                     const std::function<void(int done, int total)>& progress);
 
-/// The document of contract.md section 5, and the same as a table for people.
+/// The document that dcnn-eval prints, and the same as a table for people.
 Json to_json(const Evaluation& evaluation);
 std::string to_text(const Evaluation& evaluation);
 

@@ -16,8 +16,8 @@ struct RemainderRequest {
   std::filesystem::path out;  ///< folder for model.dcnn
 };
 
-/// Trains on what the simulator leaves; a report in the form of dcnn-diagnose's (contract.md
-/// section 5) without findings: `fit_only` true, `fit.holdout_rmse_before` and `_after` per axis
+/// Trains on what the simulator leaves; a report in the form of dcnn-diagnose's
+/// without findings: `fit_only` true, `fit.holdout_rmse_before` and `_after` per axis
 /// without the first and last 0.5 s of each recording, and `seconds`. Errors are those of train().
 Json learn_remainder(const RemainderRequest& request);
 

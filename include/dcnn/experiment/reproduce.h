@@ -1,4 +1,4 @@
-// The paper's experiments from data to one report: Fig. 5, Table I, claims C1 to C5 (spec 5, 6).
+// The paper's experiments from data to one report (docs/results/paper.md): Fig. 5, Table I, C1 to C5.
 #pragma once
 
 #include <filesystem>

@@ -42,6 +42,11 @@ struct TrainingOutcome {
 /// a gap of 1 s, are for validation only; statistics come from the training rows alone.
 TrainingOutcome train(const TrainingRequest& request, const TrainingObserver& observer);
 
+/// What --model auto does: train() for the rigid tool and for networks, in folders of the run
+/// directory, and the one with the least error on the validation rows as `out`. The summary is that
+/// one's, with `choice`: the errors of all and the reason in words.
+TrainingOutcome train_best(const TrainingRequest& request, const TrainingObserver& observer);
+
 /// The run directory of a model file: its name with the extension .run.
 std::filesystem::path run_directory(const std::filesystem::path& model);
 

@@ -1,4 +1,4 @@
-// The model file: safetensors with a checksum (contract.md section 6).
+// The model file: safetensors with a checksum.
 #pragma once
 
 #include <filesystem>

@@ -17,7 +17,7 @@ struct TargetScale {
   Eigen::VectorXd mean, deviation;
 };
 
-/// How a network is trained (contract.md section 4, `training`).
+/// How a network is trained (key `training` of a configuration).
 struct TrainingSpec {
   Index epochs = 30, batch = 50;
   double l2 = 1e-4;

@@ -19,7 +19,7 @@ struct Pass {
     kInfer,    ///< dropout is the identity, batch norm uses its stored statistics
     kTrain,    ///< dropout draws, batch norm uses the batch and updates running statistics
     kCollect,  ///< no dropout; batch norm uses the batch and pools its statistics over batches
-               ///< (spec 2.4)
+               ///< (Ioffe and Szegedy 2015)
   };
   Mode mode = Mode::kInfer;
   Rng rng{0};              ///< dropout draws one key per call from it, so threads do not matter

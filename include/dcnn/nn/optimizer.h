@@ -32,7 +32,7 @@ class Adam {
   Index steps_ = 0;
 };
 
-/// lr(epoch): constant, piecewise constant (spec 2.4: lr0·factor^floor((e-1)/period)) or cosine to
+/// lr(epoch): constant, piecewise constant (lr0·factor^floor((e-1)/period)) or cosine to
 /// zero.
 class LearningRate {
  public:

@@ -9,7 +9,7 @@
 namespace dcnn {
 
 /// What a plan multiplies in. kInt16: DCNN's convolutions in 16-bit integers, everything else in
-/// single precision; docs/performance.md has its speed and its error.
+/// single precision; docs/results/performance.md has its speed and its error.
 enum class Precision { kSingle, kInt16 };
 
 /// One operation with its shapes fixed, its weights packed and its working memory its own.

@@ -1,4 +1,4 @@
-// The rigid body of a serial arm, linear in its inertial parameters (contract.md section 2, "arm").
+// The rigid body of a serial arm, linear in its inertial parameters.
 #pragma once
 
 #include <Eigen/Dense>

@@ -1,4 +1,4 @@
-// Machines that are a set of axes (contract.md section 2, "axes"): what their motion is, what the
+// Machines that are a set of axes (system.json of kind "axes"): what their motion is, what the
 // simulator at hand says, and a corrected simulator. An axis passes the same chain of effects as a
 // tool: its drive's reaction is a force along base x, its position the angle alpha.
 #pragma once
@@ -46,7 +46,7 @@ bool is_axis_machine(const Json& json);
 /// (T, axes): what the machine's drives would show, in the axes' units, low-passed as the system says.
 Eigen::MatrixXd predict_axes(const AxisMachine& machine, const Recording& recording);
 
-/// An effect's number as it is published for an axis: the stem of vocabulary.md ("fc"), the axis'
+/// An effect's number as it is published for an axis: the stem of its name ("fc"), the axis'
 /// unit, and the sign of the drive rather than of its reaction.
 struct AxisParameter {
   std::string stem, unit;

@@ -39,7 +39,7 @@ struct InstantWrench {
 /// An effect that runs sample by sample; it owns its state, and calling it allocates nothing.
 using EffectStream = std::function<void(InstantWrench&, const Instant&)>;
 
-/// Where in the chain an effect acts (vocabulary.md): stages run in this order.
+/// Where in the chain an effect acts: stages run in this order.
 enum class Stage {
   kTool,   ///< changes the ToolModel (mass, com, gravity_tilt, inertial_terms)
   kForce,  ///< force on the tool
@@ -68,7 +68,7 @@ enum class IntervalRule {
   kOnset,     ///< acts from t >= a; b is where the last recording ends and changes nothing
 };
 
-/// One effect as it stands in `hidden` (contract.md section 4) or in a corrected model.json.
+/// One effect as it stands in `hidden` or in a corrected model.json.
 struct EffectSpec {
   std::string effect;
   std::string axis;  ///< empty for none
@@ -102,7 +102,7 @@ struct EffectKind {
   Stage stage = Stage::kForce;
   const char* kind = nullptr;      ///< parameter, structural, sensor or external
   const char* meaning = nullptr;   ///< in words
-  const char* equation = nullptr;  ///< as in vocabulary.md
+  const char* equation = nullptr;  ///< as published
   /// The parameter names with the values used by examples and tests, JSON.
   const char* example = "{}";
   AxisRule axis = AxisRule::kNone;

@@ -1,4 +1,4 @@
-// Simulated recordings with ground truth, from one configuration (contract.md section 4).
+// Simulated recordings with ground truth, from one configuration.
 #pragma once
 
 #include <cstdint>

@@ -27,7 +27,7 @@ Simulator parse_simulator(const Json& json, const std::string& where, Exit exit)
 Simulator read_simulator(const std::filesystem::path& path);  ///< Error(kData)
 Json to_json(const Simulator& simulator);
 
-/// Force and torque of the rigid tool alone: F = m R^T (g - a_com) + bias (vocabulary.md), torque
+/// Force and torque of the rigid tool alone: F = m R^T (g - a_com) + bias, torque
 /// about the origin of S: c x m R^T (g - a_o) - I dw - w x (I w) + bias, where an inertia is given.
 /// Error(kData) where the motion lacks the acceleration that the model needs.
 Wrench rigid_wrench(const ToolModel& model, const Motion& motion);

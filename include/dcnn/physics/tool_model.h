@@ -1,4 +1,4 @@
-// sim.json: the numbers of a rigid tool on a wrist sensor (contract.md section 3).
+// sim.json: the numbers of a rigid tool on a wrist sensor.
 #pragma once
 
 #include <Eigen/Dense>

@@ -14,7 +14,7 @@ struct Request {
 };
 
 /// For every method a report with `verdict`, `findings` and `fit` as dcnn-diagnose writes them
-/// (contract.md section 5), and `seconds` it took, the library's included. Library: each law at the
+/// (report.json), and `seconds` it took, the library's included. Library: each law at the
 /// seeds of its shapes on each axis, differentiated by its amplitudes at zero; means over 20 ms of
 /// measured less simulated force; the derivatives' window is the one with which laws without shapes
 /// leave least. Laws whose instants or frequencies have to be searched for are not in a linear

@@ -27,6 +27,7 @@ struct OnlineSample {
 
 struct OnlineResult {
   double t = 0.0;                        ///< of the sample that it answers
+  Vector6d tool = Vector6d::Zero();      ///< of the tool on the sensor, in S, as predicted
   Vector6d external = Vector6d::Zero();  ///< on the tool, in B; finite, bounded, slew-limited
   RunState state = RunState::kWarmup;
   Reason reason = Reason::kWarmup;

@@ -1,4 +1,4 @@
-// The packets of dcnn-run (docs/run.md): fixed little-endian layouts under a keyed tag.
+// The packets of dcnn-run (docs/use/run.md): fixed little-endian layouts under a keyed tag.
 #pragma once
 
 #include <array>

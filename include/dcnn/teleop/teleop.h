@@ -1,4 +1,4 @@
-// The bilateral demonstration (spec 8): hand and master, delayed link, slave with impedance,
+// The bilateral demonstration: hand and master, delayed link, slave with impedance,
 // environment, and a force sensor whose tool an identifier compensates.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace dcnn {
 
-/// SI; every number is a free assumption of spec 8 unless the configuration says otherwise.
+/// SI; every number is an assumption of docs/use/teleop.md unless the configuration says otherwise.
 struct TeleopConfig {
   double duration_s = 90.0;
   double master_mass = 1.5, hand_stiffness = 300.0, hand_damping = 20.0, master_damping = 5.0;
@@ -80,7 +80,7 @@ struct TeleopTrace {
 TeleopTrace run_teleop(const TeleopConfig& config, Variant& variant, const Eigen::Matrix3d& R_ES,
                        std::uint64_t seed);
 
-/// The row of contract.md section 5 (errors along the wall's normal, as in spec 8), with
+/// A row of the report (errors along the wall's normal), with
 /// `stable` and the energy monitor beside it.
 Json summarise(const TeleopTrace& trace, const TeleopConfig& config, const std::string& name);
 

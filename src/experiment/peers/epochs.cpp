@@ -11,7 +11,7 @@ namespace dcnn {
 
 EpochRow compare_epochs(Child& child, const std::string& peer, const std::string& network,
                         int epochs) {
-  using Clock = std::chrono::steady_clock;
+  const auto now = std::chrono::steady_clock::now;
   const Task task = named_task(network);
   EpochRow row{.network = network, .peer = peer, .threads = threads()};
   child.ask("task " + network + " " + std::to_string(row.threads));
@@ -20,9 +20,9 @@ EpochRow compare_epochs(Child& child, const std::string& peer, const std::string
   double peak = 0.0;
   for (int k = 0; k < epochs; ++k) {
     peak = std::max(peak, peak_multiply_adds(4));
-    const auto begin = Clock::now();
+    const auto begin = now();
     training.epoch();
-    ours.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
+    ours.push_back(std::chrono::duration<double>(now() - begin).count());
     theirs.push_back(child.ask("epoch")["seconds"].get<double>());
     ratios.push_back(theirs.back() / ours.back());
   }

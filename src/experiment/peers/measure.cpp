@@ -12,9 +12,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kStretch = 0.001;  // s: long against the clock, short against a neighbour's visit
-constexpr double kSingle = 0.05;    // s of single calls
-constexpr double kRow = 6.0;        // s: rows of slow calls have fewer rounds
+constexpr double kStretch = 0.001;   // s: long against the clock, short against a neighbour's visit
+constexpr double kSingle = 0.05;     // s of single calls
+constexpr double kRowSeconds = 6.0;  // s: rows of slow calls have fewer rounds
 constexpr int kFewestRounds = 3;
 constexpr Index kOverheadCalls = 100;
 constexpr Index kMostSingle = 20000, kFewestSingle = 10;
@@ -153,8 +153,8 @@ Measured measure(const std::vector<Contestant*>& contestants, int rounds, int th
     round_seconds += seconds;
     settle(threads);
   }
-  rounds =
-      std::clamp(static_cast<int>(kRow / round_seconds), std::min(rounds, kFewestRounds), rounds);
+  rounds = std::clamp(static_cast<int>(kRowSeconds / round_seconds),
+                      std::min(rounds, kFewestRounds), rounds);
   set_threads(threads);
   for (int round = 0; round < rounds; ++round) {
     result.peak = std::max(result.peak, peak_multiply_adds(1));

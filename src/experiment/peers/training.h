@@ -12,7 +12,7 @@
 namespace dcnn {
 
 constexpr Index kSamples =
-    41729;  // spec 2.4: 834 iterations of the paper's batch of 50, the rest is skipped
+    41729;  // 834 iterations of the paper's batch of 50, the rest is skipped
 
 /// A network at the size of the paper's data.
 struct Task {
@@ -29,7 +29,7 @@ struct Task {
 
 inline Task dcnn_task(const std::string& padding) {
   const bool same = padding == "same";
-  const double products = same ? 508800 : 117024;  // spec 2.0
+  const double products = same ? 508800 : 117024;  // multiply-adds forwards
   // Forward, weight gradient and, but for the first layer, input gradient.
   const double training = 3 * products - (same ? 15 * 5 : 14 * 4) * 4 * 8;
   return {"dcnn-" + padding, dcnn_layers(padding), {15, 5, 1}, 50, products, training};

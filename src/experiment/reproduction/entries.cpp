@@ -10,7 +10,7 @@ namespace {
 
 using Group = Entry::Group;
 
-/// Order of Fig. 5 (spec 5.1); angles alone are the inputs of the authors' earlier works (D26).
+/// Order of the paper's Fig. 5; angles alone are the inputs of the authors' earlier works.
 std::vector<Entry> known_entries() {
   const Json angles = {{"model", {{"inputs", "angles"}}}},
              valid = {{"model", {{"padding", "valid"}}}};

@@ -139,7 +139,7 @@ void add_assumptions(HtmlReport& page) {
 
 std::string reproduction_page(const ReproductionRequest& request, const ReproductionPlan& plan,
                               const Results& results, const std::vector<Verdicts>& verdicts,
-                              const Provenance& provenance) {
+                              const Conditions& provenance) {
   HtmlReport page("Su et al. 2020, reproduced: noise, time and claims");
   page.paragraph(
       "H. Su et al., \"Deep Neural Network Approach in Robot Tool Dynamics Identification for "

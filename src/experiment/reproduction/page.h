@@ -8,7 +8,7 @@
 namespace dcnn {
 
 /// What every number of the page depends on, for its last table.
-struct Provenance {
+struct Conditions {
   std::vector<std::vector<std::string>> rows;  ///< name and value
 };
 
@@ -19,6 +19,6 @@ struct Verdicts {
 
 std::string reproduction_page(const ReproductionRequest& request, const ReproductionPlan& plan,
                               const Results& results, const std::vector<Verdicts>& verdicts,
-                              const Provenance& provenance);
+                              const Conditions& provenance);
 
 }  // namespace dcnn

@@ -5,7 +5,7 @@ namespace {
 
 const char* const kFeatureWords = "white noise on each feature, its power relative to that feature";
 
-/// The headline mode and the other readings of "Gaussian noise on the inputs" (spec 4).
+/// The headline mode and the other readings of "Gaussian noise on the inputs".
 std::vector<NoiseMode> noise_modes(const std::string& preset) {
   const bool quick = preset == "quick", paper = preset == "paper";
   const int draws = quick ? 2 : paper ? 20 : 5;

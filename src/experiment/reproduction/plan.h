@@ -1,4 +1,4 @@
-// What a preset does (spec 5): models, training protocols, noise modes, draws, timing.
+// What a preset does: models, training protocols, noise modes, draws, timing.
 #pragma once
 
 #include <string>

@@ -18,10 +18,10 @@ std::vector<Verdicts> judge(const ReproductionRequest& request, const Results& r
            judge_claims(only_one_augmented(a, b, request.augment_only), results.timings)}};
 }
 
-Provenance provenance(const ReproductionRequest& request, const ReproductionPlan& plan,
+Conditions provenance(const ReproductionRequest& request, const ReproductionPlan& plan,
                       Workshop& workshop, const Results& results, int threads_used) {
   const OutputLayout layout{request.out};
-  Provenance p;
+  Conditions p;
   p.rows = {{"preset", request.preset},
             {"training recording", workshop.training_data().filename().string() + ", SHA-256 " +
                                        workshop.data_hash(workshop.training_data())},
@@ -45,7 +45,7 @@ Provenance provenance(const ReproductionRequest& request, const ReproductionPlan
 }
 
 Json summary_of(const ReproductionRequest& request, const std::vector<Verdicts>& verdicts,
-                const Provenance& from) {
+                const Conditions& from) {
   Json summary = {{"preset", request.preset}, {"seed", request.seed}, {"commit", request.commit}};
   for (const Verdicts& v : verdicts) summary["claims"][v.series] = to_json(v.claims);
   for (const auto& row : from.rows) summary["depends_on"][row[0]] = row[1];

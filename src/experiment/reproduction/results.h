@@ -24,7 +24,7 @@ struct LevelScore {
 struct ModelScores {
   std::string entry;
   std::vector<LevelScore> levels;
-  std::vector<Json> rows;  ///< of every draw, as in contract.md section 5
+  std::vector<Json> rows;  ///< of every draw, as `dcnn-eval --json` lists them
 };
 
 /// All models under one training protocol and one noise mode, in the order of Fig. 5.

@@ -17,7 +17,7 @@ std::string decimal(double value) {
   return text;
 }
 
-/// One line per draw: level,model,run,<targets>,overall (spec 5.1).
+/// One line per draw: level,model,run,<targets>,overall.
 std::string draws_csv(const Scores& scores) {
   std::string text = "level,model,run";
   for (const auto& name : scores.targets) text += "," + name;

@@ -10,6 +10,7 @@
 namespace dcnn::frame_tcn {
 
 constexpr Index kChannels = 15;  ///< theta, v, theta', a, theta'', three each
+constexpr Index kChannelKinds = kChannels / 3;
 constexpr Index kBlocks = 48;    ///< 8 each of 1, 2, 4, 8, 16 and 32 samples
 constexpr Index kSpan = 504;     ///< samples that the blocks cover
 constexpr Index kLevelSpan = 256;

@@ -8,11 +8,10 @@
 namespace dcnn::frame_tcn {
 namespace {
 
-constexpr Index kKinds = kChannels / 3;
 constexpr Index kFirstLong = 24;    // blocks of 8 samples and more
 constexpr Index kFirstCoarse = 40;  // the 8 blocks of 32 samples
 constexpr double kShrink = 0.1, kLeastVariance = 1e-3;
-constexpr double kRareShare = 1e-4, kMargin = 1.25;
+constexpr double kRareRadiusShare = 1e-4, kRadiusMargin = 1.25;
 
 /// Mean square over the last second, the newest 56 samples aside.
 double strength(const double* means) {
@@ -37,7 +36,7 @@ double bend(const double* means) {
 }  // namespace
 
 Eigen::MatrixXd motion_signs(const Eigen::MatrixXd& x, const std::vector<Segment>& segments) {
-  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(3 * kKinds, x.rows());
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(3 * kChannelKinds, x.rows());
   const Eigen::MatrixXd rough = roughness(x, x, segments, 0, 1);
   const BlockMeans blocks(x, segments);
   double means[kBlocks];
@@ -45,14 +44,14 @@ Eigen::MatrixXd motion_signs(const Eigen::MatrixXd& x, const std::vector<Segment
     for (Index c = 0; c < kChannels; ++c) {
       blocks.write(i, c, kBlocks, means);
       square(c / 3, i) += strength(means) / 3.0;
-      square(kKinds + c / 3, i) += bend(means) / 3.0;
-      square(2 * kKinds + c / 3, i) += std::max(rough(c, i), 0.0) / 3.0;
+      square(kChannelKinds + c / 3, i) += bend(means) / 3.0;
+      square(2 * kChannelKinds + c / 3, i) += std::max(rough(c, i), 0.0) / 3.0;
     }
   }
   // At rest the logarithms would fall without end.
-  square.topRows(kKinds).array() += 1e-2;
-  square.middleRows(kKinds, kKinds).array() += 1e-6;
-  square.bottomRows(kKinds).array() += 1e-12;
+  square.topRows(kChannelKinds).array() += 1e-2;
+  square.middleRows(kChannelKinds, kChannelKinds).array() += 1e-6;
+  square.bottomRows(kChannelKinds).array() += 1e-12;
   return 0.5 * square.array().log10();
 }
 
@@ -70,9 +69,9 @@ void Novelty::learn(Index cloud, const Eigen::MatrixXd& seen, const Eigen::Matri
   covariance.diagonal() = variance.array() + kLeastVariance;
   whiten.middleCols(cloud * kSigns, kSigns) = inverse_cholesky(covariance);
   Eigen::VectorXd far = distance(cloud, held_out);
-  const auto rare = static_cast<Index>(kRareShare * static_cast<double>(far.size()));
+  const auto rare = static_cast<Index>(kRareRadiusShare * static_cast<double>(far.size()));
   std::nth_element(far.begin(), far.end() - 1 - rare, far.end());
-  limit[cloud] = kMargin * std::max(far[far.size() - 1 - rare], 1.0);
+  limit[cloud] = kRadiusMargin * std::max(far[far.size() - 1 - rare], 1.0);
 }
 
 Eigen::VectorXd Novelty::distance(Index cloud, const Eigen::MatrixXd& signs) const {

@@ -6,13 +6,12 @@
 namespace dcnn::frame_tcn {
 namespace {
 
-constexpr Index kKinds = kChannels / 3;
 constexpr Index kColumns = Pace::kSpan / Pace::kStride;
 constexpr Index kFewestColumns = kColumns / 2;  // a shorter past counts as rest before it
 constexpr double kAtRest = 1e-4;                // mean squares, in units of the training's
-constexpr double kSlow = 0.09;       // a rate below 0.3 of the training's is no measure of a pace
-constexpr double kRareShare = 1e-3;  // of the training
-constexpr double kMargin = 0.04;     // log10: another motion of the same band is a tenth stronger
+constexpr double kSlow = 0.09;  // a rate below 0.3 of the training's is no measure of a pace
+constexpr double kRarePaceShare = 1e-3;  // of the training
+constexpr double kPaceMargin = 0.04;  // log10: another motion of the same band is a tenth stronger
 
 /// Sums of each row over its last kColumns columns, over how many there are.
 Eigen::MatrixXd sliding_mean(const Eigen::MatrixXd& rows, Index fewest) {
@@ -33,8 +32,8 @@ Pace::Pace(Index levels)
       limit(Eigen::MatrixXd::Zero(kSigns, levels)) {}
 
 Eigen::MatrixXd Pace::signs(const Eigen::MatrixXd& clean) {
-  Eigen::MatrixXd square(kKinds, clean.cols());
-  for (Index k = 0; k < kKinds; ++k) {
+  Eigen::MatrixXd square(kChannelKinds, clean.cols());
+  for (Index k = 0; k < kChannelKinds; ++k) {
     square.row(k) = clean.middleRows(3 * k, 3).colwise().squaredNorm() / 3.0;
   }
   const Eigen::ArrayXXd mean = sliding_mean(square, kFewestColumns).array().max(0.0);
@@ -48,11 +47,11 @@ Eigen::MatrixXd Pace::mean_levels(const Eigen::MatrixXd& levels) { return slidin
 
 void Pace::learn(Index k, const Eigen::MatrixXd& signs, const Eigen::MatrixXd& mean_levels) {
   level.col(k) = mean_levels.rowwise().mean();
-  const auto rare = static_cast<Index>(kRareShare * static_cast<double>(signs.cols()));
+  const auto rare = static_cast<Index>(kRarePaceShare * static_cast<double>(signs.cols()));
   for (Index j = 0; j < kSigns; ++j) {
     Eigen::VectorXd sign = signs.row(j).transpose();
     std::nth_element(sign.begin(), sign.end() - 1 - rare, sign.end());
-    limit(j, k) = sign[sign.size() - 1 - rare] + kMargin;
+    limit(j, k) = sign[sign.size() - 1 - rare] + kPaceMargin;
   }
 }
 

@@ -1,18 +1,20 @@
 #include <cmath>
 
+#include "core/elementary.h"
 #include "physics/effect_law.h"
 
 namespace dcnn::effects::cable_field {
 namespace {
 
-/// The cable of the embedded data set (spec 1.6): smooth in the orientation, without memory.
+/// The cable of the embedded data set: smooth in the orientation, without memory.
 void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolModel&,
            Options& parameters) {
   const double amp = parameter(parameters, "amp_n");
   for (Index k = 0; k < motion.samples(); ++k) {
     const Eigen::RowVector3d q = motion.euler.row(k);
-    wrench.force.row(k) += amp * Eigen::RowVector3d(std::sin(q(0) + 0.4), std::cos(2.0 * q(1)),
-                                                    std::sin(q(2)) * std::cos(q(0)));
+    wrench.force.row(k) +=
+        amp * Eigen::RowVector3d(elementary::sin(q(0) + 0.4), elementary::cos(2.0 * q(1)),
+                                 elementary::sin(q(2)) * elementary::cos(q(0)));
   }
 }
 
@@ -20,8 +22,8 @@ EffectStream stream(const EffectSpec&, Options& parameters) {
   const double amp = parameter(parameters, "amp_n");
   return [amp](InstantWrench& wrench, const Instant& now) {
     const Eigen::Vector3d& q = now.euler;
-    wrench.force += amp * Eigen::Vector3d(std::sin(q(0) + 0.4), std::cos(2.0 * q(1)),
-                                          std::sin(q(2)) * std::cos(q(0)));
+    wrench.force += amp * Eigen::Vector3d(elementary::sin(q(0) + 0.4), elementary::cos(2.0 * q(1)),
+                                          elementary::sin(q(2)) * elementary::cos(q(0)));
   };
 }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/elementary.h"
 #include "physics/effect_law.h"
 
 namespace dcnn::effects::cogging {
@@ -8,7 +9,7 @@ namespace {
 auto law(Options& parameters) {
   const double amp = parameter(parameters, "amp_n"), order = parameter(parameters, "order");
   const double phase = parameter(parameters, "phase_rad");
-  return [=](double q) { return amp * std::sin(order * q + phase); };
+  return [=](double q) { return amp * elementary::sin(order * q + phase); };
 }
 
 }  // namespace
@@ -27,9 +28,9 @@ const EffectKind effect{
               .shapes = {{"order", 0.5, 200.0, {}}},
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
-                    return Json{{"amp_n", std::hypot(a(0), a(1))},
+                    return Json{{"amp_n", a.norm()},
                                 {"order", s(0)},
-                                {"phase_rad", std::atan2(a(1), a(0))}};
+                                {"phase_rad", elementary::atan2(a(1), a(0))}};
                   }}},
 };
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/elementary.h"
 #include "physics/friction.h"
 
 namespace dcnn::effects::coulomb_friction {
@@ -8,7 +9,7 @@ namespace {
 auto law(Options& parameters) {
   const double fc = parameter(parameters, "fc_n", 0.0);
   const double v0 = parameter(parameters, "v0_mps", kTiny);
-  return [=](double v) { return fc * std::tanh(v / v0); };
+  return [=](double v) { return fc * elementary::tanh(v / v0); };
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include "dcnn/data/rotation.h"
 #include "physics/effect_law.h"
 
 namespace dcnn::effects::gravity_tilt {
@@ -5,8 +6,7 @@ namespace {
 
 void change(ToolModel& model, Options& parameters) {
   const double tx = parameter(parameters, "tilt_x_rad"), ty = parameter(parameters, "tilt_y_rad");
-  model.gravity = Eigen::AngleAxisd(ty, Eigen::Vector3d::UnitY()) *
-                  (Eigen::AngleAxisd(tx, Eigen::Vector3d::UnitX()) * model.gravity);
+  model.gravity = rotation_from_euler({0.0, ty, tx}) * model.gravity;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <numbers>
 
+#include "core/elementary.h"
 #include "physics/effect_law.h"
 
 namespace dcnn::effects::hum {
@@ -9,8 +10,8 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolMo
            Options& parameters) {
   const double hz = parameter(parameters, "freq_hz", 0.0);
   const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * hz * motion.t.array();
-  add(wrench, read_offset(parameters, "sin"), angle.sin());
-  add(wrench, read_offset(parameters, "cos"), angle.cos());
+  add(wrench, read_offset(parameters, "sin"), elementary::sin(angle));
+  add(wrench, read_offset(parameters, "cos"), elementary::cos(angle));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/elementary.h"
 #include "physics/effect_law.h"
 
 namespace dcnn::effects::hysteresis {
@@ -8,12 +9,12 @@ namespace {
 /// Solves dy/du = 1 - rate·y exactly from y over u.
 double relax(double y, double u, double rate) {
   if (std::abs(rate) < 1e-9) return y + u;
-  return y + (1.0 / rate - y) * -std::expm1(-rate * u);
+  return y + (1.0 / rate - y) * -elementary::expm1(-rate * u);
 }
 
 /// The way u in which y < 0 comes to 0 under dy/du = 1 - rate·y.
 double way_to_zero(double y, double rate) {
-  return std::abs(rate) < 1e-9 ? -y : std::log1p(-rate * y) / rate;
+  return std::abs(rate) < 1e-9 ? -y : elementary::log1p(-rate * y) / rate;
 }
 
 /// Bouc-Wen (Wen 1976, n = 1) along a turn dq = sign·u·width. With y = sign·z the law is

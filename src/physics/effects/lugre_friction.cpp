@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/elementary.h"
 #include "physics/friction.h"
 
 namespace dcnn::effects::lugre_friction {
@@ -11,7 +12,7 @@ namespace {
 /// speed.
 double deflect(double z, double v, double h, double reach) {
   const double settled = std::copysign(reach, v);
-  return settled + (z - settled) * std::exp(-std::abs(v) * h / reach);
+  return settled + (z - settled) * elementary::exp(-std::abs(v) * h / reach);
 }
 
 /// One step with the velocity running linearly from v0 to v1: exact but for the change of

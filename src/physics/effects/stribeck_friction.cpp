@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/elementary.h"
 #include "physics/friction.h"
 
 namespace dcnn::effects::stribeck_friction {
@@ -10,7 +11,7 @@ auto law(Options& parameters) {
   const double vs = parameter(parameters, "vs_mps", kTiny);
   const double v0 = parameter(parameters, "v0_mps", kTiny);
   return [=](double v) {
-    return (fc + (fs - fc) * std::exp(-(v / vs) * (v / vs))) * std::tanh(v / v0);
+    return (fc + (fs - fc) * elementary::exp(-(v / vs) * (v / vs))) * elementary::tanh(v / v0);
   };
 }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/elementary.h"
 #include "physics/effect_law.h"
 
 namespace dcnn::effects::thermal_drift {
@@ -19,7 +20,7 @@ void follow(Wrench& wrench, const Motion& motion, Options& parameters) {
 void settle(Wrench& wrench, const Motion& motion, Options& parameters) {
   const Offset a = read_offset(parameters, "a");
   const double tau = parameter(parameters, "tau_s", kTiny);
-  add(wrench, a, 1.0 - (-motion.t.array() / tau).exp());
+  add(wrench, a, 1.0 - elementary::exp(-motion.t.array() / tau));
 }
 
 void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolModel&,

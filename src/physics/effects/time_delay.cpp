@@ -6,12 +6,15 @@
 namespace dcnn::effects::time_delay {
 namespace {
 
+constexpr double kLongest = 2.0;  // s
+
 /// The cubic through the four samples about `place` (in samples from `begin`), Lagrange's form;
-/// near an end the outermost four. Before the first sample the signal rests at its first value.
-/// `x(i)` is sample i of `size`.
+/// near an end the outermost four. Before the first sample the signal rests at its first value,
+/// after the last at that. `x(i)` is sample i of `size`.
 template <class Signal>
 double interpolate(const Signal& x, Index size, double place) {
   if (place <= 0.0) return x(0);
+  if (place >= static_cast<double>(size - 1)) return x(size - 1);
   if (size < 4) return x(std::min<Index>(std::llround(place), size - 1));
   const Index first = std::clamp<Index>(static_cast<Index>(place) - 1, 0, size - 4);
   const double s = place - static_cast<double>(first);
@@ -35,7 +38,7 @@ void delay(Eigen::MatrixXd& signals, const Motion& motion, double seconds) {
 
 void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolModel&,
            Options& parameters) {
-  const double seconds = parameter(parameters, "delay_s", 0.0);
+  const double seconds = parameter(parameters, "delay_s", -kLongest);
   delay(wrench.force, motion, seconds);
   delay(wrench.torque, motion, seconds);
 }
@@ -48,8 +51,13 @@ struct Past {
 };
 
 EffectStream stream(const EffectSpec&, Options& parameters) {
-  constexpr double kFastest = 1e-4, kLongest = 2.0;  // s: sample time, delay
-  const double seconds = parameter(parameters, "delay_s", 0.0);
+  constexpr double kFastest = 1e-4;  // s, sample time
+  const double seconds = parameter(parameters, "delay_s", -kLongest);
+  if (seconds < 0.0) {
+    parameters.reject("delay_s",
+                      "is negative: a force that leads the pose needs samples that are "
+                      "not there yet; delay the force, or predict whole recordings");
+  }
   Past past;
   past.ring.setZero(6, 8 + static_cast<Index>(std::min(seconds, kLongest) / kFastest));
   return [seconds, past](InstantWrench& wrench, const Instant& now) mutable {
@@ -76,7 +84,7 @@ const EffectKind effect{
     .name = "time_delay",
     .stage = Stage::kDynamics,
     .kind = "sensor",
-    .meaning = "force lags the pose by a pure delay",
+    .meaning = "force lags the pose by a pure delay; negative: it leads",
     .equation = "F(t) -> F(t - d)",
     .example = R"({"delay_s": 0.013})",
     .needs_time = true,
@@ -86,6 +94,11 @@ const EffectKind effect{
               .parameters =
                   [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {
                     return Json{{"delay_s", s(0)}};
+                  }},
+             {.shapes = {{"lead", 2e-5, 0.2, {0.001, 0.004, 0.02}}},
+              .parameters =
+                  [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {
+                    return Json{{"delay_s", -s(0)}};
                   }}},
 };
 

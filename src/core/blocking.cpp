@@ -1,0 +1,14 @@
+#include "dcnn/core/blocking.h"
+
+#include <Eigen/Dense>
+
+namespace dcnn {
+
+void fix_blocking() {
+  constexpr std::ptrdiff_t kFirst = 32 * 1024, kSecond = 512 * 1024, kThird = 4096 * 1024;
+  const bool fixed = Eigen::l1CacheSize() == kFirst && Eigen::l2CacheSize() == kSecond &&
+                     Eigen::l3CacheSize() == kThird;
+  if (!fixed) Eigen::setCpuCacheSizes(kFirst, kSecond, kThird);
+}
+
+}  // namespace dcnn

@@ -1,0 +1,34 @@
+// Every prior of the diagnosis, in one table (docs/develop/priors.md says where each comes from).
+#pragma once
+
+namespace dcnn::evidence::prior {
+
+constexpr double kName = 0.04;      ///< probability of each listed effect, shared by its axes
+constexpr double kUnknown = 0.12;   ///< of physics that no effect of the catalogue describes
+constexpr double kSlowNoise = 0.1;  ///< of noise that rises as 1/f below the floor's band
+/// Power of a sensor's slow noise over its floor at most, in any octave.
+constexpr double kMostSlowNoise = 3.0;
+/// Decades over which the size of an effect, in deviations of the noise over all rows, is
+/// log-uniform.
+constexpr double kDecades = 4.0;
+/// Rms of a field of the unknown, in deviations of a block's noise: log-uniform between these.
+constexpr double kLeastField = 0.003, kMostField = 300.0;
+/// Relative deviation by which a law, or the motion that it acts on, may be wrong.
+constexpr double kModelError = 0.003;
+/// A name and an unknown along one axis of one driver [nats]: one cause is the rule.
+constexpr double kSameCause = 20.0;
+/// Gain of the unknown [nats] at which differences of evidence beside it count half: its functions
+/// are some per cent off any law.
+constexpr double kTempering = 60.0;
+/// Deviation of what filtering the pose a little more or less changes, in units of that change.
+constexpr double kFiltering = 1.5;
+/// Deviation of a cable's force at the first sample, as a share of its largest.
+constexpr double kBeginning = 0.6;
+/// Time [s] to within which the ends of an interval are known; they are uniform over the
+/// recordings.
+constexpr double kEdge = 0.2;
+/// Probability that the structure is none of those that were weighed: shared by the four classes,
+/// and taken off every name. A search meets no more than it looks for.
+constexpr double kElsewhere = 0.04;
+
+}  // namespace dcnn::evidence::prior

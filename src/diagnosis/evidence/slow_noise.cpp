@@ -1,0 +1,73 @@
+#include "diagnosis/evidence/slow_noise.h"
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "core/elementary.h"
+#include "diagnosis/evidence/marginal.h"
+#include "diagnosis/evidence/priors.h"
+
+namespace dcnn::evidence {
+namespace {
+
+constexpr double kHighest = 3.0;  // Hz, of the transform
+constexpr int kCorners = 12;
+
+struct Term {
+  double hz, square;
+};
+
+/// Squares of the orthonormal cosine transform of each channel's runs, without the mean.
+std::map<std::uint32_t, std::vector<Term>> transformed(const Grid& grid,
+                                                       const Eigen::VectorXd& residual) {
+  std::map<std::uint32_t, std::vector<Term>> terms;
+  for (const Grid::Run& run : grid.runs()) {
+    const auto n = static_cast<double>(run.count);
+    for (Index k = 1; k < run.count; ++k) {
+      const double hz = static_cast<double>(k) / (2.0 * n * grid.seconds());
+      if (hz > kHighest) break;
+      const double turn = std::numbers::pi * static_cast<double>(k) / n;
+      double sum = 0.0;
+      for (Index i = 0; i < run.count; ++i) {
+        sum += residual(run.first + i) * elementary::cos(turn * (static_cast<double>(i) + 0.5));
+      }
+      terms[run.channel].push_back({hz, sum * sum * 2.0 / n});
+    }
+  }
+  return terms;
+}
+
+}  // namespace
+
+SlowNoise slow_noise(const Grid& grid, const Eigen::VectorXd& residual) {
+  SlowNoise noise;
+  noise.log_factor = elementary::log(prior::kSlowNoise / (1.0 - prior::kSlowNoise));
+  if (grid.study().is_static()) return noise;
+  for (const auto& [channel, terms] : transformed(grid, residual)) {
+    std::vector<double> corners;
+    for (int k = 0; k < kCorners; ++k) {
+      const double corner = 0.01 * elementary::pow(200.0, k / (kCorners - 1.0));
+      double factor = 0.0;
+      for (const Term& term : terms) {
+        const double density = 1.0 + corner / term.hz;
+        factor -= 0.5 * (elementary::log(density) + term.square * (1.0 / density - 1.0));
+      }
+      corners.push_back(factor - elementary::log(double(kCorners)));
+    }
+    noise.log_factor += log_sum(corners);
+    for (double from = kHighest / 64.0; from < kHighest; from *= 2.0) {
+      double sum = 0.0, count = 0.0;
+      for (const Term& term : terms) {
+        if (term.hz >= from && term.hz < 2.0 * from) sum += term.square, ++count;
+      }
+      // Beyond what so few squares of normal numbers reach by chance.
+      const double most =
+          prior::kMostSlowNoise * (1.0 + 3.0 * std::sqrt(2.0 / std::max(1.0, count)));
+      if (count > 0.0 && sum / count > most) noise.plausible = false;
+    }
+  }
+  return noise;
+}
+
+}  // namespace dcnn::evidence

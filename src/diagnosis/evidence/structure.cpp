@@ -1,0 +1,235 @@
+#include "diagnosis/evidence/structure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "core/elementary.h"
+#include "core/linear_algebra.h"
+#include "diagnosis/candidates.h"
+#include "diagnosis/evidence/marginal.h"
+#include "diagnosis/evidence/priors.h"
+#include "diagnosis/judgement.h"
+#include "diagnosis/member.h"
+
+namespace dcnn::evidence {
+namespace {
+
+constexpr std::size_t kMostFields = 4, kTriedAgain = 30;
+
+/// Precisions of the priors of a fit's linear columns: free parameters and the base simulator's are
+/// flat.
+Eigen::VectorXd precisions(const Setting& setting, const JointFit& fit) {
+  Eigen::VectorXd precision = Eigen::VectorXd::Zero(fit.tangent.cols());
+  const auto regressors = static_cast<Index>(setting.study.logs.front().regressors.size());
+  const Index first = fit.free_parameters() + regressors;
+  const Index smoothing = setting.nuisance.cols() - regressors;
+  precision.segment(first, smoothing).setConstant(1.0 / (prior::kFiltering * prior::kFiltering));
+  Index column = first + smoothing;
+  const auto logs = static_cast<Index>(setting.study.logs.size());
+  for (const Member& member : fit.members) {
+    if (member.name() != "hysteresis" || column + logs > precision.size()) continue;
+    const double sd = prior::kBeginning * std::max(1e-12, std::abs(member.amplitudes(0)));
+    precision.segment(column, logs).setConstant(1.0 / (sd * sd));
+    column += logs;
+  }
+  return precision;
+}
+
+/// ln of the surface of the unit sphere in d dimensions, S_d = 2 pi S_(d-2)/(d - 2); of one that
+/// only resists, of its positive part.
+double log_sphere(Index d, bool one_sided) {
+  double surface = d % 2 == 1 ? 2.0 : 2.0 * std::numbers::pi;
+  for (Index n = d % 2 == 1 ? 3 : 4; n <= d; n += 2) {
+    surface *= 2.0 * std::numbers::pi / static_cast<double>(n - 2);
+  }
+  return elementary::log(surface) -
+         (one_sided ? static_cast<double>(d) * elementary::log(2.0) : 0.0);
+}
+
+/// ln of the prior density of a member's numbers at their estimates.
+double log_prior(const Setting& setting, const JointFit& fit, std::size_t m) {
+  const Member& member = fit.members[m];
+  const auto axes = std::max<std::size_t>(1, axes_of(setting.study, *member.kind).size());
+  double sum = elementary::log(prior::kName / (1.0 - prior::kName)) - elementary::log(double(axes));
+  if (member.interval_s) {
+    const double edges = member.kind->interval == IntervalRule::kRequired ? 2.0 : 1.0;
+    sum += edges * elementary::log(prior::kEdge / std::max(1.0, span_seconds(setting.study)));
+  }
+  const auto [first, count] = tangent_columns(fit, m);
+  if (count == 0) return sum;
+  const Index d = member.amplitudes.size();
+  if (d > 0) {
+    const Eigen::MatrixXd columns = fit.tangent.middleCols(first, d);
+    const Eigen::MatrixXd gram = columns.transpose() * columns;
+    const double norm = std::sqrt(std::max(1.0, (columns * member.amplitudes).squaredNorm()));
+    Linear metric{gram, Eigen::VectorXd::Zero(d), 0.0, Eigen::VectorXd::Zero(d)};
+    sum +=
+        0.5 * log_determinant(metric) - elementary::log(prior::kDecades * elementary::log(10.0)) -
+        static_cast<double>(d) * elementary::log(norm) - log_sphere(d, member.form->non_negative);
+  }
+  for (const ShapeParameter& shape : member.form->shapes) {
+    sum -= elementary::log(search_scale(shape, shape.high) - search_scale(shape, shape.low));
+  }
+  return sum;
+}
+
+/// What each member adds, times slowly varying quantities: how a law that is nearly right errs.
+Eigen::MatrixXd model_errors(const Grid& grid, const std::vector<Member>& members) {
+  const Case& study = grid.study();
+  std::vector<Eigen::VectorXd> columns;
+  const Chain chain(study, members);
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    if (members[m].fixed || members[m].parameters() == 0) continue;
+    std::vector<Member> rest = members;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(m));
+    const Signals without = predict(study, rest);
+    const auto add = [&](const auto& modulator) {
+      Signals signals;
+      for (std::size_t k = 0; k < without.size(); ++k) {
+        const Eigen::VectorXd u = modulator(k);
+        const double low = u.minCoeff(), high = u.maxCoeff();
+        const Eigen::ArrayXd even = high > low
+                                        ? ((2.0 * u.array() - high - low) / (high - low)).eval()
+                                        : Eigen::ArrayXd::Ones(u.size()).eval();
+        signals.emplace_back((prior::kModelError * even).matrix().asDiagonal() *
+                             (chain.prediction()[k] - without[k]));
+      }
+      columns.push_back(grid(signals));
+    };
+    const auto motion = [&](std::size_t k) -> const Motion& { return study.logs[k].motion; };
+    add([&](std::size_t k) -> Eigen::VectorXd { return motion(k).t; });
+    for (Index a = 0; a < 3; ++a) {
+      add([&](std::size_t k) -> Eigen::VectorXd { return motion(k).euler.col(a); });
+    }
+    add([&](std::size_t k) -> Eigen::VectorXd { return motion(k).w_S.rowwise().norm(); });
+    if (motion(0).v_B.rows() == motion(0).samples()) {
+      add([&](std::size_t k) -> Eigen::VectorXd { return motion(k).v_B.rowwise().norm(); });
+    }
+  }
+  Eigen::MatrixXd all(grid.rows(), static_cast<Index>(columns.size()));
+  for (Index k = 0; k < all.cols(); ++k) all.col(k) = columns[static_cast<std::size_t>(k)];
+  return all;
+}
+
+/// Whether a field acts along the axis of a named effect.
+bool shares_axis(const Field& field, const std::vector<Member>& members) {
+  return std::any_of(members.begin(), members.end(), [&](const Member& m) {
+    if (m.axis.empty()) return false;
+    std::string axis = m.axis.substr(m.axis.find(':') + 1);
+    if (axis == "tool_z") axis = "sensor_z";
+    return axis == field.axis;
+  });
+}
+
+/// Columns whose Gaussian priors have unit variance, and flat ones, projected out of fields.
+class Background {
+ public:
+  Background(Eigen::MatrixXd X, Eigen::VectorXd precision, Eigen::VectorXd y)
+      : X_(std::move(X)), precision_(std::move(precision)), y_(std::move(y)) {
+    update();
+  }
+  void extend(const Eigen::MatrixXd& columns) {
+    X_ = appended(X_, columns);
+    const Index before = precision_.size();
+    precision_.conservativeResize(X_.cols());
+    precision_.tail(X_.cols() - before).setOnes();
+    update();
+  }
+  double log_factor(const Field& field, double* tau) const {
+    const Eigen::MatrixXd& P = field.columns;
+    if (X_.cols() == 0) {
+      return log_field(P.transpose() * P, P.transpose() * y_, prior::kLeastField, prior::kMostField,
+                       tau);
+    }
+    const Eigen::MatrixXd cross = half_ * (X_.transpose() * P);
+    return log_field(P.transpose() * P - cross.transpose() * cross,
+                     P.transpose() * y_ - cross.transpose() * match_, prior::kLeastField,
+                     prior::kMostField, tau);
+  }
+  Linear linear() const { return linear_model(X_, y_, precision_); }
+
+ private:
+  void update() {
+    if (X_.cols() == 0) return;
+    Eigen::MatrixXd A = X_.transpose() * X_;
+    A.diagonal() += precision_;
+    const double ridge = 1e-10;
+    for (Index k = 0; k < A.rows(); ++k) A(k, k) += ridge * A(k, k) + 1e-280;
+    const Eigen::VectorXd scale = A.diagonal().cwiseSqrt().cwiseInverse();
+    half_ = inverse_cholesky(scale.asDiagonal() * A * scale.asDiagonal()) * scale.asDiagonal();
+    match_ = half_ * (X_.transpose() * y_);
+  }
+  Eigen::MatrixXd X_;
+  Eigen::VectorXd precision_, y_;
+  Eigen::MatrixXd half_;   // inverse of the Cholesky factor of X'X + P
+  Eigen::VectorXd match_;  // half_ X'y
+};
+
+/// Fields one after the other, as long as they gain more than their choice costs.
+Unknown unknown_beside(const Grid& grid, const std::vector<Member>& members,
+                       Background background) {
+  const std::vector<Field> all = fields(grid, predict(grid.study(), members));
+  Unknown unknown;
+  const double choice = elementary::log(static_cast<double>(std::max<std::size_t>(1, all.size())));
+  std::vector<double> factors(all.size()), taus(all.size());
+  const auto evaluate = [&](std::size_t k) {
+    factors[k] = background.log_factor(all[k], &taus[k]) - choice;
+    if (shares_axis(all[k], members)) factors[k] -= prior::kSameCause;
+  };
+  for_each_piece(static_cast<Index>(all.size()), [&](Index k) { evaluate(std::size_t(k)); });
+  unknown.log_factor = log_sum(factors);
+  std::vector<std::size_t> order(all.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  const auto sort = [&] {
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return factors[a] > factors[b]; });
+  };
+  sort();
+  double sum = unknown.log_factor;
+  for (std::size_t term = 0; term < kMostFields && !order.empty(); ++term) {
+    const std::size_t best = order.front();
+    if (factors[best] <= 0.0) break;
+    if (term == 0) unknown.gain = factors[best];
+    if (term > 0) sum += factors[best], unknown.gain += factors[best];
+    unknown.words.push_back(all[best].driver + ", along " + all[best].axis);
+    background.extend(taus[best] * all[best].columns);
+    order.erase(order.begin());
+    if (order.size() > kTriedAgain) order.resize(kTriedAgain);
+    for_each_piece(static_cast<Index>(order.size()),
+                   [&](Index k) { evaluate(order[static_cast<std::size_t>(k)]); });
+    sort();
+  }
+  unknown.log_factor = sum;
+  return unknown;
+}
+
+}  // namespace
+
+Structure structure_of(const Setting& setting, const Grid& grid, const JointFit& fit) {
+  Structure structure;
+  structure.members = fit.members;
+  const Eigen::VectorXd precision = precisions(setting, fit);
+  // The residual with what the nuisance columns took off put back.
+  const Eigen::VectorXd target =
+      fit.residual + fit.tangent.rightCols(fit.nuisance.size()) * fit.nuisance;
+  structure.log_named =
+      log_evidence(linear_model(fit.tangent, target, precision)) - 0.5 * target.squaredNorm();
+  for (std::size_t m = 0; m < fit.members.size(); ++m) {
+    if (!fit.members[m].fixed) structure.log_named += log_prior(setting, fit, m);
+  }
+  const Eigen::MatrixXd X = grid.pooled(fit.tangent), errors = model_errors(grid, fit.members);
+  const Eigen::VectorXd y = grid.pooled(target);
+  Background background(X, precision, y);
+  if (errors.cols() > 0) {
+    const double before = log_evidence(background.linear());
+    background.extend(errors);
+    structure.log_named += std::max(0.0, log_evidence(background.linear()) - before);
+  }
+  structure.noise = slow_noise(grid, grid.pooled(fit.residual));
+  structure.unknown = unknown_beside(grid, fit.members, std::move(background));
+  return structure;
+}
+
+}  // namespace dcnn::evidence

@@ -1,0 +1,66 @@
+// No noise exceeds what the model leaves.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "diagnosis/periodograms.h"
+
+namespace dcnn {
+namespace {
+
+/// The residual's density over the floor's in an octave, and its relative sampling error.
+struct Octave {
+  double hz, ratio, error;
+};
+
+std::vector<Octave> octaves(const Case& study, const Periodograms& p, const Floor& floor) {
+  const Eigen::VectorXd density = density_of(p, study.rounding_step > 0.0);
+  std::vector<Octave> list;
+  // The window takes the mean off the two lowest bins, and the highest has no imaginary part.
+  const Index last = p.hz.size() - 1;
+  for (Index first = 2; first + 1 < last;) {
+    Index end = std::min(last, 2 * first);
+    if (2 * end > 2 * last - first) end = last;  // less than half an octave more
+    double residual = 0.0, fitted = 0.0;
+    for (Index i = first; i < end; ++i) residual += density(i), fitted += floor.density(p.hz(i));
+    // Of a mean of medians of exponential variables, one bin in 1.5 independent behind the window.
+    const double independent = static_cast<double>((end - first) * p.power.cols()) / 1.5;
+    list.push_back({std::sqrt(p.hz(first) * p.hz(end - 1)), residual / std::max(fitted, 1e-300),
+                    1.44 / std::sqrt(std::max(1.0, independent))});
+    first = end;
+  }
+  return list;
+}
+
+}  // namespace
+
+void bound_by_residual(const Case& study, const Signals& residual, const Signals& levels,
+                       std::vector<Floor>& floors) {
+  constexpr double kDeviations = 3.1;  // of a normal at 99.9 %
+  if (study.is_static()) return;
+  Signals even;
+  for (std::size_t k = 0; k < residual.size(); ++k) {
+    even.push_back(residual[k].cwiseQuotient(levels[k]));
+  }
+  for (std::size_t j = 0; j < floors.size(); ++j) {
+    const Periodograms p = periodograms(study, even, static_cast<Index>(j));
+    if (p.power.cols() == 0) continue;
+    Floor& floor = floors[j];
+    const double lowpass = std::exchange(floor.lowpass_hz, 0.0);
+    std::vector<std::pair<double, double>> bounds;
+    bool bound = false;
+    for (const Octave& octave : octaves(study, p, floor)) {
+      const bool below = octave.ratio * (1.0 + kDeviations * octave.error) < 1.0;
+      bounds.emplace_back(octave.hz, below ? octave.ratio : 1.0);
+      bound = bound || below;
+    }
+    if (bound) {
+      floor.bounds = std::move(bounds);
+      const std::string bounded = ", nowhere more than the residual";
+      if (!floor.source.ends_with(bounded)) floor.source += bounded;
+    }
+    floor.lowpass_hz = lowpass;
+  }
+}
+
+}  // namespace dcnn

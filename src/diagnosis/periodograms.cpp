@@ -1,0 +1,77 @@
+#include "diagnosis/periodograms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/elementary.h"
+#include "dcnn/data/fourier.h"
+#include "diagnosis/median.h"
+
+namespace dcnn {
+namespace {
+
+constexpr Index kWindow = 1024;  // samples of one periodogram
+constexpr Index kShortestWindow = 64;
+
+/// Samples of a window of which segments long enough hold half of the recordings.
+Index window_of(const Case& study) {
+  Index longest = 0;
+  for (Index n = kWindow; n >= kShortestWindow; n /= 2) {
+    Index all = 0, held = 0;
+    for (const Log& log : study.logs) {
+      for (const Segment& s : log.motion.segments) {
+        all += s.size();
+        if (s.size() >= n) held += s.size();
+        longest = std::max(longest, s.size());
+      }
+    }
+    if (2 * held >= all) return n;
+  }
+  return std::max<Index>(16, std::min(longest, kShortestWindow));
+}
+
+}  // namespace
+
+Periodograms periodograms(const Case& study, const Signals& signals, Index channel) {
+  const Index n = window_of(study);
+  const Eigen::ArrayXd phase = Eigen::ArrayXd::LinSpaced(n, 0.5, static_cast<double>(n) - 0.5) *
+                               2.0 * std::numbers::pi / static_cast<double>(n);
+  const Eigen::VectorXd taper = (1.0 - elementary::cos(phase)).matrix() * 0.5;
+  const double power = taper.squaredNorm();
+  Periodograms result;
+  const Index bins = n / 2 + 1;
+  result.hz = Eigen::VectorXd::LinSpaced(bins, 0.0, static_cast<double>(bins - 1)) /
+              (static_cast<double>(n) * study.dt());
+  std::vector<Eigen::VectorXd> columns;
+  for (std::size_t k = 0; k < study.logs.size(); ++k) {
+    for (const Segment& s : study.logs[k].motion.segments) {
+      for (Index begin = s.begin; begin + n <= s.end; begin += n) {
+        Eigen::VectorXd x = signals[k].col(channel).segment(begin, n);
+        x.array() -= x.mean();
+        columns.push_back(fourier(x.cwiseProduct(taper)).cwiseAbs2() / power);
+      }
+    }
+  }
+  result.power.resize(bins, static_cast<Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    result.power.col(static_cast<Index>(k)) = columns[k];
+  }
+  return result;
+}
+
+Eigen::VectorXd density_of(const Periodograms& p, bool coarse) {
+  if (coarse && p.power.cols() > 0) return p.power.rowwise().mean();
+  Eigen::VectorXd density(p.power.rows());
+  double expected = 0.0;
+  for (Index i = 0; p.power.cols() > 0 && i <= p.power.cols() / 2; ++i)
+    expected += 1.0 / double(p.power.cols() - i);
+  for (Index i = 0; i < density.size(); ++i) {
+    std::vector<double> values(static_cast<std::size_t>(p.power.cols()));
+    for (Index k = 0; k < p.power.cols(); ++k) values[static_cast<std::size_t>(k)] = p.power(i, k);
+    density(i) = values.empty() ? 0.0 : median(values) / expected;
+  }
+  return density;
+}
+
+}  // namespace dcnn

@@ -1,0 +1,23 @@
+// Spectra of windows of a signal, and their density.
+#pragma once
+
+#include "diagnosis/noise_floor.h"
+
+namespace dcnn {
+
+/// Periodograms of windows of one signal, (bins, windows), scaled so that white noise of variance
+/// s^2 has mean s^2. Windows never cross a gap.
+struct Periodograms {
+  Eigen::MatrixXd power;
+  Eigen::VectorXd hz;
+};
+Periodograms periodograms(const Case& study, const Signals& signals, Index channel);
+
+/// Median over windows of each bin, as an estimate of the density: the upper middle of n values of
+/// an exponential distribution is on the average sum_{i=0}^{n/2} 1/(n-i) of its mean (ln 2 for
+/// many).
+/// `coarse`: readings on a coarse lattice are noisy near the middle between two values and still
+/// elsewhere, so that most windows hold less noise than all do together.
+Eigen::VectorXd density_of(const Periodograms& p, bool coarse = false);
+
+}  // namespace dcnn

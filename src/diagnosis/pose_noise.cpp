@@ -1,0 +1,79 @@
+// What the pose's own noise puts into the prediction.
+#include <algorithm>
+#include <cmath>
+
+#include "data/spectral.h"
+#include "dcnn/data/rotation.h"
+#include "diagnosis/median.h"
+#include "diagnosis/periodograms.h"
+
+namespace dcnn {
+namespace {
+
+/// Of the pose's filter, over all coordinates and recordings; none where rates are logged or
+/// another estimator differentiates.
+std::vector<double> mean_gain(const Case& study) {
+  constexpr Index kSteps = 400;
+  if (study.derivative.kind != DerivativeSpec::Kind::kSpectral) return {};
+  const LowPass filter{study.derivative.cutoff_hz, study.derivative.subtraction};
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(kSteps);
+  double columns = 0.0;
+  for (const Log& log : study.logs) {
+    Eigen::MatrixXd pose = quaternions(log.recording);
+    const std::vector<std::string> position{"x", "y", "z"};
+    if (log.recording.has_all(position)) pose = log.recording.block(position);
+    for (const Segment& s : log.motion.segments) {
+      for (Index j = 0; j < pose.cols() && s.size() > 8; ++j, ++columns) {
+        sum += gain_of(pose.col(j).segment(s.begin, s.size()), study.dt(), filter, kSteps);
+      }
+    }
+  }
+  sum /= std::max(1.0, columns);
+  return {sum.begin(), sum.end()};
+}
+
+}  // namespace
+
+void add_pose_noise(const Case& study, std::vector<Floor>& floors) {
+  if (study.is_static() || study.axis) return;
+  const auto quiet_density = [&](const std::vector<std::string>& names) {
+    double most = 0.0;
+    for (const auto& name : names) {
+      Signals pose;
+      for (const Log& log : study.logs) {
+        if (!log.recording.has(name)) return 0.0;
+        Eigen::VectorXd x = log.recording.column(name);
+        if (names.size() == 3 && name != "x" && name != "y" && name != "z") unwrap(x);
+        pose.emplace_back(x);
+      }
+      const Periodograms p = periodograms(study, pose, 0);
+      const Eigen::VectorXd density = density_of(p);
+      std::vector<double> quiet;
+      for (Index i = 0; i < p.hz.size(); ++i) {
+        if (p.hz(i) >= quiet_band(study) && p.hz(i) <= 0.49 / study.dt()) {
+          quiet.push_back(density(i));
+        }
+      }
+      if (!quiet.empty()) most = std::max(most, median(quiet));
+    }
+    return most;
+  };
+  const ToolModel& tool = study.simulator.model;
+  const double position = quiet_density({"x", "y", "z"});
+  const bool angles = study.logs.front().recording.has("alpha");
+  const double angle = angles ? quiet_density({"alpha", "beta", "gamma"})
+                              : 4.0 * quiet_density({"qw", "qx", "qy", "qz"});
+  const double lever = tool.mass * tool.com.norm(), weight = tool.mass * tool.gravity.norm();
+  const bool moving = tool.inertial != ToolModel::Inertial::kNone;
+  const std::vector<double> gain = mean_gain(study);
+  for (std::size_t j = 0; j < floors.size(); ++j) {
+    floors[j].pose_gain = gain;
+    const bool force = study.channels[j] < 3;
+    const double arm = force ? 1.0 : tool.com.norm();
+    floors[j].static_part = weight * weight * angle * arm * arm;
+    floors[j].moving_part =
+        moving ? (tool.mass * tool.mass * position + lever * lever * angle) * arm * arm : 0.0;
+  }
+}
+
+}  // namespace dcnn

@@ -1,0 +1,109 @@
+#include "experiment/references.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dcnn/experiment/evaluate.h"
+#include "dcnn/experiment/train.h"
+#include "experiment/markup.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kTie = 1.01;  // errors within 1 % are called equal
+
+/// Mean of model over reference, so that targets of several units count alike.
+double mean_ratio(const std::vector<double>& rmse, const std::vector<double>& reference) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < rmse.size(); ++j) sum += rmse[j] / std::max(reference[j], 1e-300);
+  return sum / static_cast<double>(rmse.size());
+}
+
+}  // namespace
+
+std::vector<double> white_noise(const Eigen::MatrixXd& measured) {
+  std::vector<double> all;
+  const Eigen::Index n = measured.rows() - 3;
+  for (Eigen::Index j = 0; j < measured.cols(); ++j) {
+    if (n < 1) {
+      all.push_back(0.0);
+      continue;
+    }
+    const auto x = measured.col(j);
+    const Eigen::VectorXd third =
+        (x.segment(3, n) - 3.0 * x.segment(2, n) + 3.0 * x.segment(1, n) - x.segment(0, n))
+            .cwiseAbs();
+    std::vector<double> sorted(third.begin(), third.end());
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    all.push_back(*middle / (0.6745 * std::sqrt(20.0)));
+  }
+  return all;
+}
+
+Identifier fit_rigid(const Identifier& like, const Samples& training, const Samples& validation) {
+  Identifier rigid;
+  rigid.name = "rigid";
+  rigid.layout = like.layout;
+  rigid.targets = like.targets;
+  rigid.base = like.base;
+  rigid.seed = like.seed;
+  const bool whole =
+      like.layout.system.kind == System::Kind::kWrist && like.targets.names.size() == 6;
+  const ModelKind& kind = model_kind("rigid", Exit::kFailure);
+  rigid.configuration =
+      merged(kind.preset("standard", like.layout.system.kind == System::Kind::kAxes),
+             {{"model", {{"name", "rigid"}, {"form", whole ? "inertial" : "regression"}}}});
+  try {
+    auto model = kind.make({rigid.layout, rigid.targets, rigid.configuration, "the rigid tool",
+                            rigid.seed, rigid.base.has_value()});
+    FitSession session;
+    model->fit(training, validation, session);
+    rigid.model = std::move(model);
+  } catch (const Error&) {
+    rigid.model = nullptr;  // too few or too poor rows, or another machine
+  }
+  return rigid;
+}
+
+std::filesystem::path rigid_file(const std::filesystem::path& model) {
+  return run_directory(model) / "rigid.dcnn";
+}
+
+std::vector<std::string> warnings(const std::string& model, const std::vector<double>& rmse,
+                                  const References& references, const Targets& targets) {
+  std::vector<std::string> lines;
+  for (std::size_t j = 0; j < rmse.size(); ++j) {
+    if (!(rmse[j] > kTie * references.none[j])) continue;
+    lines.push_back(model + ": " + targets.names[j] + " is predicted worse than by zero (" +
+                    significant(rmse[j], 3) + " against " + significant(references.none[j], 3) +
+                    " " + targets.units[j] + "): of no use there; try dcnn-train --model auto");
+  }
+  if (references.rigid.empty()) return lines;
+  const double ratio = mean_ratio(rmse, references.rigid);
+  if (ratio > kTie) {
+    lines.push_back(model + ": its error is " + significant(ratio, 3) +
+                    " times that of the rigid tool; dcnn-train --model auto keeps the better one, "
+                    "--model rigid is the rigid tool");
+  }
+  return lines;
+}
+
+void add_warnings(Evaluation& evaluation) {
+  EvaluationReferences& references = evaluation.references;
+  References beside{evaluation.unidentified.rmse, {}, references.noise};
+  if (references.rigid) beside.rigid = references.rigid->rmse;
+  for (const EvaluationSummary& s : evaluation.summary) {
+    if (s.snr_db) continue;
+    const auto lines = warnings(s.file, s.first.rmse, beside, evaluation.targets);
+    references.warnings.insert(references.warnings.end(), lines.begin(), lines.end());
+  }
+}
+
+Json to_json(const References& references) {
+  return {{"none", references.none},
+          {"rigid", references.rigid.empty() ? Json() : Json(references.rigid)},
+          {"white_noise", references.noise}};
+}
+
+}  // namespace dcnn

@@ -1,0 +1,87 @@
+// --model auto: the best of several identifiers on rows that none was fitted to.
+#include <algorithm>
+
+#include "dcnn/core/file.h"
+#include "dcnn/experiment/train.h"
+#include "experiment/markup.h"
+#include "experiment/references.h"
+
+namespace dcnn {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kTried[] = {"rigid", "mlp", "dcnn"};
+constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // of a model file
+
+struct Tried {
+  std::string model;
+  fs::path file;
+  Json summary;
+  double error = 0.0;  ///< mean over targets of the RMSE over that of predicting zero
+};
+
+double relative_error(const Json& summary) {
+  const auto rmse = summary["validation_rmse"].get<std::vector<double>>();
+  const auto none = summary["references"]["none"].get<std::vector<double>>();
+  double sum = 0.0;
+  for (std::size_t j = 0; j < rmse.size(); ++j) sum += rmse[j] / std::max(none[j], 1e-300);
+  return sum / static_cast<double>(rmse.size());
+}
+
+void copy_model(const fs::path& from, const fs::path& to) {
+  if (fs::exists(from)) write_file(to, read_file(from, kMostBytes, Exit::kModel));
+}
+
+Json choice(const std::vector<Tried>& tried, const Tried& best) {
+  Json rows = Json::array();
+  std::string words;
+  for (const Tried& one : tried) {
+    rows.push_back({{"model", one.model},
+                    {"relative_error", one.error},
+                    {"validation_rmse", one.summary["validation_rmse"]}});
+    if (one.model != best.model) {
+      words += (words.empty() ? "" : ", ") + one.model + " " + significant(100.0 * one.error, 3) + " %";
+    }
+  }
+  return {{"model", best.model},
+          {"tried", rows},
+          {"why", "chosen: " + best.model + ", whose error on the validation rows is " +
+                      significant(100.0 * best.error, 3) +
+                      " % of that of predicting zero (mean over the targets); " + words}};
+}
+
+}  // namespace
+
+TrainingOutcome train_best(const TrainingRequest& request, const TrainingObserver& observer) {
+  const fs::path folder = run_directory(request.out);
+  std::vector<Tried> tried;
+  for (const char* model : kTried) {
+    TrainingRequest one = request;
+    one.configuration.model = model;
+    if (std::string(model) == "rigid") one.configuration.epochs.reset();  // has none
+    one.out = folder / (std::string(model) + "_tried.dcnn");
+    if (observer.note) observer.note(std::string("trying ") + model);
+    TrainingOutcome outcome = train(one, observer);
+    if (!outcome.finished) return outcome;
+    require(outcome.summary.contains("references"), Exit::kUsage,
+            "--model auto compares models on validation rows; give --valid, or a "
+            "training.validation above 0");
+    const double error = relative_error(outcome.summary);
+    tried.push_back({model, one.out, std::move(outcome.summary), error});
+  }
+  const Tried* best = &tried.front();
+  for (const Tried& one : tried) {
+    if (one.error < best->error) best = &one;
+  }
+  copy_model(best->file, request.out);
+  copy_model(rigid_file(best->file), rigid_file(request.out));
+  TrainingOutcome outcome{true, best->summary};
+  outcome.summary["file"] = request.out.string();
+  outcome.summary["run_directory"] = folder.string();
+  outcome.summary["choice"] = choice(tried, *best);
+  write_file(folder / "choice.json", outcome.summary["choice"].dump(2) + "\n");
+  return outcome;
+}
+
+}  // namespace dcnn

@@ -1,0 +1,122 @@
+// One table of options: --help, manual page and completions of every program say the same.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+#include <set>
+
+#include "support/process.h"
+
+namespace dcnn {
+namespace {
+
+using Names = std::set<std::string>;
+
+std::vector<std::string> verbs() {
+  std::vector<std::string> all;
+  for (const auto& entry : std::filesystem::directory_iterator(DCNN_BIN_DIR)) {
+    const std::string name = entry.path().filename();
+    if (name.starts_with("dcnn-") && !name.starts_with("dcnn-peer-")) all.push_back(name.substr(5));
+  }
+  return all;
+}
+
+Names matches(const std::string& text, const std::string& pattern) {
+  Names found;
+  const std::regex regex(pattern);
+  for (std::sregex_iterator match(text.begin(), text.end(), regex), end; match != end; ++match) {
+    found.insert((*match)[1]);
+  }
+  return found;
+}
+
+/// Long names at the beginning of a help's line: "  --out FILE" or "  -q, --quiet".
+Names in_help(const std::string& text) {
+  return matches(text, "\n  (?:-[a-z], )?(--[a-z-]+)");
+}
+
+TEST(Help, NamesTheSameOptionsAsManualAndCompletions) {
+  for (const std::string& verb : verbs()) {
+    SCOPED_TRACE(verb);
+    const test::TemporaryFolder folder;
+    const std::string name = "dcnn-" + verb;
+    const auto help = test::run(verb, {"--help"});
+    ASSERT_EQ(help.exit_code, 0);
+    ASSERT_EQ(test::run(verb, {"--describe", folder.path()}).exit_code, 0);
+    const Names options = in_help(help.out);
+    EXPECT_TRUE(options.count("--help") && options.count("--json"));
+
+    std::string page = test::slurp(folder / ("man1/" + name + ".1"));
+    page = std::regex_replace(page, std::regex("\\\\-"), "-");
+    EXPECT_EQ(matches(page, "\n\\.B (?:-[a-z], )?(--[a-z-]+)"), options);
+    const std::string bash = test::slurp(folder / ("bash/" + name));
+    const std::string words = bash.substr(bash.rfind("compgen -W"));
+    EXPECT_EQ(matches(words, "(--[a-z][a-z-]*)"), options);
+    EXPECT_EQ(matches(test::slurp(folder / ("zsh/_" + name)), "\n  '\\*?(--[a-z-]+)\\["), options);
+    Names fish;
+    for (const auto& word : matches(test::slurp(folder / ("fish/" + name + ".fish")), " -l ([a-z-]+)")) {
+      fish.insert("--" + word);
+    }
+    EXPECT_EQ(fish, options);
+  }
+}
+
+TEST(Help, IsShortAndSetsTheExitCodeWhereNothingIsGiven) {
+  for (const std::string& verb : verbs()) {
+    SCOPED_TRACE(verb);
+    const auto result = test::run(verb, {});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.out.find("Usage: dcnn-" + verb), std::string::npos);
+    EXPECT_NE(result.out.find("--help has all options"), std::string::npos);
+    EXPECT_EQ(result.err, "dcnn-" + verb + ": nothing to do; see dcnn-" + verb + " --help\n");
+  }
+}
+
+TEST(Help, NamesAMistypedOptionBeforeWhatIsMissingWithoutIt) {
+  const auto typo = test::run("train", {"--trian", "a.csv"});
+  EXPECT_EQ(typo.exit_code, 2);
+  EXPECT_NE(typo.err.find("did you mean --train?"), std::string::npos) << typo.err;
+  EXPECT_EQ(typo.err.find("required"), std::string::npos) << typo.err;
+  const auto range = test::run("train", {"--train", "a", "--out", "b", "--threads", "5000"});
+  EXPECT_NE(range.err.find("5000 is not between 1 and 1024"), std::string::npos) << range.err;
+  const auto word = test::run("train", {"--train", "a", "--out", "b", "--preset", "quik"});
+  EXPECT_NE(word.err.find("did you mean 'quick'?"), std::string::npos) << word.err;
+}
+
+TEST(Dispatch, ListsEveryProgramAndRunsIt) {
+  const auto dcnn = [](const std::string& arguments) {
+    FILE* pipe = ::popen((DCNN_BIN_DIR "/dcnn " + arguments + " 2>&1").c_str(), "r");
+    std::string text;
+    for (int c; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
+    const int status = ::pclose(pipe);
+    return std::pair(WEXITSTATUS(status), text);
+  };
+  const std::string list = dcnn("").second;
+  for (const std::string& verb : verbs()) {
+    EXPECT_TRUE(std::regex_search(list, std::regex("\n  " + verb + " +[A-Z]"))) << verb << "\n" << list;
+  }
+  EXPECT_EQ(dcnn("help train").second, test::run("train", {"--help"}).out);
+  EXPECT_EQ(dcnn("train --help").second, test::run("train", {"--help"}).out);
+  EXPECT_EQ(dcnn("--version").first, 0);
+  const auto [code, words] = dcnn("diagnos");
+  EXPECT_EQ(code, 2);
+  EXPECT_NE(words.find("did you mean 'diagnose'?"), std::string::npos) << words;
+}
+
+TEST(Scripts, PrintTheirHelpAndDoNothing) {
+  const test::TemporaryFolder folder;
+  for (const char* script :
+       {"accuracy", "challenge", "check-rooms", "demo", "hybrid", "install-deps", "real",
+        "real-identifiers", "reproduce", "teleop-live", "test", "test-neon"}) {
+    const std::string out = folder / "out.txt";
+    const std::string command = "cd '" + folder.path().string() + "' && timeout 10 '" DCNN_SOURCE_DIR
+                                "/tools/" + script + "' --help > out.txt 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0) << script;
+    const std::string text = test::slurp(out);
+    EXPECT_GE(std::count(text.begin(), text.end(), '\n'), 2) << script;
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << script;
+  }
+}
+
+}  // namespace
+}  // namespace dcnn

@@ -1,0 +1,103 @@
+// Results and inputs survive every command line (docs/use/outputs.md).
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "dcnn/core/file.h"
+#include "support/process.h"
+
+namespace dcnn {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+struct Case {
+  const char* verb;
+  Arguments arguments;      ///< "@x" is x in the test's folder
+  const char* precious;     ///< the file that must survive
+  const char* words;        ///< of the refusal
+};
+
+class Outputs : public ::testing::TestWithParam<Case> {
+ protected:
+  std::string at(const std::string& name) const { return folder_ / name; }
+  Arguments placed(Arguments arguments) const {
+    for (auto& word : arguments) {
+      if (word.starts_with("@")) word = at(word.substr(1));
+    }
+    return arguments;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_P(Outputs, AreRefusedWhereSomethingWouldBeDestroyed) {
+  const Case& c = GetParam();
+  write_file(at(c.precious), "precious\n");
+  const auto result = test::run(c.verb, placed(c.arguments));
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_NE(result.err.find(c.words), std::string::npos) << result.err;
+  EXPECT_EQ(test::slurp(at(c.precious)), "precious\n");
+}
+
+constexpr const char* kInput = "is also an input";
+constexpr const char* kKept = "kept";
+const Case kCases[] = {
+    {"predict", {"m.dcnn", "--data", "@a.csv", "--out", "@a.csv", "--force"}, "a.csv", kInput},
+    {"predict", {"m.dcnn", "--data", "a.csv", "--out", "@p.csv"}, "p.csv", kKept},
+    {"predict", {"m.dcnn", "--onnx", "@m.onnx"}, "m.onnx", kKept},
+    {"sim", {"--sim", "s.json", "--motion", "@a.csv", "--out", "@a.csv"}, "a.csv", kInput},
+    {"sim", {"--sim", "s.json", "--motion", "a.csv", "--out", "@b.csv"}, "b.csv", kKept},
+    {"sim", {"--config", "c.json", "--out", "@set"}, "set/truth.json", kKept},
+    {"train", {"--train", "@a.csv", "--out", "@a.csv", "--force"}, "a.csv", kInput},
+    {"train", {"--train", "a.csv", "--out", "@m.dcnn"}, "m.dcnn", kKept},
+    {"train", {"--train", "a.csv", "--out", "@m.dcnn"}, "m.run/checkpoint.safetensors", "--resume"},
+    {"eval", {"m.dcnn", "--data", "a.csv", "--out", "@report"}, "report/report.html", kKept},
+    {"bench", {"m.dcnn", "--out", "@bench"}, "bench/bench.json", kKept},
+    {"diagnose",
+     {"--sim", "@r/model.json", "--fit", "a.csv", "--out", "@r", "--force"},
+     "r/model.json",
+     kInput},
+    {"diagnose", {"--sim", "s.json", "--fit", "a.csv", "--out", "@r"}, "r/report.json", kKept},
+    {"calibrate", {"--static", "@s.csv", "--out", "@s.csv"}, "s.csv", kInput},
+    {"calibrate", {"--static", "s.csv", "--out", "@c.json"}, "c.json", kKept},
+    {"teleop", {"--out", "@t"}, "t/teleop.json", kKept},
+    {"live", {"--role", "controller", "--key-file", "k", "--out", "@t"}, "t/report.html", kKept},
+    {"rivals", {"--sim", "s", "--fit", "a", "--out", "@r"}, "r/lasso/report.json", kKept},
+    {"conceal", {"--scenarios", "1", "--out", "@set", "--seal", "@s"}, "set/s0001/sim.json", kKept},
+    {"conceal", {"--scenarios", "1", "--out", "@set", "--seal", "@seal"}, "seal", kKept},
+    {"conceal",
+     {"--inject", "bias", "--motion", "@d/a.csv", "--sim", "s", "--out", "@d", "--seal", "@s"},
+     "d/a.csv",
+     kInput},
+    {"run", {"--make-key", "@key"}, "key", kKept},
+};
+INSTANTIATE_TEST_SUITE_P(Every, Outputs, ::testing::ValuesIn(kCases));
+
+const std::string kSim = DCNN_SOURCE_DIR "/data/sample/sim.json";
+const std::string kLog = DCNN_SOURCE_DIR "/data/sample/test.csv";
+
+TEST_F(Outputs, OfAPredictionAreReplacedByANewerOneLinksFollowedStreamsWritten) {
+  std::filesystem::create_symlink("p.csv", at("link.csv"));
+  for (int k = 0; k < 2; ++k) {
+    const auto result = test::run("predict", {kSim, "--data", kLog, "--out", at("link.csv")});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+  }
+  EXPECT_TRUE(std::filesystem::is_symlink(at("link.csv")));
+  const std::string rows = test::slurp(at("p.csv"));
+  const auto piped = test::Process("predict", {kSim, "--data", "-", "--out", "-"}, {.input = kLog}).wait();
+  EXPECT_EQ(piped.exit_code, 0) << piped.err;
+  EXPECT_EQ(piped.out, rows);
+  EXPECT_EQ(test::run("predict", {kSim, "--data", kLog, "--out", "/dev/stdout"}).out.substr(0, rows.size()), rows);
+  EXPECT_EQ(test::run("predict", {kSim, "--data", kLog, "--out", "/dev/null"}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST_F(Outputs, OfAFolderThatAnotherProcessWritesToAreRefused) {
+  const FolderLock other(at("report"));
+  const auto result = test::run("diagnose", {"--sim", kSim, "--fit", kLog, "--out", at("report")});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("another process is writing here"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace dcnn

@@ -1,0 +1,68 @@
+// No model is shown without what it must beat.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "dcnn/core/json.h"
+#include "experiment/references.h"
+#include "support/process.h"
+
+namespace dcnn {
+namespace {
+
+const std::string kTrain = DCNN_SOURCE_DIR "/data/sample/train.csv";
+const std::string kTest = DCNN_SOURCE_DIR "/data/sample/test.csv";
+
+TEST(References, WhiteNoiseIsFoundUnderSmoothMotion) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 0.04);
+  Eigen::MatrixXd y(20000, 1);
+  for (Eigen::Index k = 0; k < y.rows(); ++k) {
+    y(k, 0) = 8.0 * std::sin(0.01 * static_cast<double>(k)) + noise(random);
+  }
+  EXPECT_NEAR(white_noise(y)[0], 0.04, 0.002);
+}
+
+TEST(References, WarnOfATargetWorseThanZeroAndOfAModelWorseThanTheRigidTool) {
+  const References references{{1.0, 1.0}, {0.2, 0.2}, {0.01, 0.01}};
+  const Targets targets{{"fx", "fy"}, {"N", "N"}};
+  EXPECT_TRUE(warnings("m", {0.1, 0.2}, references, targets).empty());
+  const auto lines = warnings("m", {1.5, 0.2}, references, targets);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_NE(lines[0].find("fx is predicted worse than by zero (1.5 against 1 N)"), std::string::npos)
+      << lines[0];
+  EXPECT_NE(lines[1].find("times that of the rigid tool"), std::string::npos) << lines[1];
+}
+
+TEST(References, StandBesideEveryModelOfTrainAndEval) {
+  const test::TemporaryFolder folder;
+  const std::string model = folder / "cf.dcnn";
+  const auto trained = test::run("train", {"-q", "--model", "cf", "--train", kTrain, "--out", model});
+  ASSERT_EQ(trained.exit_code, 0) << trained.err;
+  EXPECT_TRUE(trained.out.starts_with("cf.dcnn: its error is ")) << trained.out;
+  EXPECT_NE(trained.out.find("rigid tool"), std::string::npos);
+  const auto scored = test::run("eval", {model, "--data", kTest, "--snr", "clean", "--json"});
+  const Json json = parse_json(scored.out, "eval", Exit::kFailure);
+  const Json& references = json["references"];
+  EXPECT_NEAR(references["white_noise"][0].get<double>(), 0.04, 0.003);
+  EXPECT_LT(references["rigid_overall"].get<double>(), 0.25 * json["summary"][0]["rmse_overall_mean"].get<double>());
+  EXPECT_EQ(json["warnings"].size(), 1U);
+}
+
+TEST(References, AutoKeepsTheBestAndSaysWhy) {
+  const test::TemporaryFolder folder;
+  const std::string model = folder / "best.dcnn";
+  const auto result = test::run("train", {"-q", "--model", "auto", "--preset", "quick", "--epochs", "1", "--train",
+                                          kTrain, "--out", model, "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json choice = parse_json(result.out, "train", Exit::kFailure)["choice"];
+  EXPECT_EQ(choice["model"], "rigid") << "one epoch is no match for regression";
+  EXPECT_EQ(choice["tried"].size(), 3U);
+  for (const Json& one : choice["tried"]) {
+    EXPECT_GE(one["relative_error"].get<double>(), choice["tried"][0]["relative_error"].get<double>());
+  }
+  EXPECT_EQ(test::run("eval", {model, "--data", kTest, "--snr", "clean"}).exit_code, 0);
+}
+
+}  // namespace
+}  // namespace dcnn

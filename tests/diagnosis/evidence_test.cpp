@@ -1,0 +1,86 @@
+// The evidence against direct computation with whole covariances, and its noise against simulation.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "dcnn/core/random.h"
+#include "diagnosis/evidence/marginal.h"
+#include "diagnosis/evidence/slow_noise.h"
+
+namespace dcnn::evidence {
+namespace {
+
+Eigen::MatrixXd normal_matrix(Index rows, Index columns, Rng& rng) {
+  Eigen::MatrixXd X(rows, columns);
+  for (double& x : X.reshaped()) x = rng.normal();
+  return X;
+}
+
+/// ln N(y; 0, S) - ln N(y; 0, I).
+double log_ratio(const Eigen::VectorXd& y, const Eigen::MatrixXd& S) {
+  const Eigen::LLT<Eigen::MatrixXd> llt(S);
+  const double determinant = 2.0 * llt.matrixL().toDenseMatrix().diagonal().array().log().sum();
+  return 0.5 * (y.squaredNorm() - y.dot(llt.solve(y)) - determinant);
+}
+
+TEST(Evidence, OfProperPriorsIsThatOfTheWholeCovariance) {
+  Rng rng({5});
+  const Eigen::MatrixXd X = normal_matrix(40, 3, rng);
+  const Eigen::VectorXd y = normal_matrix(40, 1, rng) + 0.7 * X.col(1);
+  const Eigen::Vector3d precision(4.0, 0.25, 1.0);
+  const Eigen::MatrixXd S =
+      Eigen::MatrixXd::Identity(40, 40) + X * precision.cwiseInverse().asDiagonal() * X.transpose();
+  EXPECT_NEAR(log_evidence(linear_model(X, y, precision)), log_ratio(y, S), 1e-6);
+}
+
+// A flat prior is a wide one whose density at its centre is taken as one.
+TEST(Evidence, OfAFlatPriorIsTheLimitOfWideOnes) {
+  Rng rng({6});
+  const Eigen::MatrixXd X = normal_matrix(30, 2, rng);
+  const Eigen::VectorXd y = normal_matrix(30, 1, rng);
+  const double narrow = 1e-8;
+  const double wide = log_evidence(linear_model(X, y, Eigen::Vector2d(narrow, 2.0))) -
+                      0.5 * std::log(narrow / (2.0 * std::numbers::pi));
+  EXPECT_NEAR(log_evidence(linear_model(X, y, Eigen::Vector2d(0.0, 2.0))), wide, 1e-5);
+}
+
+TEST(Evidence, OfAFieldIsTheMeanOverItsSizes) {
+  Rng rng({7});
+  const Eigen::MatrixXd Phi = normal_matrix(25, 4, rng);
+  const Eigen::VectorXd y = normal_matrix(25, 1, rng) + 0.4 * Phi.rowwise().sum();
+  double tau = 0.0;
+  const double got = log_field(Phi.transpose() * Phi, Phi.transpose() * y, 0.01, 10.0, &tau);
+  std::vector<double> all;
+  for (int k = 0; k < 28; ++k) {
+    const double at = 0.01 * std::pow(1000.0, k / 27.0);
+    all.push_back(
+        log_ratio(y, Eigen::MatrixXd::Identity(25, 25) + at * at * Phi * Phi.transpose()) -
+        std::log(28.0));
+  }
+  EXPECT_NEAR(got, log_sum(all), 1e-8);
+  EXPECT_GT(tau, 0.1);
+  EXPECT_LT(tau, 2.0);
+}
+
+// P(factor > 1/a) <= a where the noise is white (a Bayes factor under the null, Ville 1939).
+TEST(Evidence, OfAFieldInNoiseSeldomSpeaksForIt) {
+  Rng rng({8});
+  int loud = 0;
+  constexpr int kTrials = 400;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const Eigen::MatrixXd Phi = normal_matrix(60, 5, rng);
+    const Eigen::VectorXd y = normal_matrix(60, 1, rng);
+    const double factor = log_field(Phi.transpose() * Phi, Phi.transpose() * y, 0.003, 300.0);
+    loud += factor > std::log(20.0) ? 1 : 0;
+  }
+  EXPECT_LE(loud, kTrials / 20);
+}
+
+TEST(Evidence, LogarithmsOfSumsDoNotOverflow) {
+  EXPECT_NEAR(log_sum({1000.0, 1000.0}), 1000.0 + std::log(2.0), 1e-9);
+  EXPECT_NEAR(log_sum({-2000.0, 0.0}), 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace dcnn::evidence

@@ -1,0 +1,42 @@
+// Recordings that the spectra and detectors of the diagnosis must not read beyond.
+#include <gtest/gtest.h>
+
+#include "diagnosis/detectors.h"
+#include "diagnosis/load.h"
+#include "diagnosis/support.h"
+
+namespace dcnn {
+namespace {
+
+Json report_of(const Json& world, const std::function<void(Recording&)>& by) {
+  const test::Bench bench(world);
+  test::change(bench, by);
+  return bench.diagnose().report;
+}
+
+/// Below 2.7 s a spectrum has no bin beside a line to compare it with.
+TEST(PoorRecordings, OfTwoSecondsHaveSpectraToo) {
+  const Json report = report_of(test::configuration(Json::array()), [](Recording& log) {
+    log.table.values.conservativeResize(1100, Eigen::NoChange);
+  });
+  EXPECT_EQ(report["verdict"], "consistent") << report["findings"].dump(1);
+}
+
+/// The law of a limit is one of forces, along three axes.
+TEST(PoorRecordings, ALimitOfTorqueIsNoLimitOfForce) {
+  Json world = test::configuration(Json::array());
+  world["simulator"]["tool"]["inertia_kgm2"] = {0.01, 0.01, 0.01, 0.0, 0.0, 0.0};
+  const test::Bench bench(world);
+  for (const char* channel : {"tx", "fz"}) {
+    test::change(bench, [&](Recording& log) {
+      const Eigen::VectorXd x = log.column(channel);
+      const double limit = 0.8 * x.cwiseAbs().maxCoeff();
+      log.set(channel, x.cwiseMin(limit).cwiseMax(-limit));
+    });
+    const std::size_t forces = channel[0] == 'f' ? 1 : 0;
+    EXPECT_EQ(clipping(load_wrist(bench.request()).fit).size(), forces) << channel;
+  }
+}
+
+}  // namespace
+}  // namespace dcnn

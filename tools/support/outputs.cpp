@@ -1,0 +1,96 @@
+#include "support/outputs.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+
+namespace dcnn {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code missing;
+  return fs::equivalent(a, b, missing);
+}
+
+/// The existing files of a folder that a command would write.
+std::vector<fs::path> present(const fs::path& folder, const std::vector<std::string>& contents) {
+  std::vector<fs::path> found;
+  std::error_code missing;
+  for (const auto& entry : fs::directory_iterator(folder, missing)) {
+    const std::string name = entry.path().filename();
+    if (std::any_of(contents.begin(), contents.end(), [&](const std::string& pattern) {
+          return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+        })) {
+      found.push_back(entry.path());
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+bool is_empty_file(const fs::path& file) {
+  std::error_code error;
+  return fs::file_size(file, error) == 0 && !error;
+}
+
+bool any_given(const std::vector<Option>& options) {
+  return std::any_of(options.begin(), options.end(),
+                     [](const Option& option) { return option.given(); });
+}
+
+}  // namespace
+
+bool Output::Rule::is_folder() const { return !contents.empty() && !any_given(file_with); }
+
+Output Outputs::add(Output::Rule rule) {
+  rules_.push_back(std::make_shared<Output::Rule>(std::move(rule)));
+  return Output(rules_.back());
+}
+
+std::vector<Outputs::Path> Outputs::inputs() const {
+  std::vector<Path> all;
+  for (const auto& paths : inputs_) {
+    for (const Path& path : paths()) all.push_back(path);
+  }
+  return all;
+}
+
+void Outputs::claim(bool force) {
+  for (const auto& rule : rules_) {
+    if (rule->path().empty()) continue;
+    const bool keep = !force && !any_given(rule->unless);
+    rule->is_folder() ? claim_folder(*rule, keep) : claim_file(*rule, keep);
+  }
+}
+
+void Outputs::claim_file(const Output::Rule& rule, bool keep) const {
+  const Path path = rule.path();
+  require(!fs::is_directory(path), Exit::kFailure, path.string(), ": is a folder; name a file");
+  const auto existing = replaced_file(path);
+  if (!existing) return;
+  refuse_input(*existing);
+  if (!keep || is_empty_file(*existing) || (rule.own && rule.own(*existing))) return;
+  fail(Exit::kUsage, path.string(),
+       ": exists already and is kept; name another file, or replace it with --force");
+}
+
+void Outputs::claim_folder(const Output::Rule& rule, bool keep) {
+  const Path folder = rule.path();
+  locks_.emplace_back(folder);
+  const auto existing = present(folder, rule.contents);
+  for (const Path& file : existing) refuse_input(file);
+  require(!keep || existing.empty(), Exit::kUsage, folder.string(), ": holds a result already (",
+          existing.empty() ? "" : existing.front().filename().string(),
+          "), which is kept; name another folder, or replace it with --force");
+}
+
+void Outputs::refuse_input(const Path& output) const {
+  for (const Path& input : inputs()) {
+    require(!same_file(input, output), Exit::kUsage, output.string(),
+            ": is also an input and would be destroyed; name another output");
+  }
+}
+
+}  // namespace dcnn
