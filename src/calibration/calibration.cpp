@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 constexpr double kDegenerate = 1e-3, kMirrored = 0.05;  // shares of the largest singular value
 constexpr double kGainTolerance = 0.02;
 constexpr double kOtherMounting = 20.0 * M_PI / 180.0;  // no assembly tolerance
+constexpr double kRounding = 1e-9;  // of the force: sums of squares in double
 constexpr double kClearF = 20.0;  // by chance in less than 2 of 1000 sets of four pairs
 
 std::string text(const char* format, double a, double b = 0, double c = 0) {
@@ -66,7 +67,8 @@ void suggest_bias(const ForcePairs& pairs, double chi2, Calibration& result) {
   const Matrix3d H = s.transpose() * pairs.weights.asDiagonal() * r;
   const Eigen::JacobiSVD<Matrix3d> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const double with = chi_squared(s, r, pairs.weights, nearest_rotation(svd));
-  if (!(chi2 - with > kClearF * 3.0 * with / freedom)) return;
+  const double rounding = kRounding * kRounding * r.rowwise().squaredNorm().dot(pairs.weights);
+  if (!(chi2 - with > kClearF * 3.0 * with / freedom + rounding)) return;
   result.notes.push_back(
       text("the residual of %.3g N is %.3g N with a constant offset of the sensor: "
            "add --with-bias",

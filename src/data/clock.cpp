@@ -2,18 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "core/elementary.h"
 #include "data/spline.h"
 
 namespace dcnn {
 namespace {
 
-constexpr double kEpoch = 1e6;       // s; a larger t is a date, not a duration
-constexpr double kGap = 5.0;         // times dt
-constexpr double kOff = 0.2;         // of dt
-constexpr double kTolerated = 0.01;  // of the steps
-constexpr double kMostLost = 0.1;    // of the rows; with more the median step is no clock's
-constexpr double kSlowest = 1000.0;  // s
+constexpr double kEpoch = 1e6;        // s; a larger t is a date, not a duration
+constexpr double kGap = 5.0;          // times dt
+constexpr double kOff = 0.2;          // of dt
+constexpr double kTolerated = 0.01;   // of the steps
+constexpr double kMostLost = 0.1;     // of the rows; with more the median step is no clock's
+constexpr double kSlowest = 1000.0;   // s
+constexpr double kPoses = 1.0;        // s; between rows further apart a hand or an arm moves unseen
+constexpr Index kRowsPerPeriod = 40;  // of a motion; poses one by one are chosen further apart
 
 std::string place(const std::string& file, Index row) {
   return file + ":" + std::to_string(row + 2);  // the header is line 1
@@ -85,9 +89,34 @@ Eigen::VectorXd interpolate(const Grid& grid, const Eigen::VectorXd& t, const Ei
   return out;
 }
 
+/// Von Neumann's ratio of orientations, mean squared step over twice the variance: 1 for poses in
+/// any order, 1 - cos(2π/N) for a motion of N rows a period.
+double step_ratio(const Recording& recording) {
+  for (const auto& columns : {std::vector<std::string>{"qw", "qx", "qy", "qz"},
+                              std::vector<std::string>{"alpha", "beta", "gamma"}}) {
+    if (!recording.has_all(columns) || recording.samples() < 3) continue;
+    const Eigen::MatrixXd x = recording.block(columns);
+    const Index n = x.rows();
+    const double steps = (x.bottomRows(n - 1) - x.topRows(n - 1)).squaredNorm();
+    const double spread = (x.rowwise() - x.colwise().mean()).squaredNorm();
+    return spread > 0.0 ? steps / (2.0 * spread) : 1.0;
+  }
+  return 1.0;
+}
+
+bool is_list_of_poses(const Recording& recording, double step, const std::string& file) {
+  if (step < kPoses) return false;
+  const double dense = 1.0 - elementary::cos(2.0 * std::numbers::pi / kRowsPerPeriod);
+  require(recording.samples() < 2 * kRowsPerPeriod || step_ratio(recording) > dense, Exit::kData,
+          file, ": the median step of column 't' is ", step,
+          " s, but from row to row the orientation hardly changes: write t in seconds, or keep one "
+          "row of each pose at rest");
+  return true;
+}
+
 }  // namespace
 
-void set_clock(Recording& recording, const std::string& file) {
+void set_clock(Recording& recording, const std::string& file, bool poses) {
   recording.segments = {{0, recording.samples()}};
   if (!recording.has("t")) return;
   Eigen::VectorXd t = recording.column("t");
@@ -101,6 +130,11 @@ void set_clock(Recording& recording, const std::string& file) {
   recording.dt = median_step(t);
   require(recording.dt > 0.0, Exit::kData, file,
           ": has one sample in time; record for longer, or leave out t for a list of static poses");
+  if (poses && is_list_of_poses(recording, recording.dt, file)) {
+    recording.dt = 0.0;
+    recording.notes.push_back("rows a second or more apart: poses at rest, nothing between them");
+    return;
+  }
   require(recording.dt < kSlowest, Exit::kData, file, ": the median step of column 't' is ",
           recording.dt, " s; write t in seconds");
   recording.segments = split_at_gaps(t, recording.dt);

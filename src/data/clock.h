@@ -6,8 +6,9 @@
 namespace dcnn {
 
 /// Checks column t (line = row + 2 in errors that name `file`), moves its origin where it is an
-/// epoch time, and fills dt and segments. A recording without t becomes one segment with dt 0.
-void set_clock(Recording& recording, const std::string& file);
+/// epoch time, and fills dt and segments. A recording without t, and where `poses` one whose rows are
+/// a second or more apart, is a list of poses at rest: one segment, dt 0.
+void set_clock(Recording& recording, const std::string& file, bool poses);
 
 /// More than 1 % of the steps inside segments off by more than 20 % of dt is an Error(kData); steps
 /// of two to five dt are rows that were lost, at most a tenth of all, which derivatives bridge.

@@ -168,7 +168,7 @@ Recording read_recording(const std::filesystem::path& path, const ReadOptions& o
   const bool wrist = system.kind == System::Kind::kWrist;
   if (wrist) check_wrist_columns(recording, options.motion_only, file);
   if (!wrist) check_axis_columns(recording, system, options.motion_only, file);
-  set_clock(recording, file);
+  set_clock(recording, file, wrist && options.static_list);
   convert_units(recording, options);
   if (wrist) check_pose(recording, file);
   const bool asked = options.resample || system.resample_hz > 0.0;

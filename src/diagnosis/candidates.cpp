@@ -222,7 +222,12 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
     if (why) *why = text;
     return false;
   };
-  if (kind.needs_time && study.is_static()) return because("the recordings have no time");
+  if (kind.needs_time == TimeNeed::kMotion && study.is_static()) {
+    return because("between poses at rest nothing is recorded");
+  }
+  if (kind.needs_time == TimeNeed::kClock && !study.has_clock()) {
+    return because("the recordings have no time");
+  }
   if (kind.axis == AxisRule::kLine) {
     if (study.is_static()) return because("nothing moves in a list of poses");
     for (const Log& log : study.logs) {

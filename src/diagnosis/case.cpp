@@ -21,6 +21,7 @@ Motion thinned(const Motion& motion, Index stride) {
   Motion thin;
   thin.recording = motion.recording;
   thin.dt = motion.dt * static_cast<double>(stride);
+  thin.has_clock = motion.has_clock;
   std::vector<Index> rows;
   for (const Segment& s : motion.segments) {
     const auto begin = static_cast<Index>(rows.size());
@@ -78,7 +79,7 @@ double longest_seconds(const Case& study) {
 }
 
 double span_seconds(const Case& study) {
-  if (study.is_static()) return 0.0;
+  if (!study.has_clock()) return 0.0;
   double begin = study.logs.front().motion.t(0), end = begin;
   for (const Log& log : study.logs) {
     begin = std::min(begin, log.motion.t(0));

@@ -53,6 +53,7 @@ struct Case {
   Index channel_count() const { return static_cast<Index>(channels.size()); }
   bool has_torque() const { return !channels.empty() && channels.back() > 2; }
   bool is_static() const { return logs.front().motion.is_static(); }
+  bool has_clock() const { return logs.front().motion.has_clock; }
   double dt() const { return logs.front().motion.dt; }
 };
 

@@ -9,8 +9,18 @@ namespace {
 
 constexpr double kPiece = 5.0, kGuard = 0.5, kEnds = 0.5;  // s
 constexpr int kEvery = 5;
+constexpr Index kLeastPoses = 10;  // 8 remain to fit to, as many as their floor needs
 
 double seconds_of(const Motion& motion) { return motion.t(motion.samples() - 1) - motion.t(0); }
+
+/// Every kEvery-th pose of a list.
+void hold_out_poses(std::size_t log, const Eigen::VectorXd& t, std::vector<Span>& spans) {
+  if (t.size() < kLeastPoses) return;
+  for (Index i = kEvery / 2; i < t.size(); i += kEvery) {
+    const double next = i + 1 < t.size() ? t(i + 1) : t(i) + 1.0;
+    spans.push_back({log, 0.5 * (t(i - 1) + t(i)), 0.5 * (t(i) + next)});
+  }
+}
 
 /// A recording that no whole piece fits into is cut into kEvery pieces, guards and ends in
 /// proportion.
@@ -25,7 +35,10 @@ std::vector<Span> held_out_blocks(const Case& study, bool with_guards) {
   std::vector<Span> spans;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     const Motion& motion = study.logs[k].motion;
-    if (motion.is_static()) continue;
+    if (motion.is_static()) {
+      hold_out_poses(k, motion.t, spans);
+      continue;
+    }
     const double first = motion.t(0), last = motion.t(motion.samples() - 1);
     const double piece = shortened(kPiece, motion);
     const double guard = with_guards ? shortened(kGuard, motion) : 0.0;
@@ -44,13 +57,13 @@ HoldOut::HoldOut(const Case& fitted, const Case& recordings) {
   for (std::size_t k = 0; k < study_.logs.size(); ++k) {
     const Motion& motion = study_.logs[k].motion;
     std::vector<char> held(static_cast<std::size_t>(motion.samples()), own ? 1 : 0);
-    for (Index i = 0; i < motion.samples() && !motion.is_static(); ++i) {
+    const double ends = motion.is_static() ? 0.0 : shortened(kEnds, motion);
+    for (Index i = 0; i < motion.samples(); ++i) {
       const double t = motion.t(i);
       char& row = held[static_cast<std::size_t>(i)];
       for (const Span& span : blocks) {
         if (!own && span.log == k && t >= span.begin && t < span.end) row = 1;
       }
-      const double ends = shortened(kEnds, motion);
       if (t < motion.t(0) + ends || t > motion.t(motion.samples() - 1) - ends) row = 0;
     }
     held_.push_back(held);

@@ -95,6 +95,12 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   auto fit = read_all(request.fit, request.read), holdout = read_all(request.holdout, request.read);
   std::vector<Recording> all = fit;
   all.insert(all.end(), holdout.begin(), holdout.end());
+  for (const Recording& r : all) {
+    require((r.dt == 0.0) == (all.front().dt == 0.0) && r.has("t") == all.front().has("t"),
+            Exit::kData, r.name,
+            ": poses at rest and motions, or with times and without, in one "
+            "call; diagnose them one after the other");
+  }
   choose_channels(all, request, study);
   if (!study.has_torque()) study.simulator.model.inertia.reset();
   set_clock(request, all, study);

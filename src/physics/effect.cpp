@@ -194,7 +194,8 @@ void change_model(const EffectSpec& effect, ToolModel& model) {
 void apply_effect(const EffectSpec& effect, const Motion& motion, const ToolModel& model,
                   Wrench& wrench) {
   const EffectKind& kind = kind_of(effect);
-  if (kind.needs_time && motion.is_static()) return;
+  if (kind.needs_time == TimeNeed::kMotion && motion.is_static()) return;
+  if (kind.needs_time == TimeNeed::kClock && !motion.has_clock) return;
   if (!effect.recording.empty() && effect.recording != motion.recording) return;
   Options parameters(effect.parameters, effect.effect, Exit::kData);
   const Wrench before = effect.interval_s ? wrench : Wrench{};

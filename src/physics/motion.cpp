@@ -115,7 +115,10 @@ Motion motion_of(const Recording& recording, const ToolModel& model,
   motion.euler = continuous_euler(recording);
   if (recording.has("temperature")) motion.temperature = recording.column("temperature");
   if (motion.is_static()) {
-    motion.t = Eigen::VectorXd::Zero(recording.samples());
+    const auto last = static_cast<double>(recording.samples() - 1);
+    motion.has_clock = recording.has("t");
+    motion.t = motion.has_clock ? recording.column("t")
+                                : Eigen::VectorXd::LinSpaced(recording.samples(), 0.0, last);
     stand_still(motion, recording.samples());
   } else {
     motion.t = recording.column("t");

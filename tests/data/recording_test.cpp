@@ -169,6 +169,23 @@ TEST(Recording, ConvertsUnitsAndSaysSo) {
   EXPECT_EQ(recording.notes.size(), 3u);
 }
 
+TEST(Recording, OfPosesWithTheirTimesHasNoClockBetweenThem) {
+  ReadOptions options;
+  options.static_list = true;
+  const std::string head = "t,alpha,beta,gamma,fx,fy,fz\n";
+  const std::string poses = "0,0,0,1,1,2,3\n9,1,0.5,2,1,2,3\n21,-1,0.2,3,1,2,3\n2000,2,0,1,1,2,3\n";
+  const Recording recording = read(head + poses, options);
+  EXPECT_EQ(recording.dt, 0.0);
+  ASSERT_EQ(recording.segments.size(), 1u);
+  EXPECT_EQ(recording.column("t")[3], 2000.0);
+  std::string motion = head;  // 250 Hz, its clock in milliseconds
+  for (int i = 0; i < 300; ++i) {
+    const std::string angle = std::to_string(std::sin(0.02 * i));
+    motion += std::to_string(4 * i) + "," + angle + ",0,1,1,2,3\n";
+  }
+  expect_error(motion, {"write t in seconds"}, options);
+}
+
 TEST(Recording, RenormalisesQuaternionsAndRejectsBadOnes) {
   const std::string head = "qw,qx,qy,qz,fx,fy,fz\n0.5,0.5,0.5,0.5,1,2,3\n";
   ReadOptions options;

@@ -136,6 +136,40 @@ TEST(Diagnose, PosesAtRestShowWhatGravityShows) {
   EXPECT_TRUE(untestable);
 }
 
+/// Forty poses at rest, one every ten seconds and not on a clock: nothing is interpolated between
+/// them, and an offset that drifts is told from gravity.
+TEST(Diagnose, PosesWithTheirTimesShowADrift) {
+  Json world = configuration(
+      {{{"effect", "mass"}, {"axis", nullptr}, {"parameters", {{"delta_mass_kg", 0.08}}}}});
+  world["recordings"] = {
+      {{"name", "fit"},
+       {"samples", 40},
+       {"trajectory",
+        {{"kind", "static"}, {"angle_rad", {3.0, 1.4, 3.0}}, {"angle_center_rad", {0, 0, 0}}}}}};
+  const Bench bench(world);
+  Table table = read_csv(bench / "fit.csv");
+  const Index n = table.values.rows();
+  Eigen::VectorXd t(n);
+  for (Index i = 0; i < n; ++i)
+    t(i) = 10.0 * static_cast<double>(i) + static_cast<double>(i * i % 7);
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    if (table.columns[k] == "fx") table.values.col(static_cast<Index>(k)) += 0.002 * t;
+  }
+  table.columns.emplace_back("t");
+  table.values.conservativeResize(Eigen::NoChange, table.values.cols() + 1);
+  table.values.rightCols(1) = t;
+  write_csv(bench / "fit.csv", table);
+  const Json report = bench.diagnose(false).report;
+  EXPECT_EQ(found(report), (std::set<std::string>{"linear_drift", "mass"}))
+      << report["findings"].dump(1);
+  EXPECT_EQ(report["verdict"], "explained");
+  for (const Json& finding : report["findings"]) {
+    if (finding["effect"] != "linear_drift") continue;
+    EXPECT_NEAR(finding["parameters"]["rate_x_nps"]["value"].get<double>(), 0.002, 2e-4);
+    EXPECT_GT(finding["holdout_gain"].get<double>(), 0.5);
+  }
+}
+
 // A wrist of which only the orientation is logged: gravity alone is simulated, and what needs the
 // acceleration is neither tried nor passed over in silence.
 TEST(Diagnose, WithoutAPositionItTellsWhatItCannotTest) {

@@ -37,7 +37,7 @@ struct ReadOptions {
 struct Recording {
   std::string name;  ///< the file's name without its folder
   Table table;       ///< SI units; column t starts at the file's own clock minus clock_origin
-  double dt = 0.0;   ///< s, median step; 0 for a static list
+  double dt = 0.0;   ///< s, median step; 0 for a list of poses at rest
   double clock_origin = 0.0;       ///< s, subtracted from t where the smallest t exceeds 1e6 s
   std::vector<Segment> segments;   ///< in order, covering every row
   std::vector<std::string> notes;  ///< conversions, resampling, gaps: for every report

@@ -95,6 +95,9 @@ struct EffectFit {
   Json (*parameters)(const Eigen::VectorXd& amplitudes, const Eigen::VectorXd& shapes) = nullptr;
 };
 
+/// What an effect must know of time: nothing, when a row was taken, or the motion between rows.
+enum class TimeNeed { kNone, kClock, kMotion };
+
 /// One law of the catalogue (effects.def), applied in place by simulation and corrected model
 /// alike.
 struct EffectKind {
@@ -107,7 +110,8 @@ struct EffectKind {
   const char* example = "{}";
   AxisRule axis = AxisRule::kNone;
   IntervalRule interval = IntervalRule::kOptional;
-  bool needs_time = false;     ///< leaves a static list as it is
+  TimeNeed needs_time =
+      TimeNeed::kNone;         ///< what it needs to act, else it leaves the wrench as it is
   bool machines_only = false;  ///< the diagnosis looks for it on axes of other machines alone
   /// Changes the model before anything is computed (Stage::kTool), else null.
   void (*change)(ToolModel&, Options& parameters) = nullptr;

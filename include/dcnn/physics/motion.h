@@ -15,13 +15,14 @@ namespace dcnn {
 /// Motion of the sensor frame, T samples, SI; a block is (T,3).
 struct Motion {
   std::string recording;  ///< name of the file, for effects that act in one recording only
-  Eigen::VectorXd t;      ///< zero throughout in a static list
+  Eigen::VectorXd t;      ///< s; in a list of poses without time the number of the row
   std::vector<Eigen::Matrix3d> R_BS;
   Eigen::MatrixXd euler;      ///< alpha, beta, gamma of E, continuous
   Eigen::MatrixXd v_B, a_B;   ///< of the sensor's origin, in B; (0,3) where nothing logged tells it
   Eigen::MatrixXd w_S, dw_S;  ///< angular velocity and acceleration, in S
   Eigen::VectorXd temperature;  ///< degC, empty where not logged
-  double dt = 0.0;              ///< s; 0 for a static list
+  double dt = 0.0;              ///< s; 0 for a list of poses at rest
+  bool has_clock = true;        ///< t is a time
   std::vector<Segment> segments;
 
   Index samples() const { return t.size(); }

@@ -131,7 +131,7 @@ void FieldBuilder::add_shapes(const std::string& driver, const Series& u, bool b
 std::vector<Field> fields(const Grid& grid, const Signals& prediction) {
   FieldBuilder builder(grid, prediction);
   add_state_fields(builder);
-  if (!grid.study().is_static()) add_memory_fields(builder);
+  add_memory_fields(builder);
   return builder.take();
 }
 

@@ -13,18 +13,20 @@ Grid::Grid(const Setting& setting)
     : whitener_(setting.whitener.at_stride(setting.whitener.block())),
       study_(thinned(setting.study, setting.whitener.block())),
       mask_(setting.mask),
-      seconds_(static_cast<double>(kPool) * setting.whitener.block_seconds()) {
+      pool_(study_.is_static() ? 1 : kPool),  // poses at rest have nothing in common
+      seconds_(static_cast<double>(pool_) * setting.whitener.block_seconds()) {
   const auto& info = setting.whitener.row_info();
   const double dt = setting.whitener.block_seconds();
   pool_of_.assign(info.size(), -1);
   double last_end = -1e300;
-  for (std::size_t begin = 0; begin + kPool <= info.size();) {
-    const auto &first = info[begin], &last = info[begin + kPool - 1];
+  for (std::size_t begin = 0; begin + pool_ <= info.size();) {
+    const auto &first = info[begin], &last = info[begin + pool_ - 1];
     const bool run = first.log == last.log && first.channel == last.channel &&
-                     (study_.is_static() || last.t - first.t < (kPool - 0.5) * dt);
-    const bool whole = run && mask_.segment(static_cast<Index>(begin), kPool).minCoeff() > 0.0;
+                     last.t - first.t <= (static_cast<double>(pool_) - 0.5) * dt;
+    const bool whole =
+        run && mask_.segment(static_cast<Index>(begin), static_cast<Index>(pool_)).minCoeff() > 0.0;
     if (whole) {
-      for (std::size_t k = 0; k < kPool; ++k) pool_of_[begin + k] = rows_;
+      for (std::size_t k = 0; k < pool_; ++k) pool_of_[begin + k] = rows_;
       const bool follows = !runs_.empty() && runs_.back().log == first.log &&
                            runs_.back().channel == first.channel &&
                            std::abs(first.t - last_end) < 0.5 * seconds_;
@@ -33,13 +35,13 @@ Grid::Grid(const Setting& setting)
       last_end = first.t + seconds_;
       ++rows_;
     }
-    begin += run ? kPool : 1;
+    begin += run ? pool_ : 1;
   }
 }
 
 Eigen::VectorXd Grid::pooled(const Eigen::VectorXd& whitened) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(rows_);
-  const double share = 1.0 / std::sqrt(static_cast<double>(kPool));
+  const double share = 1.0 / std::sqrt(static_cast<double>(pool_));
   for (std::size_t row = 0; row < pool_of_.size(); ++row) {
     if (pool_of_[row] >= 0) out(pool_of_[row]) += share * whitened(static_cast<Index>(row));
   }

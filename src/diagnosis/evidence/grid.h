@@ -30,6 +30,7 @@ class Grid {
   Whitener whitener_;
   Case study_;
   Eigen::VectorXd mask_;
+  std::size_t pool_;  // whitened rows that become one
   std::vector<Index> pool_of_;  // of each whitened row; -1 for none
   std::vector<Run> runs_;
   Index rows_ = 0;

@@ -104,9 +104,11 @@ void add_clock(FieldBuilder& builder) {
 }  // namespace
 
 void add_memory_fields(FieldBuilder& builder) {
-  add_past_forces(builder);
-  add_past_rates(builder);
-  add_clock(builder);
+  if (!builder.study().is_static()) {
+    add_past_forces(builder);
+    add_past_rates(builder);
+  }
+  if (builder.study().has_clock()) add_clock(builder);
 }
 
 }  // namespace dcnn::evidence

@@ -23,7 +23,7 @@ const EffectKind effect{
     .equation = "+ R^T f on [a,b]",
     .example = R"({"force_x_n": 1.0, "force_y_n": -2.0, "force_z_n": 0.5})",
     .interval = IntervalRule::kRequired,
-    .needs_time = true,
+    .needs_time = TimeNeed::kMotion,
     .apply = apply,
     .fits = {{.amplitudes = 3,
               .with_torque = 6,

@@ -49,7 +49,7 @@ const EffectKind effect{
     .equation = "F_n -> F_n + fraction (H-1) F_n, H = w0^2/(s^2+2 zeta w0 s+w0^2)",
     .example = R"({"freq_hz": 12.0, "zeta": 0.05, "fraction": 0.5})",
     .axis = AxisRule::kSensor,
-    .needs_time = true,
+    .needs_time = TimeNeed::kMotion,
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 1,

@@ -24,7 +24,7 @@ const EffectKind effect{
     .equation = "s sin(2 pi f t) + c cos(2 pi f t)",
     .example =
         R"({"freq_hz": 50.0, "sin_x_n": 0.1, "sin_y_n": 0.0, "sin_z_n": -0.05, "cos_x_n": 0.02, "cos_y_n": 0.08, "cos_z_n": 0.0})",
-    .needs_time = true,
+    .needs_time = TimeNeed::kMotion,
     .apply = apply,
     .fits = {{.amplitudes = 6,
               .with_torque = 12,

@@ -69,7 +69,7 @@ const EffectKind effect{
     .equation = "dz = (dq/w)(1 - (1-asym) sign(dq) z - asym abs(z)); -force z n",
     .example = R"({"force_n": 0.3, "width_rad": 0.2, "asym": 0.4})",
     .axis = AxisRule::kAngle,
-    .needs_time = true,
+    .needs_time = TimeNeed::kMotion,
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 1,

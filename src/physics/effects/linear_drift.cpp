@@ -17,7 +17,7 @@ const EffectKind effect{
     .meaning = "offset that grows steadily",
     .equation = "rate t",
     .example = R"({"rate_x_nps": 0.001, "rate_y_nps": -0.002, "rate_z_nps": 0.003})",
-    .needs_time = true,
+    .needs_time = TimeNeed::kClock,
     .apply = apply,
     .fits = {{.amplitudes = 3,
               .with_torque = 6,

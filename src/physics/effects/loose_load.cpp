@@ -66,7 +66,7 @@ const EffectKind effect{
     .equation = "-slug s'' n, abs(s) <= gap/2",
     .example = R"({"slug_kg": 0.05, "gap_m": 0.004})",
     .axis = AxisRule::kSensor,
-    .needs_time = true,
+    .needs_time = TimeNeed::kMotion,
     .apply = apply,
     .fits = {{.amplitudes = 1,
               .non_negative = true,

@@ -50,7 +50,7 @@ const EffectKind effect{
     .meaning = "first-order lag in the sensor",
     .equation = "tau dF'/dt + F' = F",
     .example = R"({"tau_s": 0.01})",
-    .needs_time = true,
+    .needs_time = TimeNeed::kMotion,
     .apply = apply,
     .stream = stream,
     .fits = {{.shapes = {{"tau", 2e-5, 1.0, {1.5e-4, 0.001, 0.004, 0.02}}},

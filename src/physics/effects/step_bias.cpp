@@ -18,7 +18,7 @@ const EffectKind effect{
     .equation = "+ s from t >= a",
     .example = R"({"step_x_n": 0.4, "step_y_n": -0.3, "step_z_n": 0.2})",
     .interval = IntervalRule::kOnset,
-    .needs_time = true,
+    .needs_time = TimeNeed::kClock,
     .apply = apply,
     .fits = {{.amplitudes = 3,
               .with_torque = 6,

@@ -41,7 +41,7 @@ const EffectKind effect{
     .meaning = "offset that settles, or follows `temperature`",
     .equation = "a (1 - exp(-t/tau)), or k (T - t_ref)",
     .example = R"({"a_x_n": 0.3, "a_y_n": -0.2, "a_z_n": 0.5, "tau_s": 60.0})",
-    .needs_time = true,
+    .needs_time = TimeNeed::kClock,
     .apply = apply,
     .fits = {{.amplitudes = 3,
               .with_torque = 6,

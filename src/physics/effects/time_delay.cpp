@@ -87,7 +87,7 @@ const EffectKind effect{
     .meaning = "force lags the pose by a pure delay; negative: it leads",
     .equation = "F(t) -> F(t - d)",
     .example = R"({"delay_s": 0.013})",
-    .needs_time = true,
+    .needs_time = TimeNeed::kMotion,
     .apply = apply,
     .stream = stream,
     .fits = {{.shapes = {{"delay", 2e-5, 1.0, {1.5e-4, 0.001, 0.004, 0.02}}},
