@@ -5,6 +5,9 @@
 #include "dcnn/data/filter.h"
 #include "dcnn/physics/arm.h"
 #include "dcnn/physics/axis_machine.h"
+#include "diagnosis/median.h"
+#include "diagnosis/periodograms.h"
+#include "diagnosis/shared_base.h"
 
 namespace dcnn {
 namespace {
@@ -80,6 +83,32 @@ double sense_of(const std::vector<Recording>& recordings, const System& system, 
   return (std::abs(along_v) > std::abs(along_a) ? along_v : along_a) < 0.0 ? -1.0 : 1.0;
 }
 
+/// Whether the axis' position varies by more than ten deviations of its noise within the motion's
+/// band, read above that: else its rate is noise.
+bool moves(const Case& study) {
+  constexpr double kDeviations = 10.0;
+  const std::string& name = study.axis->axis().position;
+  if (name.empty()) return true;
+  Signals position;
+  double square = 0.0, rows = 0.0;
+  for (const Log& log : study.logs) {
+    const Eigen::VectorXd q = log.recording.column(name);
+    square += (q.array() - q.mean()).square().sum();
+    rows += static_cast<double>(q.size());
+    position.emplace_back(q);
+  }
+  const Periodograms p = periodograms(study, position, 0);
+  const Eigen::VectorXd density = density_of(p);
+  std::vector<double> quiet;
+  for (Index i = 0; i < p.hz.size() && p.power.cols() > 0; ++i) {
+    if (p.hz(i) >= quiet_band(study) && p.hz(i) <= 0.49 / study.dt()) quiet.push_back(density(i));
+  }
+  if (quiet.empty()) return square > 0.0;
+  // White noise of density s^2 has variance s^2 f/f_Nyquist below f.
+  const double noise = median(quiet) * std::min(1.0, 2.0 * study.motion_hz * study.dt());
+  return square / rows > kDeviations * kDeviations * noise;
+}
+
 Case axis_case(std::shared_ptr<const AxisPlan> plan) {
   Case study;
   study.own_tool = false;
@@ -103,8 +132,13 @@ void set_axis_motion(Case& study) {
     log.regressors.clear();
     const Eigen::MatrixXd columns =
         base_columns(log.recording, plan.system, plan.index, study.derivative);
-    for (const Index k : plan.columns) log.regressors.emplace_back(-plan.sense * columns.col(k));
     log.base = {Eigen::MatrixXd::Zero(log.motion.samples(), 3), Eigen::MatrixXd(0, 3)};
+    if (plan.base_is_known) {
+      log.base.force.col(0) =
+          -plan.sense * (columns(Eigen::all, plan.columns) * study.base_coefficients);
+      continue;
+    }
+    for (const Index k : plan.columns) log.regressors.emplace_back(-plan.sense * columns.col(k));
     const std::string& simulated = plan.axis().simulated;
     if (!simulated.empty()) log.base.force.col(0) = -plan.sense * log.recording.column(simulated);
   }
@@ -154,9 +188,11 @@ std::vector<LoadedCase> load_axes(const DiagnosisRequest& request) {
     for (const Recording& r : fit) loaded.fit.logs.push_back(make_log(r, loaded.fit));
     for (const Recording& r : holdout) loaded.holdout.logs.push_back(make_log(r, loaded.fit));
     set_axis_motion(loaded.fit);
+    loaded.fit.axis_moves = moves(loaded.fit);
     set_axis_motion(loaded.holdout);
     cases.push_back(std::move(loaded));
   }
+  share_base(cases);
   return cases;
 }
 

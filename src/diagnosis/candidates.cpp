@@ -236,6 +236,10 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
       }
     }
   }
+  const bool along = kind.axis == AxisRule::kLine || kind.axis == AxisRule::kAngle;
+  if (study.axis && (along || kind.stage == Stage::kDynamics) && !study.axis_moves) {
+    return because("the axis moves no more than the noise of its position");
+  }
   if (study.axis && kind.axis == AxisRule::kAngle && study.axis->axis().position.empty()) {
     return because("no position is logged");
   }
@@ -247,6 +251,9 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
   }
   if (kind.stage == Stage::kTool && !study.own_tool && name != "mass") {
     return because("the simulator's own tool is not known");
+  }
+  if (name == "time_delay" && study.axis && study.axis->system.axes.size() > 1) {
+    return because("the axes share one clock: none of them alone is late");
   }
   if (name == "inertial_terms" && study.simulator.model.inertial == ToolModel::Inertial::kFull) {
     return because("the simulator has all inertial terms");

@@ -18,6 +18,7 @@ struct AxisPlan {
   std::vector<Index> columns;  ///< of its base simulator that are fitted
   /// 1 where what is measured drives the axis, -1 where it is the reaction to that.
   double sense = 1.0;
+  bool base_is_known = false;  ///< its coefficients are those of the whole arm, and not fitted
   const Axis& axis() const { return system.axes[index]; }
 };
 
@@ -36,7 +37,8 @@ struct Case {
   Simulator simulator;                   ///< as given; an empty tool where somebody else's predicts
   bool own_tool = true;                  ///< mass and centre of mass mean something
   std::shared_ptr<const AxisPlan> axis;  ///< of another machine, seen as a force along x; or null
-  Eigen::VectorXd base_coefficients;     ///< of the regressors, in what `base` of the logs holds
+  bool axis_moves = true;                ///< by more than the noise of its position
+  Eigen::VectorXd base_coefficients;     ///< of the base simulator's columns that are used
   double lowpass_hz =
       0.0;  ///< predictions pass the zero-phase filter that the measured have passed
   double motion_hz = 20.0;                  ///< above it nothing commanded moves

@@ -9,6 +9,7 @@
 #include "diagnosis/budget.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/evidence/posterior_json.h"
+#include "diagnosis/findings.h"
 #include "diagnosis/formula.h"
 #include "diagnosis/holdout.h"
 #include "diagnosis/locate.h"
@@ -17,12 +18,6 @@
 
 namespace dcnn {
 namespace {
-
-double mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double v : values) sum += v;
-  return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
-}
 
 /// Members that are the simulator's own numbers.
 std::vector<Member> own_parameters(const Case& study) {
@@ -39,139 +34,14 @@ std::vector<Member> own_parameters(const Case& study) {
   return members;
 }
 
-Json parameters_json(const std::vector<Estimate>& numbers) {
-  Json json = Json::object();
-  for (const Estimate& e : numbers) {
-    json[e.name] = {{"value", e.value}, {"ci95", {e.low, e.high}}, {"unit", e.unit}};
-  }
-  return json;
-}
-
-/// Writes down a finished search.
-class Writer {
- public:
-  Writer(const Search& search, const HoldOut& holdout) : search_(search), holdout_(holdout) {}
-
-  Json findings(const std::vector<std::vector<std::string>>& alternatives) const {
-    const JointFit& fit = search_.fit();
-    const auto numbers = estimates(search_.setting(), fit);
-    const double after = mean(holdout_.rmse(fit.members, fit.base));
-    Json list = Json::array();
-    for (std::size_t m = 0; m < fit.members.size(); ++m) {
-      const Member& member = fit.members[m];
-      Json entry = base_entry(member, numbers[m]);
-      JointFit rest = member.fixed ? fit : search_.without(m);
-      std::vector<Member>& others = rest.members;
-      if (member.fixed) others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
-      entry["confidence"] = entry["p_value"] = nullptr;
-      if (!member.fixed) {
-        entry["confidence"] = search_.posterior().inclusion(member);
-        entry["p_value"] = flip_p_value(search_.setting(), fit, m);
-      }
-      entry["alternatives"] = alternatives[m];
-      entry["holdout_gain"] =
-          1.0 - after / std::max(1e-300, mean(holdout_.rmse(others, rest.base)));
-      list.push_back(entry);
-    }
-    for (const auto* apart : {&search_.rounding(), &search_.knocking()}) {
-      if (*apart) list.push_back(found_apart(**apart));
-    }
-    return list;
-  }
-
-  /// What would have been named from which size on, and what these recordings cannot show.
-  void add_limits(Json& report) const {
-    const Case& study = search_.study();
-    const Scan scan(search_.setting(), search_.fit());
-    report["not_detected"] = report["not_testable"] = Json::array();
-    for (const EffectKind* kind : effect_kinds()) {
-      if (kind->fits.empty() || is_found(*kind) || !is_listed(study, *kind)) continue;
-      std::string why;
-      if (!is_testable(study, *kind, &why)) {
-        report["not_testable"].push_back({{"effect", kind->name}, {"why", why}});
-        continue;
-      }
-      const auto least = worst_axis(scan, *kind);
-      if (!least.has_value()) {
-        report["not_testable"].push_back(
-            {{"effect", kind->name}, {"why", "on this motion it looks like what was fitted"}});
-      } else if (*least > 0.0) {
-        report["not_detected"].push_back(
-            {{"effect", kind->name}, {"minimum_detectable_rms", *least}});
-      }
-    }
-  }
-
- private:
-  Json base_entry(const Member& member, const std::vector<Estimate>& numbers) const {
-    Json entry{{"effect", member.name()},
-               {"kind", member.kind->kind},
-               {"axis", nullptr},
-               {"interval_s", nullptr},
-               {"parameters", parameters_json(numbers)},
-               {"words", in_words(member, numbers)}};
-    if (!member.axis.empty()) entry["axis"] = member.axis;
-    if (member.interval_s) {
-      entry["interval_s"] = {member.interval_s->first, member.interval_s->second};
-    }
-    if (!member.recording.empty()) entry["recording"] = member.recording;
-    return entry;
-  }
-
-  Json found_apart(const Member& member) const {
-    JointFit alone;
-    alone.members = {member};
-    alone.residual = search_.fit().residual;
-    alone.tangent.resize(alone.residual.size(), 0);
-    Json entry = base_entry(member, estimates(search_.setting(), alone)[0]);
-    entry.update({{"confidence", nullptr},
-                  {"p_value", nullptr},
-                  {"alternatives", Json::array()},
-                  {"holdout_gain", nullptr}});
-    return entry;
-  }
-
-  bool is_found(const EffectKind& kind) const {
-    const auto same = [&](const Member& m) { return m.kind == &kind; };
-    const auto& members = search_.fit().members;
-    const auto &rounding = search_.rounding(), &knocking = search_.knocking();
-    return std::any_of(members.begin(), members.end(), same) || (rounding && same(*rounding)) ||
-           (knocking && same(*knocking));
-  }
-
-  /// The largest of the least detectable sizes over axes; 0 for what a test of its own looks for.
-  std::optional<double> worst_axis(const Scan& scan, const EffectKind& kind) const {
-    const EffectFit& form = kind.fits[0];
-    const bool seeded = std::all_of(form.shapes.begin(), form.shapes.end(),
-                                    [](const ShapeParameter& s) { return !s.seeds.empty(); });
-    if (!seeded || kind.interval == IntervalRule::kRequired ||
-        kind.interval == IntervalRule::kOnset) {
-      return 0.0;
-    }
-    Eigen::VectorXd shapes(static_cast<Index>(form.shapes.size()));
-    for (std::size_t k = 0; k < form.shapes.size(); ++k) {
-      shapes(static_cast<Index>(k)) = form.shapes[k].seeds[form.shapes[k].seeds.size() / 2];
-    }
-    std::optional<double> most;
-    for (const auto& axis : axes_of(search_.study(), kind)) {
-      const auto least = scan.least_detectable(
-          make_member(kind, form, axis, search_.study().has_torque(), seed_scale(axis) * shapes));
-      if (least && (!most || *least > *most)) most = least;
-    }
-    return most;
-  }
-
-  const Search& search_;
-  const HoldOut& holdout_;
-};
-
 const char* verdict_of(bool named, bool remains) {
   if (named) return remains ? "partly-explained" : "explained";
   return remains ? "unexplained" : "consistent";
 }
 
-/// What no name explains: by channel, in the band where it is.
-Json unnamed_part(const Search& search) {
+/// What no name explains: by channel, in the band where it is; or that the held-out data refute
+/// that all is explained.
+Json unnamed_part(const Search& search, const std::optional<HoldOut::Excess>& refuted) {
   Json excess = Json::array();
   for (Index j = 0; j < search.study().channel_count(); ++j) {
     double square = 0.0, count = 0.0;
@@ -183,6 +53,10 @@ Json unnamed_part(const Search& search) {
     excess.push_back(search.remains() ? std::sqrt(std::max(0.0, square / count - s * s)) : 0.0);
   }
   Json part{{"excess_rms", excess}, {"formula", nullptr}, {"words", nullptr}};
+  if (!search.remains() && refuted) {
+    part["words"] = "an error on held-out data of " + brief(refuted->ratio) +
+                    " times the noise on " + search.study().targets[refuted->channel];
+  }
   if (!search.remains()) return part;
   const BandTest* most = &search.bands().front();
   for (const BandTest& band : search.bands()) {
@@ -241,7 +115,6 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   const HoldOut holdout(search.study(), loaded.holdout);
   const Case& study = search.study();
   const JointFit &fit = search.fit(), given = joint_fit(search.setting(), {});
-  const Writer writer(search, holdout);
 
   Diagnosis diagnosis;
   Json& report = diagnosis.report;
@@ -251,15 +124,21 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
             {"holdout_recordings", names_of(loaded.holdout)}};
   const std::vector<std::string> without = study.without.names();
   if (!without.empty()) report["without"] = without;
-  report["findings"] = writer.findings(search.alternatives());
-  report["verdict"] = verdict_of(!report["findings"].empty(), search.remains());
+  report["findings"] = findings_json(search, holdout);
+  // What a loose load's impacts are is not predicted.
+  std::optional<HoldOut::Excess> refuted;
+  if (!search.knocking()) {
+    refuted = holdout.excess(search);
+  }
+  report["verdict"] =
+      verdict_of(!report["findings"].empty(), search.remains() || refuted.has_value());
   Case as_given = study;
   if (given.base.size() > 0) set_base(as_given, given.base);
   const Signals before = difference(study, predict(as_given, {}));
   report["where"] = locate(study, before, search.floors());
   report["where"]["budget"] =
       budget(search.setting(), before, own_parameters(study), report["where"]["segments"]);
-  report["unnamed"] = unnamed_part(search);
+  report["unnamed"] = unnamed_part(search, refuted);
   Json floors = Json::array(), sources = Json::array();
   for (const Floor& floor : search.floors()) {
     floors.push_back(floor.deviation());
@@ -274,7 +153,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   if (study.lowpass_hz > 0.0) {
     report["fit"]["unfiltered"] = errors_json(search, holdout.unfiltered(), given);
   }
-  writer.add_limits(report);
+  add_limits(search, holdout, report);
   report["next_motion"] = next_motion(report["findings"]);
   report["smoother_hz"] = study.is_static() ? Json() : Json(study.derivative.cutoff_hz);
   diagnosis.corrected = study.simulator;
@@ -283,7 +162,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   diagnosis.model = to_json(diagnosis.corrected);
   diagnosis.holdout = holdout.records(given, fit);
   diagnosis.portraits = portraits(search);
-  return {std::move(diagnosis), fit.base};
+  return {std::move(diagnosis), fit.base.size() > 0 ? fit.base : study.base_coefficients};
 }
 
 Diagnosis diagnose(const DiagnosisRequest& request,

@@ -1,5 +1,6 @@
 #include "diagnosis/holdout.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "diagnosis/axis_case.h"
@@ -103,6 +104,34 @@ std::vector<double> HoldOut::rmse(const std::vector<Member>& members,
     result.push_back(count > 0.0 ? std::sqrt(square / count) : 0.0);
   }
   return result;
+}
+
+std::optional<HoldOut::Excess> HoldOut::excess(const Search& search) const {
+  constexpr double kMost = 1.2, kNormal = 1.96;
+  const std::vector<double> errors = rmse(search.fit().members, search.fit().base);
+  double rows = 0.0;
+  for (const auto& held : held_)
+    rows += static_cast<double>(std::count(held.begin(), held.end(), 1));
+  // Relative deviation of an rms of n normal numbers: 1/sqrt(2n).
+  const auto block = static_cast<double>(search.setting().whitener.block());
+  const double chance = kNormal / std::sqrt(2.0 * std::max(1.0, rows / block));
+  std::optional<Excess> worst;
+  for (std::size_t j = 0; j < errors.size(); ++j) {
+    double noise = search.floors()[j].whole_deviation();
+    if (!search.floors()[j].pose_gain.empty()) {
+      double square = 0.0, count = 0.0;
+      for (const auto& left : search.left()) {
+        square += left.col(static_cast<Index>(j)).squaredNorm();
+        count += static_cast<double>(left.rows());
+      }
+      noise = std::max(noise, std::sqrt(square / count));
+    }
+    const double ratio = errors[j] / std::max(1e-300, noise);
+    if (ratio > kMost * (1.0 + chance) && (!worst || ratio > worst->ratio)) {
+      worst = Excess{j, ratio};
+    }
+  }
+  return worst;
 }
 
 std::vector<HeldOut> HoldOut::records(const JointFit& first, const JointFit& last) const {

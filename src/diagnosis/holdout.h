@@ -17,6 +17,15 @@ class HoldOut {
   /// RMSE by channel of the case's simulator with these members, with these coefficients of its
   /// linear base where it has one.
   std::vector<double> rmse(const std::vector<Member>& members, const Eigen::VectorXd& base) const;
+  /// A channel whose error exceeds 1.2 times its noise (with a pose that is differentiated, also
+  /// what the model leaves where it was fitted: the error of the filtered pose stands in both) by
+  /// more than chance makes of so many rows (97.5 %), of which a whitener's block counts as one:
+  /// the farthest.
+  struct Excess {
+    std::size_t channel;
+    double ratio;  ///< error over noise
+  };
+  std::optional<Excess> excess(const Search& search) const;
   std::vector<HeldOut> records(const JointFit& before, const JointFit& after) const;
   /// The same recordings without the low-pass.
   HoldOut unfiltered() const;

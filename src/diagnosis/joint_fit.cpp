@@ -178,6 +178,9 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
 }
 
 JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
+  for (Member& m : members) {
+    if (m.form->non_negative) m.amplitudes = m.amplitudes.cwiseMax(0.0);
+  }
   const Eigen::VectorXd wanted = setting.whitened(setting.measured);
   const auto coordinates = coordinates_of(members);
   const Eigen::MatrixXd nuisance_columns = with_beginnings(setting, members);
@@ -234,8 +237,8 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   }
   fit.members = chain->members();
   fit.residual = std::move(residual);
-  const Index linear = setting.study.base_coefficients.size();
-  fit.base = setting.study.base_coefficients + fit.nuisance.head(linear);
+  const auto linear = static_cast<Index>(setting.study.logs.front().regressors.size());
+  if (linear > 0) fit.base = setting.study.base_coefficients + fit.nuisance.head(linear);
   return fit;
 }
 

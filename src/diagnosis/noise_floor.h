@@ -23,10 +23,10 @@ struct Floor {
   /// even steps up to half the rate. Behind a Wiener filter that is the variance of its error.
   double static_part = 0.0, moving_part = 0.0;
   std::vector<double> pose_gain = {};  ///< empty: no pose is differentiated
-  std::vector<Mode> modes = {};        ///< in which motion that the pose does not show rings
-  std::string source = {};             ///< in words
-  double lowpass_hz = 0.0;             ///< of the filter that the noise has passed; 0: none
-  double dt = 0.0;                     ///< s, between samples
+  std::vector<Mode> modes = {};  ///< in which motion that the pose does not show rings
+  std::string source = {};       ///< in words
+  double lowpass_hz = 0.0;       ///< of the filter that the noise has passed; 0: none
+  double dt = 0.0;               ///< s, between samples
 
   /// Frequency and factor, at most 1, of octaves in which the residual is below what was fitted
   /// above the motion: no noise exceeds what the model leaves.
@@ -35,7 +35,9 @@ struct Floor {
   double deviation() const;  ///< of the sensor alone
   /// Density at `hz`, scaled so that white noise of variance s^2 has density s^2.
   double density(double hz) const;
-  /// What the pose's noise adds to it.
+  /// Standard deviation with what the pose's noise adds.
+  double whole_deviation() const;
+  /// What the pose's noise adds to the density.
   double pose_density(double hz) const;
 };
 

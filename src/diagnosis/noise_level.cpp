@@ -26,6 +26,20 @@ struct Window {
 /// log(1 + |F|/knee) of the predicted force F.
 double covariate(double force, double knee) { return elementary::log1p(std::abs(force) / knee); }
 
+/// Whether a reading repeats its last value so often that its steps hide its noise: noise of
+/// deviation s in steps of s repeats a value with probability 1/(2 sqrt(pi)) = 0.28. Its second
+/// differences tell when the value was renewed, not how noisy it is.
+bool steps_hide_noise(const Case& study, Index channel) {
+  constexpr double kRepeated = 0.28;
+  double same = 0.0, rows = 0.0;
+  for (const Log& log : study.logs) {
+    const Eigen::MatrixXd& all = log.unfiltered.rows() > 0 ? log.unfiltered : log.measured;
+    const auto x = all.col(channel);
+    for (Index i = 1; i < x.size(); ++i, ++rows) same += x(i) == x(i - 1) ? 1.0 : 0.0;
+  }
+  return same > kRepeated * rows;
+}
+
 std::vector<Window> windows_of(const Case& study, const Signals& residual, Index channel) {
   const Index n = std::max<Index>(8, std::llround(kSeconds / study.dt()));
   std::vector<Window> windows;
@@ -155,7 +169,7 @@ Signals noise_level(const Case& study, const Signals& residual) {
   // On a coarse lattice differences tell where the force is, not how noisy it is.
   if (study.is_static() || study.rounding_step > 0.0) return levels;
   for (Index j = 0; j < study.channel_count(); ++j) {
-    level_of(study, residual, force, j, levels);
+    if (!steps_hide_noise(study, j)) level_of(study, residual, force, j, levels);
   }
   return levels;
 }

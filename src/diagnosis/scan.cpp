@@ -23,6 +23,8 @@ bool is_itself(const Case& study, const Member& member) {
   const std::string name = member.name();
   // On an axis the position says which way a force resists.
   if (study.axis && name == "hysteresis") return member.amplitudes(0) > 0.0;
+  // A drive's filters are faster than a tenth of a second.
+  if (study.axis && name == "lowpass") return member.shapes(0) < 0.1;
   if (study.axis && name == "flexible_resonance") return member.shapes(1) < 0.5;
   // No more than all of the tool rings, but for noise.
   if (!study.axis && name == "flexible_resonance" && std::abs(member.amplitudes(0)) > 1.5) {

@@ -8,9 +8,12 @@
 #include "diagnosis/candidates.h"
 #include "diagnosis/detectors.h"
 #include "diagnosis/events.h"
+#include "diagnosis/evidence/priors.h"
 
 namespace dcnn {
 namespace {
+
+using evidence::prior::kModelError;
 
 constexpr double kLeastGrowth = 0.001;     // of what the model explains already
 constexpr double kLeastOfMotion = 0.0003;  // the same for a mode: it mends errors of the motion
@@ -125,7 +128,9 @@ bool Search::grow() {
     return trial.gain >= least_gain(*setting_, trial.member.parameters(), alone);
   });
   if (best == trials.end()) return false;
-  if (best->gain < kLeastGrowth * explained(false)) return false;
+  // Poses at rest have no error of the motion, but that of the law.
+  const double share = study_.is_static() ? kModelError * kModelError : kLeastGrowth;
+  if (best->gain < share * explained(false)) return false;
   const bool mode = best->member.kind->stage == Stage::kResonance;
   if (mode && best->gain < kLeastOfMotion * explained(true)) return false;
   std::vector<Member> members = fit_.members;

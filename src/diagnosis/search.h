@@ -75,6 +75,7 @@ class Search {
   /// A mode is among the members that are fitted.
   bool rings() const;
   void smooth(double cutoff_hz);
+  std::vector<Case*> cases();  ///< study_ and the same under other filters
   void choose_cutoff(const std::vector<Member>& members);
   void tune_to_mode();
   bool choose_rounding_noise();
@@ -107,11 +108,18 @@ class Search {
   bool take_back_relatives();
   bool keep_bystanders();
   bool uncover_relatives();
-  /// Evidence of the members, of subsets of them, and of none, with and without an unknown.
+  /// Evidence of the members, of subsets of them, and of none, with and without an unknown: the
+  /// place of the most probable among them.
+  std::size_t weigh_once();
+  /// Leaves the most probable of these.
   void weigh();
   void say(const std::string& text) const;
 
-  Case study_, softer_, harder_;  // the two others smooth more and less: what smoothing alone does
+  Case study_;
+  std::vector<Case>
+      smoothed_;  // the same under other filters of the pose: what filtering alone does
+  std::optional<DerivativeSpec>
+      other_filter_;  // with a Wiener gain, if the chosen has none, and vice versa
   std::function<void(const std::string&)> progress_;
   std::vector<Floor> floors_;
   std::unique_ptr<Setting> setting_;

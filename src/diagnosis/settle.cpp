@@ -77,9 +77,9 @@ void Search::make_setting(const std::vector<Member>& members) {
     setting_->nuisance = appended(setting_->nuisance, setting_->whitened(column));
   }
   if (study_.is_static() || study_.without.smoothing) return;
-  // What a little more or less smoothing changes, per channel.
-  for (const Case* other : {&softer_, &harder_}) {
-    const Signals there = predict(*other, members);
+  // What other filters of the pose change, per channel.
+  for (const Case& other : smoothed_) {
+    const Signals there = predict(other, members);
     for (Index j = 0; j < study_.channel_count(); ++j) {
       Signals change;
       for (std::size_t k = 0; k < there.size(); ++k) {
@@ -106,7 +106,7 @@ bool Search::choose_rounding_noise() {
         (left - setting_->nuisance * least_squares(setting_->nuisance, left)).squaredNorm();
     if (chi2 < least) least = chi2, best = trial.rounding_noise;
   }
-  for (Case* study : {&study_, &softer_, &harder_}) study->rounding_noise = best;
+  for (Case* study : cases()) study->rounding_noise = best;
   return std::abs(best / before - 1.0) > 0.1;
 }
 
@@ -136,7 +136,7 @@ void Search::settle(const std::vector<Member>& members) {
   }
   if (fit_.base.size() > 0) {
     // What filters and gains do to the base simulator they do to the fitted one.
-    for (Case* study : {&study_, &softer_, &harder_}) set_base(*study, fit_.base);
+    for (Case* study : cases()) set_base(*study, fit_.base);
     setting_->coarse = thinned(study_, setting_->whitener.coarse_stride());
     fit_ = joint_fit(*setting_, fit_.members);
   }

@@ -80,7 +80,7 @@ double linear_misfit(const Case& study, const std::vector<Member>& members) {
 
 void Search::choose_cutoff(const std::vector<Member>& members) {
   if (study_.is_static() || (study_.axis && !is_derived(study_.axis->system, study_.axis->index))) {
-    softer_ = harder_ = study_;
+    smoothed_.clear();
     return;
   }
   say("choosing the smoother");
@@ -106,6 +106,12 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
   const auto first = all.begin() + static_cast<std::ptrdiff_t>(kind * grid.size());
   const std::vector<double> misfit(first, first + static_cast<std::ptrdiff_t>(grid.size()));
   study_.derivative.subtraction = kind == 0 ? 0.0 : 1.0;
+  other_filter_.reset();
+  if (kinds == 2) {  // the best of the other kind
+    const auto others = all.begin() + static_cast<std::ptrdiff_t>((1 - kind) * grid.size());
+    const auto at = std::min_element(others, others + std::ptrdiff_t(grid.size())) - others;
+    other_filter_ = low_pass_spec(grid[static_cast<std::size_t>(at)], kind == 0 ? 1.0 : 0.0);
+  }
   double cutoff = grid[best];
   if (best > 0 && best + 1 < grid.size()) {  // vertex of the parabola through the three
     const double below = misfit[best - 1] - misfit[best], above = misfit[best + 1] - misfit[best];
@@ -149,9 +155,18 @@ void Search::smooth(double cutoff_hz) {
     set_derivative(other, low_pass_spec(hz, times * subtraction));
     return other;
   };
-  softer_ = smoothed(0.75 * cutoff_hz, kOver);
-  harder_ = smoothed(1.4 * cutoff_hz, 1.0 / kOver);
+  smoothed_ = {smoothed(0.75 * cutoff_hz, kOver), smoothed(1.4 * cutoff_hz, 1.0 / kOver)};
+  if (other_filter_) {
+    smoothed_.push_back(study_);
+    set_derivative(smoothed_.back(), *other_filter_);
+  }
   study_ = smoothed(cutoff_hz, 1.0);
+}
+
+std::vector<Case*> Search::cases() {
+  std::vector<Case*> list{&study_};
+  for (Case& other : smoothed_) list.push_back(&other);
+  return list;
 }
 
 }  // namespace dcnn

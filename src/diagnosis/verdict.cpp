@@ -34,7 +34,7 @@ void Search::detect() {
     member.fixed = true;
     member.fixed_deviation = Eigen::VectorXd::Constant(1, rounding_deviation(study_, step));
     rounding_ = member;
-    for (Case* study : {&study_, &softer_, &harder_}) {
+    for (Case* study : cases()) {
       study->rounding_step = step;
       study->rounding_noise = 0.3 * step;  // choose_rounding_noise()
     }
@@ -91,7 +91,7 @@ bool Search::is_alarming_now() {
 /// in turn explains some moments, and nothing outside them. What acts for some time alone is seen
 /// in few pieces, and an offset that drifts only as a whole.
 void Search::drop_unconfirmed() {
-  if (study_.axis || study_.is_static()) return;
+  if (study_.axis) return;
   while (true) {
     const auto shares = left_out_shares(*setting_, fit_);
     double least = 0.0;
@@ -186,9 +186,13 @@ void Search::keep_what_carries_over() {
   if (members.size() < fit_.members.size()) settle(members);
   while (!fit_.members.empty()) {
     const auto shares = left_out_shares(*setting_, fit_);
-    const auto worst = std::min_element(shares.begin(), shares.end());
-    if (*worst >= kMostOfIt) break;
-    settle(members_without(static_cast<std::size_t>(worst - shares.begin())));
+    // Of those that do not, what explains least: beside it another may not seem to help either.
+    std::optional<std::size_t> least;
+    for (std::size_t m = 0; m < shares.size(); ++m) {
+      if (shares[m] < kMostOfIt && (!least || gain(m) < gain(*least))) least = m;
+    }
+    if (!least) break;
+    settle(members_without(*least));
   }
   prefer_fewer_numbers();
 }

@@ -30,8 +30,7 @@ std::vector<std::vector<bool>> choices(std::size_t count) {
 
 }  // namespace
 
-void Search::weigh() {
-  say("weighing what was found against nothing and against what nobody can name");
+std::size_t Search::weigh_once() {
   std::vector<Member> free = fit_.members;
   std::erase_if(free, [](const Member& m) { return m.fixed; });
   const evidence::Grid grid(*setting_);
@@ -44,6 +43,25 @@ void Search::weigh() {
     structures.push_back(evidence::structure_of(*setting_, grid, joint_fit(*setting_, members)));
   }
   posterior_ = evidence::posterior_of(std::move(structures), rounding_ || knocking_);
+  return posterior_.most_probable();
+}
+
+void Search::weigh() {
+  say("weighing what was found against nothing and against what nobody can name");
+  std::size_t best = weigh_once();
+  // A machine leaves more than its noise: there its law's own error decides what is a finding.
+  if (study_.axis) return;
+  bool smaller = false;
+  // Beside an unknown, which may take the place of any of them, the names stay as they were judged.
+  while (posterior_.named_and_unknown + posterior_.unknown < 0.5 &&
+         posterior_.structures[best].members.size() < fit_.members.size()) {
+    settle(std::vector<Member>(posterior_.structures[best].members));
+    best = weigh_once();
+    smaller = true;
+  }
+  if (!smaller && !study_.is_static()) return;  // poses at rest have no spectrum to be judged by
+  bands_ = band_tests(*setting_, fit_.residual);
+  remains_ = posterior_.named_and_unknown + posterior_.unknown > 0.5;
 }
 
 }  // namespace dcnn

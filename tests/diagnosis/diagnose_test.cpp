@@ -160,7 +160,7 @@ TEST(Diagnose, PosesWithTheirTimesShowADrift) {
   table.values.rightCols(1) = t;
   write_csv(bench / "fit.csv", table);
   const Json report = bench.diagnose(false).report;
-  EXPECT_EQ(found(report), (std::set<std::string>{"linear_drift", "mass"}))
+  EXPECT_EQ(test::found(report), (std::set<std::string>{"linear_drift", "mass"}))
       << report["findings"].dump(1);
   EXPECT_EQ(report["verdict"], "explained");
   for (const Json& finding : report["findings"]) {

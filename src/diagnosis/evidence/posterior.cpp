@@ -21,6 +21,15 @@ double Posterior::inclusion(const Member& member) const {
   return (1.0 - prior::kElsewhere) * mass + 0.5 * prior::kElsewhere;
 }
 
+std::size_t Posterior::most_probable() const {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < structures.size(); ++k) {
+    const auto mass = [&](std::size_t s) { return without_unknown[s] + with_unknown[s]; };
+    if (mass(k) > mass(best)) best = k;
+  }
+  return best;
+}
+
 Posterior posterior_of(std::vector<Structure> structures, bool found_apart) {
   Posterior p;
   std::vector<double> without, with;

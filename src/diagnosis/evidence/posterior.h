@@ -14,6 +14,8 @@ struct Posterior {
 
   /// Mass of the structures that hold an effect of this kind on this axis.
   double inclusion(const Member& member) const;
+  /// The structure of the largest mass, with and without an unknown.
+  std::size_t most_probable() const;
 };
 
 /// Normalised over the structures at hand: log_named, improved by slow noise where that is

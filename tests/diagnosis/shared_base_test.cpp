@@ -1,0 +1,107 @@
+// An arm's rigid body is one for all its joints.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "dcnn/core/file.h"
+#include "dcnn/core/random.h"
+#include "diagnosis/axis_case.h"
+#include "support/process.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kNoise = 0.05;  // N m
+constexpr double kFriction[2] = {0.8, 0.5};
+
+/// Angle of a joint as a sum of two sines, with its derivatives.
+struct Swing {
+  double q, v, a;
+};
+Swing swing(double t, double size, double hz) {
+  Swing s{0.0, 0.0, 0.0};
+  for (const double part : {1.0, 2.3}) {
+    const double w = 2.0 * std::numbers::pi * hz * part, amplitude = size / part;
+    s.q += amplitude * std::sin(w * t + part);
+    s.v += amplitude * w * std::cos(w * t + part);
+    s.a -= amplitude * w * w * std::sin(w * t + part);
+  }
+  return s;
+}
+
+/// Two links in a vertical plane, a point mass at the end of each (Craig, Introduction to Robotics,
+/// 6.58), dry friction in both joints. `scale`: of what joint 2 logs.
+void write_arm(const std::filesystem::path& path, double begin, const double (&size)[2],
+               double scale, std::uint64_t seed) {
+  constexpr double m1 = 4.0, m2 = 2.5, l1 = 0.5, l2 = 0.4, g = 9.81;
+  constexpr Index kSamples = 5000;
+  Rng rng({seed});
+  Table table;
+  table.columns = {"t", "q_1", "q_2", "qd_1", "qd_2", "tau_1", "tau_2"};
+  table.values.resize(kSamples, 7);
+  for (Index k = 0; k < kSamples; ++k) {
+    const double t = begin + static_cast<double>(k) / 250.0;
+    const Swing a = swing(t, size[0], 0.13), b = swing(t, size[1], 0.29);
+    const double c = std::cos(b.q), s = std::sin(b.q), both = m2 * g * l2 * std::cos(a.q + b.q);
+    const double one = (m1 * l1 * l1 + m2 * (l1 * l1 + 2.0 * l1 * l2 * c + l2 * l2)) * a.a +
+                       m2 * (l1 * l2 * c + l2 * l2) * b.a -
+                       m2 * l1 * l2 * s * (2.0 * a.v * b.v + b.v * b.v) +
+                       (m1 + m2) * g * l1 * std::cos(a.q) + both;
+    const double two = m2 * (l1 * l2 * c + l2 * l2) * a.a + m2 * l2 * l2 * b.a +
+                       m2 * l1 * l2 * s * a.v * a.v + both;
+    table.values.row(k) << t, a.q, b.q, a.v, b.v,
+        one + kFriction[0] * std::tanh(a.v / 0.02) + kNoise * rng.normal(),
+        scale * (two + kFriction[1] * std::tanh(b.v / 0.02) + kNoise * rng.normal());
+  }
+  write_csv(path, table);
+}
+
+class SharedBase : public testing::Test {
+ protected:
+  /// Joint 1 is fitted where joint 2 hardly turns, and predicted where it does.
+  DiagnosisRequest request(double scale) const {
+    write_arm(folder_ / "fit.csv", 0.0, {0.6, 0.15}, scale, 1);
+    write_arm(folder_ / "hold.csv", 25.0, {0.8, 1.2}, scale, 2);
+    write_file(folder_ / "arm.json", R"({"kind": "axes",
+      "arm": {"convention": "standard", "dh": [[0.5, 0, 0, 0], [0.4, 0, 0, 0]],
+              "gravity_mps2": [0, -9.81, 0]},
+      "axes": [
+        {"name": "one", "measured": "tau_1", "unit": "N*m", "position": "q_1", "velocity": "qd_1"},
+        {"name": "two", "measured": "tau_2", "unit": "N*m", "position": "q_2", "velocity": "qd_2"}
+      ]})");
+    DiagnosisRequest request;
+    request.system = folder_ / "arm.json";
+    request.fit = {folder_ / "fit.csv"};
+    request.holdout = {folder_ / "hold.csv"};
+    return request;
+  }
+
+ private:
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(SharedBase, PredictsAJointWhereItWasNotMoved) {
+  const Json report = diagnose(request(1.0), nullptr).report;
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_LT(report["fit"]["holdout_rmse_after"][k].get<double>(), 1.5 * kNoise) << k;
+    // Without friction the arm alone leaves about the friction.
+    EXPECT_LT(report["fit"]["holdout_rmse_before"][k].get<double>(), 1.3 * kFriction[k]) << k;
+  }
+  ASSERT_EQ(report["findings"].size(), 2u) << report["findings"].dump(1);
+  for (const Json& finding : report["findings"]) {
+    EXPECT_EQ(finding["effect"], "coulomb_friction");
+    const std::size_t k = finding["axis"] == "one" ? 0 : 1;
+    EXPECT_NEAR(finding["parameters"]["fc"]["value"].get<double>(), kFriction[k], 0.05);
+  }
+}
+
+/// A joint whose scale is wrong cannot share the masses of the others.
+TEST_F(SharedBase, IsNotForcedOnAJointInOtherUnits) {
+  const auto right = load_axes(request(1.0)), wrong = load_axes(request(3.0));
+  EXPECT_TRUE(right[0].fit.axis->base_is_known && right[1].fit.axis->base_is_known);
+  EXPECT_FALSE(wrong[0].fit.axis->base_is_known && wrong[1].fit.axis->base_is_known);
+}
+
+}  // namespace
+}  // namespace dcnn
