@@ -1,5 +1,35 @@
+# What makes a fault of memory hard to use (SECURITY.md): positions drawn at random, tables of addresses read-only once
+# they are bound, canaries and probes of the stack, checked string functions, marked targets of jumps.
+# tests/cli/hardened_test.cpp reads it from the programs.
+function(dcnn_harden target)
+  if(NOT DCNN_HARDENED OR CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+    return()
+  endif()
+  get_target_property(type ${target} TYPE)
+  target_compile_options(${target} PRIVATE -fstack-protector-strong -fstack-clash-protection)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 12)
+    set(fortify 3)
+  else()
+    set(fortify 2)
+  endif()
+  target_compile_options(${target} PRIVATE -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=${fortify})
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    target_compile_options(${target} PRIVATE -fcf-protection=full)
+  endif()
+  if(CMAKE_CXX_COMPILER_ID MATCHES Clang AND (type STREQUAL EXECUTABLE OR target STREQUAL dcnn_tool_support))
+    target_compile_options(${target} PRIVATE -fPIE)  # GCC of Debian does so by itself
+  endif()
+  if(type STREQUAL EXECUTABLE)
+    target_link_options(${target} PRIVATE -pie)
+  endif()
+  if(NOT type STREQUAL STATIC_LIBRARY)
+    target_link_options(${target} PRIVATE LINKER:-z,relro LINKER:-z,now LINKER:-z,noexecstack)
+  endif()
+endfunction()
+
 # How every target of this project is compiled.
 function(dcnn_flags target)
+  dcnn_harden(${target})
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     # Templates fill the compiler's memory: collecting it every few megabytes takes a twentieth of its time.
     target_compile_options(${target} PRIVATE --param=ggc-min-heapsize=700000)

@@ -20,16 +20,21 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"physics", {"core", "data"}},
     {"models", {"core", "nn", "data", "physics"}},
     {"calibration", {"core", "data"}},
+    {"identification", {"core", "data", "physics"}},  // laws and simulators are those of physics
     {"teleop", {"core", "data", "physics", "models", "calibration", "runtime"}},
-    {"diagnosis", {"core", "data", "physics"}},
+    {"discovery", {"core", "data", "physics"}},  // laws for a residual, whoever left it
+    {"diagnosis", {"core", "data", "physics", "discovery"}},
     {"conceal", {"core", "data"}},  // shares no physics with what it examines
     {"rivals", {"core", "data", "physics"}},
+    {"import", {"core", "data"}},  // makes recordings, knows nothing of what is done with them
     {"runtime", {"core", "nn", "data", "physics", "models", "calibration"}},
     {"experiment",
-     {"core", "nn", "data", "physics", "models", "diagnosis", "runtime", "calibration", "teleop"}},
+     {"core", "nn", "data", "physics", "models", "diagnosis", "runtime", "calibration", "teleop",
+      "check"}},
+    {"check", {"core", "data", "physics"}},  // the nominal tool of sim.json
     {"tools",
      {"core", "nn", "data", "physics", "models", "diagnosis", "conceal", "rivals", "runtime",
-      "experiment", "calibration", "teleop"}}};
+      "experiment", "calibration", "teleop", "check", "identification", "import"}}};
 
 /// The includes in `text` that a file of `room` may not have.
 std::vector<std::string> wrong_includes(const std::string& room, const std::string& text) {

@@ -1,8 +1,12 @@
+#include <iomanip>
 #include <iostream>
+#include <numbers>
 
 #include "dcnn/calibration/calibration.h"
 #include "dcnn/core/file.h"
 #include "dcnn/data/rotation.h"
+#include "support/doctor.h"
+#include "dcnn/experiment/calibration_report.h"
 #include "support/tool.h"
 
 namespace {
@@ -51,6 +55,16 @@ ForcePairs load(const Input& input, const ReadOptions& read, bool with_bias) {
                       *input.mass_kg);
 }
 
+/// Signs, axes and the mounting are what a calibration finds itself.
+void check_recordings(const Tool& tool, const Doctor& doctor, const Input& input, const ReadOptions& read) {
+  CheckRequest logs{{}, read, "", ""};
+  for (const auto& path : {input.loaded, input.unloaded, input.poses}) {
+    if (!path.empty()) logs.logs.push_back(path);
+  }
+  doctor.examine(tool, logs, {"reaction", "force_sign", "force_axes", "mounting", "base_frame", "inverse_pose",
+                              "angle_sign", "euler_order", "compensated", "force_unit"});
+}
+
 /// Whether a file holds an earlier answer: it is replaced, for it is made again in no time.
 bool is_calibration(const std::filesystem::path& file) {
   try {
@@ -60,15 +74,20 @@ bool is_calibration(const std::filesystem::path& file) {
   }
 }
 
-void print(const Calibration& c, const std::string& out) {
-  const Eigen::Vector3d rpy = euler_from_rotation(c.R_ES).reverse();
-  const Eigen::Vector3d sd = c.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  std::cout << out << ": " << c.pairs << " pairs, residual " << c.residual_rms << " N rms, gain "
-            << c.gain << "\n  rotation_rpy " << rpy.transpose() << " rad, sd " << sd.transpose()
-            << "\n  offset " << c.offset.transpose() << " N\n";
-  if (c.mass_kg) std::cout << "  mass " << *c.mass_kg << " kg\n";
-  if (c.nominal_angle)
-    std::cout << "  angle to the nominal mounting " << *c.nominal_angle << " rad\n";
+void print(const Calibration& c, const std::filesystem::path& out) {
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  const Eigen::Vector3d rpy = kDegrees * euler_from_rotation(c.R_ES).reverse();
+  const Eigen::Vector3d sd = kDegrees * c.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  std::cout << headline(c) << std::fixed << std::setprecision(2) << "\n\nturn        " << rpy.x()
+            << ", " << rpy.y() << ", " << rpy.z() << " deg about x, y, z (Rz*Ry*Rx), sd " << sd.x()
+            << ", " << sd.y() << ", " << sd.z() << " deg\n"
+            << std::setprecision(3) << "offset      " << c.offset.x() << ", " << c.offset.y()
+            << ", " << c.offset.z() << " N\ngain        " << c.gain << " (reported, not applied)\n";
+  if (c.mass_kg) std::cout << "mass        " << *c.mass_kg << " kg\n";
+  if (c.nominal_angle) {
+    std::cout << "nominal     " << kDegrees * *c.nominal_angle << " deg away\n";
+  }
+  std::cout << "file        " << out.string() << "\n";
 }
 
 }  // namespace
@@ -77,7 +96,7 @@ int main(int argc, char** argv) {
   Tool tool("dcnn-calibrate", "Aligns the sensor's frame with the robot's from known forces.",
             kExamples);
   Input input;
-  std::filesystem::path out;
+  std::filesystem::path out, page;
   CalibrationOptions options;
   std::vector<double> nominal;
   tool.option("--pairs", input.pairs, "CSV of pairs: sx,sy,sz,rx,ry,rz [N], optionally w");
@@ -87,23 +106,26 @@ int main(int argc, char** argv) {
   tool.option("--mass-kg", input.mass_kg, "hung mass, or the tool's (else it is estimated)");
   tool.flag("--with-bias", options.with_bias, "the sensor has a constant offset: find it");
   tool.option("--nominal", nominal, "mounting as designed: rx ry rz [rad]").values(3);
-  tool.output("--out", out, "calibration.json to write")
-      .required()
-      .replaces(is_calibration);
+  tool.output("--out", out, "calibration.json to write").required().replaces(is_calibration);
+  tool.output("--report", page, "page to write (HTML): what each pair leaves");
   const ReadFlags read(tool);
+  const Doctor doctor(tool);
 
   return tool.run(argc, argv, [&] {
     if (!nominal.empty()) {
       options.nominal = rotation_from_euler({nominal[2], nominal[1], nominal[0]});
     }
-    const Calibration result = calibrate(load(input, read.options(), options.with_bias), options);
+    check_recordings(tool, doctor, input, read.options());
+    const ForcePairs pairs = load(input, read.options(), options.with_bias);
+    const Calibration result = calibrate(pairs, options);
     const Json json = to_json(result);
     write_file(out, json.dump(2) + "\n");
+    if (!page.empty()) write_file(page, to_html(result, pairs));
     for (const auto& note : result.notes) tool.note(note);
     if (tool.common().json) {
       Tool::print(json);
     } else {
-      print(result, out.string());
+      print(result, out);
     }
     return Exit::kDone;
   });

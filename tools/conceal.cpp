@@ -1,7 +1,9 @@
 #include <iostream>
 
 #include "dcnn/conceal/challenge.h"
+#include "dcnn/conceal/faulty.h"
 #include "dcnn/conceal/inject.h"
+#include "dcnn/core/file.h"
 #include "dcnn/experiment/challenge_report.h"
 #include "support/progress.h"
 #include "support/tool.h"
@@ -30,6 +32,21 @@ Exit print(const Tool& tool, std::size_t scenarios, std::uint64_t seed, const st
   return Exit::kDone;
 }
 
+/// OUT/log.csv and OUT/sim.json with one fault, its name in the seal.
+std::string write_faulty(const std::string& kind, const std::filesystem::path& motion,
+                         std::uint64_t seed, const std::filesystem::path& out,
+                         const std::filesystem::path& seal) {
+  conceal::FaultyLog log;
+  if (motion.empty()) {
+    log = conceal::make_faulty(kind, seed);
+  } else {
+    log.table = conceal::with_fault(kind, read_csv(motion), seed);
+  }
+  write_csv(out / "log.csv", log.table);
+  if (!log.simulator.is_null()) write_file(out / "sim.json", log.simulator.dump(2) + "\n");
+  return conceal::write_seal({{"kind", kind}, {"fault", log.fault}, {"seed", seed}}, out, seal);
+}
+
 /// Opens the seal: OUT/scores.json and OUT/report.html.
 Exit judge(const Tool& tool, const std::filesystem::path& out, const std::filesystem::path& seal) {
   const Json scores = conceal::score_challenge(out, seal);
@@ -50,11 +67,12 @@ int main(int argc, char** argv) {
             "nothing of them, and seals the answers: their SHA-256 is printed and stored before "
             "anybody looks. --score opens the seal.",
             kExamples);
-  int scenarios = 0, rounds = 0;
-  bool score = false;
+  int scenarios = 0, rounds = 0, laws = 0;
+  bool score = false, list = false;
   std::vector<std::string> ids;
   std::string family = "plain";
   std::filesystem::path out, seal;
+  std::string fault;
   conceal::Injection injection;
   auto many = tool.option("--scenarios", scenarios, "how many, of every group its share");
   tool.option("--scenario", ids, "these, as a sealed file names them under `drawn`").excludes(many);
@@ -63,24 +81,31 @@ int main(int argc, char** argv) {
           "rounds of a table of rates: of each 75 nulls, every effect alone at 1, 0.3 and 0.1 or "
           "0.05 of the noise, and some of every other group (8: 1,600 scenarios)")
       .excludes(many);
+  tool.option("--laws", laws,
+              "so many laws that no catalogue has, in turn, at 1, 3 and 10 times the noise")
+      .excludes(many);
   tool.option(
           "--family", family,
           "conditions of the recordings: plain, tremor (of a hand), load (noise that grows with "
-          "the force), clock (200 to 2000 Hz, rows lost), field (some of each), all (in turn)")
+          "the force), clock (200 to 2000 Hz, rows lost), field (some of each), hardware (plain, "
+          "with laws that hardware has: load friction, creep), all (in turn)")
       .with_default();
   const Option opening =
       tool.flag("--score", score, "score OUT/reports/*/report.json against the seal").excludes(many);
+  tool.flag("--list-faults", list, "prints the names for --fault");
   tool.output("--out", out, "folder of the scenarios",
               {"s[0-9][0-9][0-9][0-9]", "seal.sha256", "sim.json", "system.json", "*.csv"})
-      .required()
       .unless(opening);
-  tool.output("--seal", seal, "file of the answers, outside that folder")
-      .required()
-      .unless(opening);
+  tool.output("--seal", seal, "file of the answers, outside that folder").unless(opening);
 
   auto what = tool.option("--inject", injection.what,
                           "effect, effect@axis or a JSON file of effects to hide in --motion");
-  what.excludes(many).needs(tool.option("--motion", injection.motion, "recordings of a tool"));
+  const Option motion = tool.option("--motion", injection.motion, "recordings of a tool");
+  what.excludes(many).needs(motion);
+  tool.option("--fault", fault, "a log with this fault (for dcnn-check), in --motion or in one of its own")
+      .one_of(conceal::faulty_kinds())
+      .excludes(many)
+      .excludes(what);
   const auto sim =
       tool.option("--sim", injection.simulator, "their simulator (sim.json)").needs(what);
   tool.option("--system", injection.system, "of a machine of one axis, instead of --sim")
@@ -96,16 +121,26 @@ int main(int argc, char** argv) {
   const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {
+    if (list) {
+      for (const std::string& kind : conceal::faulty_kinds()) std::cout << kind << "\n";
+      return Exit::kDone;
+    }
+    require(!out.empty() && !seal.empty(), Exit::kUsage, "--out and --seal are required");
     if (score) return judge(tool, out, seal);
     const std::uint64_t seed = tool.common().seed.value_or(1);
+    if (!fault.empty()) {
+      const auto log = injection.motion.empty() ? std::filesystem::path() : injection.motion[0];
+      return print(tool, 1, seed, write_faulty(fault, log, seed, out, seal), seal);
+    }
     if (what.given()) {
       require(injection.simulator.empty() != injection.system.empty(), Exit::kUsage,
               "--inject needs --sim, or --system of another machine");
       injection.read = read.options();
       return print(tool, 1, seed, conceal::inject(injection, seed, out, seal), seal);
     }
-    require(scenarios > 0 || rounds > 0 || !ids.empty(), Exit::kUsage,
-            "give --scenarios, --rates, --scenario, --inject or --score");
+    require(scenarios > 0 || rounds > 0 || laws > 0 || !ids.empty(), Exit::kUsage,
+            "give --scenarios, --rates, --laws, --scenario, --inject or --score");
+    if (laws > 0) ids = conceal::laws_plan(laws);
     if (rounds > 0) ids = conceal::rates_plan(rounds, seed);
     if (ids.empty()) ids = conceal::plan(scenarios, seed);
     ids = conceal::in_family(std::move(ids), family);

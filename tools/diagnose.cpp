@@ -1,6 +1,9 @@
 #include <iostream>
 
 #include "dcnn/experiment/diagnosis_report.h"
+#include "support/doctor.h"
+#include "dcnn/experiment/least_sizes.h"
+#include "support/file_kind.h"
 #include "support/progress.h"
 #include "support/tool.h"
 
@@ -16,6 +19,20 @@ constexpr const char* kExamples =
     "  dcnn-diagnose --system arm.json --fit a.csv --holdout b.csv --out report   # another "
     "machine\n"
     "  dcnn-sim --sim report/model.json --motion c.csv --out corrected.csv\n";
+
+/// What the check of the recordings found, before everything else.
+Json with_check(const std::vector<std::string>& lines, const Json& report) {
+  Json out;
+  out["check"] = lines;
+  out.update(report);
+  return out;
+}
+
+std::vector<std::string> checked(const Tool& tool, const Doctor& doctor, const DiagnosisRequest& request) {
+  CheckRequest logs{request.fit, request.read, request.simulator.value_or(""), request.system.value_or("")};
+  logs.logs.insert(logs.logs.end(), request.holdout.begin(), request.holdout.end());
+  return doctor.examine(tool, logs);
+}
 
 }  // namespace
 
@@ -47,19 +64,30 @@ int main(int argc, char** argv) {
       .one_of(ablations())
       .group("For research");
   const ReadFlags read(tool);
+  const Doctor doctor(tool);
 
+  tool.check([&] {
+    expect_kind("--sim", request.simulator.value_or(""), {FileKind::kSimulator});
+    expect_kind("--system", request.system.value_or(""), {FileKind::kSystem});
+    for (const auto& file : request.fit) expect_kind("--fit", file, {FileKind::kRecording});
+    for (const auto& file : request.holdout) expect_kind("--holdout", file, {FileKind::kRecording});
+  });
   return tool.run(argc, argv, [&] {
     request.read = read.options();
+    const std::vector<std::string> check = checked(tool, doctor, request);
     request.without = ablation_of(without);
     if (clock != "auto") request.shared_clock = clock == "shared";
     Progress bar(tool.common().quiet);
-    const Diagnosis diagnosis = diagnose(request, [&](const std::string& text) { bar.line(text); });
+    Diagnosis diagnosis = diagnose(request, [&](const std::string& text) { bar.line(text); });
+    add_least_sizes(request, diagnosis);
     bar.clear();
+    diagnosis.report = with_check(check, diagnosis.report);
     write_diagnosis(out, diagnosis);
     tool.note("report      " + (out / "report.html").string());
     if (tool.common().json) {
       Tool::print(diagnosis.report);
     } else {
+      for (const std::string& line : check) std::cout << line << "\n";
       std::cout << to_text(diagnosis);
     }
     return Exit::kDone;

@@ -3,6 +3,7 @@
 
 #include "dcnn/core/file.h"
 #include "dcnn/experiment/evaluate.h"
+#include "support/file_kind.h"
 #include "support/progress.h"
 #include "support/tool.h"
 
@@ -70,6 +71,10 @@ int main(int argc, char** argv) {
   const PrecisionFlag precision(tool);
   const ReadFlags read(tool);
 
+  tool.check([&] {
+    for (const auto& file : request.models) expect_kind("dcnn-eval", file, {FileKind::kModel});
+    for (const auto& file : request.data) expect_kind("--data", file, {FileKind::kRecording});
+  });
   return tool.run(argc, argv, [&] {
     request.levels = parse_levels(levels);
     request.matlab_noise = noise_mode == "matlab";

@@ -4,6 +4,7 @@
 #include "dcnn/core/file.h"
 #include "dcnn/models/onnx.h"
 #include "dcnn/physics/axis_machine.h"
+#include "support/file_kind.h"
 #include "support/tool.h"
 
 namespace {
@@ -91,11 +92,18 @@ int main(int argc, char** argv) {
   const PrecisionFlag precision(tool);
   const ReadFlags read(tool);
 
+  tool.check([&] {
+    expect_kind("dcnn-predict", model, {FileKind::kModel, FileKind::kSimulator, FileKind::kSystem});
+    if (data) expect_kind("--data", *data, {FileKind::kRecording});
+  });
   return tool.run(argc, argv, [&] {
     require(data.has_value() == out.has_value() && (data || onnx), Exit::kUsage,
             "give --data and --out to predict, --onnx to export, or all three");
     if (onnx) write_file(*onnx, to_onnx(read_identifier(model)));
-    if (!data) return Exit::kDone;
+    if (!data) {
+      if (tool.common().json) Tool::print({{"onnx", onnx->string()}});
+      return Exit::kDone;
+    }
     ReadOptions options = read.options();
     options.motion_only = true;
     const bool simulator = model.extension() == ".json";

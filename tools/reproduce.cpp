@@ -50,7 +50,8 @@ void print_claims(const Json& summary) {
 Exit work(const ReproductionRequest& request, const Tool& tool) {
   catch_interrupts();
   const double expected = reproduction_plan(request)["seconds"];
-  tool.note("about " + minutes(expected) + " on two cores; what is finished is not done again");
+  tool.note("about " + minutes(expected) +
+            " on two idle cores, if nothing is done yet; the time left follows what steps take here");
   Progress bar(tool.common().quiet);
   ReproductionObserver observer;
   observer.stop_wanted = [] { return interrupted(); };

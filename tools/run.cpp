@@ -6,6 +6,7 @@
 #include "dcnn/runtime/open.h"
 #include "dcnn/runtime/realtime.h"
 #include "dcnn/runtime/serve.h"
+#include "support/file_kind.h"
 #include "support/interrupt.h"
 #include "support/tool.h"
 
@@ -18,14 +19,15 @@ constexpr const char* kExamples =
     "  dcnn-run --model m.dcnn --fallback model.json --stdin < log.csv      # rows in, rows out\n"
     "  dcnn-run --make-key secret.key\n"
     "  dcnn-run --model m.dcnn --fallback model.json --calibration c.json \\\n"
-    "    --listen 127.0.0.1:5001 --peer 127.0.0.1:5000 --key-file secret.key\n"
+    "    --listen 127.0.0.1:5001 --peer 127.0.0.1:5000 --key-file secret.key --plot 9870\n"
     "  dcnn-run --model m.dcnn --rehearse test.csv --json                   # time per cycle\n"
     "\n"
     "Takes the tool's own force off the measured one, sample by sample, and answers with the\n"
     "external force in the robot's frame. States: WARMUP (windows fill, output zero), NETWORK,\n"
     "PHYSICS (the fallback, while the model's input or output cannot be trusted), HOLD (last\n"
     "output), FADE (to zero), FAULT (latched; a sample with rearm ends it). The output is finite,\n"
-    "bounded and slew-limited in all of them. docs/use/run.md has packets, lines and triggers. The\n"
+    "bounded and slew-limited in all of them. docs/use/run.md has packets, lines and triggers. "
+    "The\n"
     "toolkit is no medical device.";
 
 }  // namespace
@@ -37,6 +39,7 @@ int main(int argc, char** argv) {
             kExamples);
   OnlineFiles files;
   std::filesystem::path key_file, make_key, rehearsal;
+  std::string plot;
   CompensatorOptions options;
   ServeOptions serve;
   bool lines = false;
@@ -83,6 +86,10 @@ int main(int argc, char** argv) {
       .positive()
       .needs(rehearse_option)
       .with_default();
+  tool.option("--plot", plot,
+              "send every cycle as JSON by UDP to this PORT or HOST:PORT, for PlotJuggler")
+      .called("PORT")
+      .excludes(rehearse_option);
   const PrecisionFlag precision(tool);
   listen.needs(peer).needs(key);
   peer.needs(listen);
@@ -90,9 +97,15 @@ int main(int argc, char** argv) {
   in.excludes(listen).excludes(rehearse_option);
   listen.excludes(rehearse_option);
 
+  tool.check([&] {
+    expect_kind("--model", files.model, {FileKind::kModel, FileKind::kSimulator});
+    expect_kind("--fallback", files.fallback, {FileKind::kSimulator});
+    expect_kind("--calibration", files.calibration, {FileKind::kCalibration});
+  });
   return tool.run(argc, argv, [&] {
     if (!make_key.empty()) {
       make_packet_key(make_key);
+      if (tool.common().json) Tool::print({{"key_file", make_key.string()}});
       return Exit::kDone;
     }
     require(!files.model.empty(), Exit::kUsage, "--model is required; see dcnn-run --help");
@@ -103,9 +116,11 @@ int main(int argc, char** argv) {
     files.precision = precision.value();
     OnlineCompensator compensator =
         open_compensator(files, options, [&](const std::string& text) { tool.note(text); });
+    std::optional<PlotStream> stream;  // before real time: its thread keeps the usual priority
+    if (!plot.empty()) serve.plot = &stream.emplace(plot, compensator.has_torque());
     if (priority > 0) become_realtime(priority);
     if (lines) {
-      const Json report = serve_lines(compensator, STDIN_FILENO, STDOUT_FILENO);
+      const Json report = serve_lines(compensator, STDIN_FILENO, STDOUT_FILENO, serve.plot);
       if (tool.common().json) tool.note(report.dump());
       return Exit::kDone;
     }

@@ -2,6 +2,7 @@
 
 #include "dcnn/physics/scenario.h"
 #include "dcnn/physics/simulator.h"
+#include "support/file_kind.h"
 #include "support/tool.h"
 
 namespace {
@@ -57,6 +58,11 @@ int main(int argc, char** argv) {
       .file_with(with_motion);
   const ReadFlags read(tool);
 
+  tool.check([&] {
+    expect_kind("--config", config, {FileKind::kScene});
+    expect_kind("--sim", sim, {FileKind::kSimulator});
+    expect_kind("--motion", motion, {FileKind::kRecording});
+  });
   return tool.run(argc, argv, [&] {
     require(!config.empty() || !sim.empty(), Exit::kUsage, "give --config, or --sim with --motion");
     const Json summary = sim.empty() ? simulate_folder(config, out, tool.common().seed)

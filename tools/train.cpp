@@ -6,6 +6,7 @@
 #include <iostream>
 #include <numeric>
 
+#include "support/doctor.h"
 #include "support/interrupt.h"
 #include "support/progress.h"
 #include "support/tool.h"
@@ -114,6 +115,15 @@ void print_summary(const Json& summary) {
             << " --data TEST.csv\n";
 }
 
+/// What the check of the recordings found; a run that goes on was checked when it began.
+std::vector<std::string> checked(const Tool& tool, const Doctor& doctor, const TrainingRequest& request) {
+  if (request.resume) return {};
+  CheckRequest logs{request.training, request.read, request.base.value_or(""),
+                    request.configuration.system.value_or("")};
+  logs.logs.insert(logs.logs.end(), request.validation.begin(), request.validation.end());
+  return doctor.examine(tool, logs);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -142,6 +152,7 @@ int main(int argc, char** argv) {
       .required()
       .unless(resume);
   const ReadFlags read(tool);
+  const Doctor doctor(tool);
 
   return tool.run(argc, argv, [&] {
     request.read = read.options();
@@ -151,6 +162,7 @@ int main(int argc, char** argv) {
                 !std::filesystem::exists(run / "checkpoint.safetensors"),
             Exit::kUsage, run.string(),
             ": an interrupted run is here; go on with --resume, or start anew with --force");
+    const std::vector<std::string> check = checked(tool, doctor, request);
     catch_interrupts();
     Observer observer(tool);
     const TrainingOutcome outcome = flags.model == "auto"
@@ -166,6 +178,7 @@ int main(int argc, char** argv) {
     if (tool.common().json) {
       Tool::print(outcome.summary);
     } else {
+      for (const std::string& line : check) std::cout << line << "\n";
       print_summary(outcome.summary);
     }
     return Exit::kDone;

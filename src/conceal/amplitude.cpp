@@ -8,8 +8,11 @@ namespace {
 
 /// The parameters that make an effect strong and leave its shape.
 bool is_strength(const Hidden& h, const std::string& name) {
-  if (h.effect == "thermal_drift" && name == "tau_s") return false;
-  return !has("v0_mps vs_mps width_rad asym rest_rad order phase_rad gap_m freq_hz zeta t_ref_degc",
+  if (is_drawn_law(h.effect)) return name == "size";
+  if (has("thermal_drift creep", h.effect) && name == "tau_s") return false;
+  if (h.effect == "gear_friction" && name == "a") return false;
+  return !has("v0_mps vs_mps width_rad asym beta gamma m rest_rad order phase_rad gap_m freq_hz "
+              "zeta t_ref_degc",
               name);
 }
 
@@ -18,6 +21,7 @@ double largest(const Hidden& h, const Tool& tool, const std::string& name) {
   if (name == "delta_mass_kg") return 0.5 * tool.mass;
   if (name.rfind("delta_com", 0) == 0) return 0.05;
   if (name == "fraction") return 0.9;
+  if (name == "mu" || name == "a") return 1.0;
   if (name == "delay_s" || (h.effect == "lowpass" && name == "tau_s")) return 0.08;
   if (name.rfind("tilt", 0) == 0 || name.rfind("rot", 0) == 0) return 0.15;
   if (name.rfind("gain", 0) == 0 || name.rfind("c_", 0) == 0) {

@@ -39,8 +39,26 @@ const std::vector<std::string>& listed_effects() {
 const std::vector<std::string>& unlisted_effects() {
   static const std::vector<std::string> ids{
       "pose_modulated_friction", "velocity_position", "gravity_square", "two_modes",
-      "load_friction",           "cubic_spring",      "event_train",    "drifting_lugre"};
+      "square_load_friction",    "cubic_spring",      "event_train",    "drifting_lugre"};
   return ids;
+}
+
+const std::vector<std::string>& hardware_effects() {
+  static const std::vector<std::string> ids{"load_friction", "creep"};
+  return ids;
+}
+
+const std::vector<std::string>& axis_effects() {
+  static const std::vector<std::string> ids{"gear_friction", "quadratic_spring",
+                                            "asymmetric_friction"};
+  return ids;
+}
+
+bool is_listed(const std::string& effect) {
+  const auto holds = [&](const std::vector<std::string>& ids) {
+    return std::find(ids.begin(), ids.end(), effect) != ids.end();
+  };
+  return holds(listed_effects()) || holds(hardware_effects()) || holds(axis_effects());
 }
 
 const std::vector<Neighbours>& neighbours() {
@@ -61,10 +79,12 @@ const std::vector<Neighbours>& neighbours() {
 
 bool confounded(const std::string& a, const std::string& b) {
   static const std::vector<std::set<std::string>> families{
-      {"coulomb_friction", "stribeck_friction", "lugre_friction", "hysteresis"},
+      {"coulomb_friction", "stribeck_friction", "lugre_friction", "hysteresis", "load_friction",
+       "gear_friction"},
       {"mass", "gain"},                 // a gain of all axes is a mass
       {"misalignment", "crosstalk"},    // a small turn is antisymmetric leakage
       {"gain", "crosstalk"},            // one matrix, named in two halves
+      {"creep", "mass", "gain", "thermal_drift"},  // of a load that hardly changes
       {"quantisation", "saturation"}};  // both are read off the raw values
   return std::any_of(families.begin(), families.end(),
                      [&](const auto& f) { return f.count(a) != 0 && f.count(b) != 0; });

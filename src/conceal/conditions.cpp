@@ -59,7 +59,7 @@ Eigen::VectorXd band_noise(Index n, double hz, double width, Rng& rng) {
 }  // namespace
 
 const std::vector<std::string>& families() {
-  static const std::vector<std::string> all{"plain", "tremor", "load", "clock", "field"};
+  static const std::vector<std::string> all{"plain", "tremor", "load", "clock", "field", "hardware"};
   return all;
 }
 

@@ -34,14 +34,14 @@ Request parse(const std::string& whole) {
           "' is no amplitude; write a positive number, as in single:0.5/coulomb_friction/7");
   if (r.group == "null") r.amplitude = 0.0;
   if (plus != whole.npos) r.family = whole.substr(0, plus);
-  require(has("null faint single foreign poor double triple collinear unlisted mixed", r.group),
+  require(has("null faint single foreign poor double triple collinear unlisted mixed law", r.group),
           Exit::kUsage, id, ": no group is called ", r.group);
   const auto known = [](const std::string& name, const std::vector<std::string>& list) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
   require(known(r.family, families()), Exit::kUsage, whole, ": no family is called ", r.family);
-  require(has("any none", r.effect) || known(r.effect, listed_effects()) ||
-              known(r.effect, unlisted_effects()),
+  require(has("any none", r.effect) || is_listed(r.effect) ||
+              known(r.effect, unlisted_effects()) || known(r.effect, drawn_laws()),
           Exit::kUsage, id, ": no effect is called ", r.effect);
   return r;
 }
@@ -71,7 +71,11 @@ std::vector<Wanted> choose(const Request& r, Rng& rng) {
     const Neighbours pair = one_of(rng, neighbours());
     return {{pair.first, a}, {pair.second, a, pair.same_axis}};
   }
-  wanted.push_back({r.effect == "any" ? another(wanted, rng) : r.effect, a});
+  const bool hardware = r.family == "hardware";
+  wanted.push_back({r.effect != "any" ? r.effect
+                    : hardware        ? one_of(rng, hardware_effects())
+                                      : another(wanted, rng),
+                    a});
   const int more = r.group == "triple" ? 2 : (has("double mixed", r.group) ? 1 : 0);
   for (int k = 0; k < more; ++k) {
     const bool weak = rng.uniform() < 0.3;  // one beside another ten times as strong

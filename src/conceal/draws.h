@@ -18,6 +18,10 @@ std::string draw_axis(const std::string& id, Rng& rng);
 std::map<std::string, double> draw_parameters(const std::string& id, const std::string& axis,
                                               Rng& rng);
 
+/// Whether an id is one of drawn_laws(), and the numbers of any of them.
+bool is_drawn_law(const std::string& id);
+std::map<std::string, double> draw_law(Rng& rng);
+
 /// Neighbours that the data can tell apart; `same_axis` where they share it.
 struct Neighbours {
   std::string first, second;

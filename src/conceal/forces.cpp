@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "conceal/draws.h"
 #include "conceal/laws.h"
 #include "core/elementary.h"
 
@@ -30,8 +31,33 @@ VectorXd slug(const Parameters& p, const VectorXd& field) {
   return force;
 }
 
-VectorXd along(const Path& path, const Hidden& h, const Guide& g, const Eigen::MatrixXd& field) {
+/// Friction of a guide that the load presses on, or of a gear that transmits it.
+VectorXd loaded(const Path& path, const Parameters& p, const Guide& g,
+                const Eigen::MatrixXd& carried) {
+  VectorXd f(g.v.size());
+  for (Index i = 0; i < f.size(); ++i) {
+    const double along_n = carried.row(i).dot(g.n.row(i)), square = carried.row(i).squaredNorm();
+    const double across = std::sqrt(std::max(0.0, square - along_n * along_n));
+    const double load = path.load.rows() > 0 ? std::abs(along_n) : across;
+    f(i) = -p.at("mu") * load * elementary::tanh(g.v(i) / p.at("v0_mps"));
+  }
+  return f;
+}
+
+VectorXd geared(const Parameters& p, const Guide& g) {
+  VectorXd f(g.v.size());
+  for (Index i = 0; i < f.size(); ++i) {
+    const double swell = p.at("a") * elementary::sin(p.at("order") * g.v(i) + p.at("phase_rad"));
+    f(i) = -p.at("fc_n") * (1.0 + swell) * elementary::tanh(g.speed(i) / p.at("v0_mps"));
+  }
+  return f;
+}
+
+VectorXd along(const Path& path, const Hidden& h, const Guide& g, const Eigen::MatrixXd& field,
+               const Eigen::MatrixXd& carried) {
   const Parameters& p = h.parameters;
+  if (h.effect == "load_friction") return loaded(path, p, g, carried);
+  if (h.effect == "gear_friction") return geared(p, g);
   if (h.effect == "lugre_friction") return -lugre(h, g.v);
   if (h.effect == "drifting_lugre") return -lugre(h, g.v);
   if (h.effect == "hysteresis") return -bouc_wen(h, g.v);
@@ -48,7 +74,9 @@ VectorXd along(const Path& path, const Hidden& h, const Guide& g, const Eigen::M
              (1.0 + 0.9 * elementary::sin(9.0 * x / 0.12));
     } else if (h.effect == "velocity_position")
       f(i) = -p.at("size") * v * x * 30.0;
-    else if (h.effect == "load_friction") {
+    else if (h.effect == "quadratic_spring") {
+      f(i) = -p.at("k2_nprad2") * elementary::pow(v - p.at("rest_rad"), 2);
+    } else if (h.effect == "square_load_friction") {
       f(i) = -p.at("size") * elementary::tanh(v / 0.01) *
              elementary::pow(std::abs(field(i, 2)) / load, 2);
     } else if (h.effect == "cubic_spring")
@@ -82,7 +110,7 @@ void press(const Path& path, const Hidden& h, Eigen::MatrixXd& F) {
 
 Guide guide(const Path& path, const std::string& axis) {
   const Index n = path.samples();
-  Guide g{Eigen::MatrixXd::Zero(n, 3), VectorXd::Zero(n)};
+  Guide g{Eigen::MatrixXd::Zero(n, 3), VectorXd::Zero(n), VectorXd::Zero(n)};
   const auto colon = axis.find(':');
   const bool base = axis.rfind("base_", 0) == 0, spin = axis.rfind("w_sensor_", 0) == 0;
   for (Index i = 0; i < n; ++i) {
@@ -91,7 +119,8 @@ Guide guide(const Path& path, const std::string& axis) {
       g.n.row(i) = R.row(letter(axis));
     else
       g.n(i, letter(axis)) = 1.0;
-    g.v(i) = spin ? path.rate(i, letter(axis)) : (path.velocity.row(i) * R).dot(g.n.row(i));
+    g.speed(i) = spin ? path.rate(i, letter(axis)) : (path.velocity.row(i) * R).dot(g.n.row(i));
+    g.v(i) = g.speed(i);
     if (colon != std::string::npos) {
       g.v(i) = path.pose(i, axis[0] == 'a' ? 3 : (axis[0] == 'b' ? 4 : 5));
     }
@@ -100,14 +129,15 @@ Guide guide(const Path& path, const std::string& axis) {
 }
 
 void add_force(const Path& path, const Hidden& h, const Eigen::MatrixXd& field,
-               Eigen::MatrixXd& F) {
+               const Eigen::MatrixXd& carried, Eigen::MatrixXd& F) {
   if (h.effect == "contact" || h.effect == "event_train") return press(path, h, F);
+  if (is_drawn_law(h.effect)) return add_drawn_law(path, h, field, F);
   if (h.axis.empty() || h.effect == "flexible_resonance" || h.effect == "saturation" ||
       h.effect == "two_modes") {
     return;
   }
   const Guide g = guide(path, h.axis);
-  F += g.n.cwiseProduct(along(path, h, g, field).replicate(1, 3));
+  F += g.n.cwiseProduct(along(path, h, g, field, carried).replicate(1, 3));
 }
 
 }  // namespace dcnn::conceal

@@ -47,6 +47,7 @@ double friction(const Hidden& h, double v) {
   const Parameters& p = h.parameters;
   const std::string& id = h.effect;
   if (id == "viscous_friction") return p.at("c_nspm") * v;
+  if (id == "asymmetric_friction") return p.at("delta_c_nspm") * std::abs(v);
   if (id == "quadratic_drag") return p.at("c2_ns2pm2") * v * std::abs(v);
   const double u0 = v / p.at("v0_mps");
   const double sign = h.foreign ? u0 / std::sqrt(1.0 + u0 * u0) : elementary::tanh(u0);
@@ -83,14 +84,20 @@ VectorXd lugre(const Hidden& h, const VectorXd& v) {
 VectorXd bouc_wen(const Hidden& h, const VectorXd& q) {
   const Parameters& p = h.parameters;
   if (h.foreign) return p.at("force_n") * sliders(q, p.at("width_rad"));
+  const auto given = [&](const char* name, double otherwise) {
+    return p.count(name) ? p.at(name) : otherwise;
+  };
+  const double asym = given("asym", 0.5), m = given("m", 1.0);
+  const double beta = given("beta", 1.0 - asym), gamma = given("gamma", asym);
   VectorXd force(q.size());
   double z = 0.0;
   for (Index i = 0; i < q.size(); ++i) {
     force(i) = p.at("force_n") * z;
     const double dq = (q(std::min(i + 1, q.size() - 1)) - q(i)) / p.at("width_rad");
-    const double sign = dq > 0.0 ? 1.0 : (dq < 0.0 ? -1.0 : 0.0), asym = p.at("asym");
+    const double sign = dq > 0.0 ? 1.0 : (dq < 0.0 ? -1.0 : 0.0);
     z = rk4(z, 1.0, [&](double x, double) {
-      return dq * (1.0 - (1.0 - asym) * sign * x - asym * std::abs(x));
+      const double bend = m == 1.0 ? 1.0 : elementary::pow(std::abs(x), m - 1.0);
+      return dq * (1.0 - (beta * sign * x + gamma * std::abs(x)) * bend);
     });
   }
   return force;

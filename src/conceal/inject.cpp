@@ -88,12 +88,17 @@ Path path_along(const Recording& recording, const Axis& axis) {
   require(recording.has(axis.position), Exit::kData, recording.name, ": has no position '",
           axis.position, "'; an effect needs the motion");
   const Eigen::VectorXd t = recording.column("t");
-  const Eigen::MatrixXd fine = resampled(t, recording.column(axis.position));
+  Eigen::MatrixXd raw(t.size(), 2);
+  raw << recording.column(axis.position), recording.column(axis.measured);
+  const Eigen::MatrixXd fine = resampled(t, raw);
   Eigen::MatrixXd pose = Eigen::MatrixXd::Zero(fine.rows(), 6);
   pose.col(0) = pose.col(3) = fine.col(0);
   std::vector<Eigen::Matrix3d> still(static_cast<std::size_t>(fine.rows()),
                                      Eigen::Matrix3d::Identity());
-  return follow(t(0), pose, std::move(still), Eigen::Vector3d::Zero());
+  Path path = follow(t(0), pose, std::move(still), Eigen::Vector3d::Zero());
+  path.load = Eigen::MatrixXd::Zero(fine.rows(), 3);
+  path.load.col(0) = fine.col(1);
+  return path;
 }
 
 /// Orientations through quaternions, so that no Euler singularity matters but to the angles.
@@ -136,7 +141,8 @@ std::vector<Hidden> parse_hidden(const fs::path& file) {
   for (const Json& item : list) {
     Options options(item, file.string(), Exit::kUsage);
     Hidden h;
-    h.effect = options.choice("effect", "", listed_effects());
+    h.effect = options.get<std::string>("effect");
+    if (!is_listed(h.effect)) options.reject("effect", "'", h.effect, "' is unknown");
     const Json axis = options.raw("axis"), interval = options.raw("interval_s");
     if (axis.is_string()) h.axis = axis;
     if (interval.is_array() && interval.size() == 2) h.interval_s = {interval[0], interval[1]};
@@ -155,7 +161,7 @@ Hidden draw_hidden(const Injection& request, const Scenario& s, const std::vecto
   const auto known = [&](const std::vector<std::string>& list) {
     return std::find(list.begin(), list.end(), h.effect) != list.end();
   };
-  require(known(listed_effects()) || known(unlisted_effects()), Exit::kUsage, "--inject ",
+  require(is_listed(h.effect) || known(unlisted_effects()), Exit::kUsage, "--inject ",
           request.what, ": neither an effect nor a JSON file");
   h.axis = draw_axis(h.effect, rng);
   if (at != std::string::npos) h.axis = request.what.substr(at + 1);

@@ -11,6 +11,7 @@ using Parameters = std::map<std::string, double>;
 struct Guide {
   Eigen::MatrixXd n;  ///< (T, 3)
   Eigen::VectorXd v;  ///< (T), angle in rad instead for `angle:axis`
+  Eigen::VectorXd speed;  ///< (T), along it also there
 };
 Guide guide(const Path& path, const std::string& axis);
 
@@ -19,8 +20,13 @@ double friction(const Hidden& h, double v);
 Eigen::VectorXd lugre(const Hidden& h, const Eigen::VectorXd& v);
 Eigen::VectorXd bouc_wen(const Hidden& h, const Eigen::VectorXd& q);
 
-/// Adds the force on the tool, if the effect is one; `field`: of felt_field().
-void add_force(const Path& path, const Hidden& h, const Eigen::MatrixXd& field, Eigen::MatrixXd& F);
+/// Adds the force on the tool, if the effect is one; `field`: of felt_field(), `carried`: (T, 3)
+/// what is carried before any such force.
+void add_force(const Path& path, const Hidden& h, const Eigen::MatrixXd& field,
+               const Eigen::MatrixXd& carried, Eigen::MatrixXd& F);
+/// Adds a law of drawn_laws().
+void add_drawn_law(const Path& path, const Hidden& h, const Eigen::MatrixXd& field,
+                   Eigen::MatrixXd& F);
 /// Resonance and what the sensor makes of the force, if the effect is one of these.
 void change_reading(const Path& path, const Hidden& h, Eigen::MatrixXd& F);
 

@@ -33,6 +33,17 @@ bool draw_friction(const std::string& id, double swift, Rng& rng, Parameters& p)
     p["fs_n"] = 0.3 * rng.uniform(1.6, 3.0);
     p["vs_mps"] = swift * logarithmic(rng, 0.02, 0.06);
   }
+  if (id == "load_friction") {
+    p = {{"mu", 0.05}, {"v0_mps", swift * logarithmic(rng, 0.002, 0.02)}};
+  }
+  if (id == "gear_friction") {
+    p = {{"fc_n", 0.3},
+         {"a", rng.uniform(0.2, 0.7)},
+         {"order", std::floor(rng.uniform(5.0, 24.0))},
+         {"phase_rad", rng.uniform(-3.0, 3.0)},
+         {"v0_mps", logarithmic(rng, 0.002, 0.02)}};
+  }
+  if (id == "asymmetric_friction") p["delta_c_nspm"] = 0.5 / swift;
   if (id == "viscous_friction") p["c_nspm"] = 1.0 / swift;
   if (id == "quadratic_drag") p["c2_ns2pm2"] = 3.0 / (swift * swift);
   if (has("lugre_friction drifting_lugre", id)) {
@@ -57,6 +68,8 @@ bool draw_tool_force(const std::string& id, const std::string& axis, Rng& rng, P
   }
   if (id == "cable_spring")
     p = {{"k_nprad", 0.2}, {"rest_rad", middle_of(axis) + rng.uniform(-0.3, 0.3)}};
+  if (id == "quadratic_spring")
+    p = {{"k2_nprad2", 0.2}, {"rest_rad", middle_of(axis) + rng.uniform(-0.3, 0.3)}};
   if (id == "cogging") {
     p = {{"amp_n", 0.1},
          {"order", std::floor(rng.uniform(5.0, 24.0))},
@@ -102,6 +115,7 @@ bool draw_sensor(const std::string& id, Rng& rng, Parameters& p) {
   }
   if (id == "time_delay") p["delay_s"] = 0.01;
   if (id == "lowpass") p["tau_s"] = 0.01;
+  if (id == "creep") p = {{"a", 0.02}, {"tau_s", logarithmic(rng, 1.0, 15.0)}};
   if (id == "thermal_drift") draw_thermal(rng, p);
   if (id == "linear_drift") vector(p, rng, "rate_", "_nps", 0.01);
   if (id == "step_bias") vector(p, rng, "step_", "_n", 1.0);
@@ -120,7 +134,9 @@ bool draw_sensor(const std::string& id, Rng& rng, Parameters& p) {
 std::string draw_axis(const std::string& id, Rng& rng) {
   const std::string angle = one_of<std::string>(rng, {"alpha", "beta", "gamma"});
   const std::string sensor = one_of<std::string>(rng, {"sensor_x", "sensor_y", "sensor_z"});
-  if (has("cable_spring hysteresis cogging cubic_spring gravity_square", id)) {
+  if (has("cable_spring hysteresis cogging cubic_spring quadratic_spring gear_friction "
+          "gravity_square",
+          id)) {
     return angle + ":" + sensor;
   }
   if (has("loose_load flexible_resonance saturation two_modes", id)) return sensor;
@@ -135,6 +151,7 @@ std::string draw_axis(const std::string& id, Rng& rng) {
 Parameters draw_parameters(const std::string& id, const std::string& axis, Rng& rng) {
   Parameters p;
   if (id == "inertial_terms") return p;
+  if (is_drawn_law(id)) return draw_law(rng);
   const double swift = axis.rfind("w_", 0) == 0 ? 8.0 : 1.0;
   if (!draw_friction(id, swift, rng, p) && !draw_tool_force(id, axis, rng, p) &&
       !draw_parameter(id, rng, p) && !draw_sensor(id, rng, p)) {

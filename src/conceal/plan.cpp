@@ -131,13 +131,26 @@ std::vector<std::string> rates_plan(int rounds, std::uint64_t seed) {
   return shuffled(ids, rng);
 }
 
+namespace {
+
+/// In place of a listed effect one of the hardware's, in turns.
+std::string with_hardware(const std::string& id, std::size_t turn) {
+  const auto colon = id.find(':'), first = id.find('/'), second = id.rfind('/');
+  if (!has("faint single poor", id.substr(0, colon))) return id;
+  const auto& effects = hardware_effects();
+  return id.substr(0, first + 1) + effects[turn % effects.size()] + id.substr(second);
+}
+
+}  // namespace
+
 std::vector<std::string> in_family(std::vector<std::string> ids, const std::string& family) {
   const auto& known = families();
   const bool all = family == "all";
   require(all || std::find(known.begin(), known.end(), family) != known.end(), Exit::kUsage,
-          "no family is called ", family, "; there are plain, tremor, load, clock, field and all");
+          "no family is called ", family, "; there are plain, tremor, load, clock, field, hardware and all");
   for (std::size_t k = 0; k < ids.size(); ++k) {
     const std::string& one = all ? known[k % known.size()] : family;
+    if (one == "hardware") ids[k] = with_hardware(ids[k], all ? k / known.size() : k);
     if (one != "plain") ids[k] = one + "+" + ids[k];
   }
   return ids;

@@ -40,6 +40,19 @@ void lag(const Parameters& p, Eigen::MatrixXd& F) {
   }
 }
 
+/// The spring beside a dashpot that goes on giving way: s' = (F - s)/tau by the trapezoidal rule.
+void settle(const Parameters& p, Eigen::MatrixXd& F) {
+  const double twice = 2.0 * p.at("tau_s");
+  Eigen::RowVectorXd s = F.row(0), before = F.row(0);
+  F.row(0) += p.at("a") * s;
+  for (Index i = 1; i < F.rows(); ++i) {
+    const Eigen::RowVectorXd now = F.row(i);
+    s = ((twice - kStep) * s + kStep * (before + now)) / (twice + kStep);
+    before = now;
+    F.row(i) += p.at("a") * s;
+  }
+}
+
 void shift(double delay, Eigen::MatrixXd& F) {
   const Eigen::MatrixXd G = F;
   for (Index i = 0; i < F.rows(); ++i) {
@@ -95,6 +108,8 @@ void change_reading(const Path& path, const Hidden& h, Eigen::MatrixXd& F) {
     cross(p, F);
   else if (h.effect == "lowpass")
     lag(p, F);
+  else if (h.effect == "creep")
+    settle(p, F);
   else if (h.effect == "time_delay")
     shift(p.at("delay_s"), F);
   else if (h.effect == "bias" || h.effect == "linear_drift" || h.effect == "step_bias" ||

@@ -116,7 +116,7 @@ Json score_effect(const Json& hidden, const Json* finding) {
 std::string right_verdicts(const std::string& group) {
   if (has("null faint", group)) return "consistent";
   if (group == "foreign") return "explained partly-explained";
-  if (group == "unlisted") return "unexplained";
+  if (has("unlisted law", group)) return "unexplained";
   return group == "mixed" ? "partly-explained" : "explained";
 }
 
@@ -153,6 +153,7 @@ Json score(const Json& answer, const Json& report) {
            {"noise", answer["noise"]},
            {"hidden", none},
            {"named", none},
+           {"laws", none},
            {"effects", none}};
   one["verdict"] = report.is_object() ? report["verdict"] : Json("failed");
   const std::vector<const Json*> match = matched(hidden, findings);
@@ -166,7 +167,8 @@ Json score(const Json& answer, const Json& report) {
   }
   for (const Json& f : findings) {
     one["named"].push_back(f["effect"]);
-    listed_names += f["effect"] != "unnamed" ? 1 : 0;
+    listed_names += !has("unnamed discovered", f["effect"].get<std::string>());
+    if (f.contains("law")) one["laws"].push_back(f["law"]);
   }
   one["false_names"] = listed_names - in_class;
   one["top1"] = !findings.empty() && holds(one["hidden"], findings[0]["effect"]);

@@ -1,3 +1,4 @@
+#include <charconv>
 #include <cmath>
 #include <set>
 
@@ -5,6 +6,7 @@
 #include "conceal/tally.h"
 #include "core/elementary.h"
 #include "dcnn/conceal/challenge.h"
+#include "dcnn/core/excerpt.h"
 #include "dcnn/core/file.h"
 
 namespace dcnn::conceal {
@@ -40,7 +42,13 @@ Json rows(const std::map<std::string, Tally>& tallies) {
 std::string drawn_amplitude(const Json& scenario) {
   const std::string id = scenario["drawn"];
   const auto colon = id.find(':');
-  return id.substr(colon + 1, id.find('/') - colon - 1);
+  const std::string text = id.substr(colon + 1, id.find('/') - colon - 1);
+  double amplitude = 0.0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), amplitude);
+  if (error != std::errc() || rest != text.data() + text.size()) {
+    throw Json::exception("'drawn' names no amplitude: " + excerpt(id));
+  }
+  return text;
 }
 
 /// How often each effect alone was named, or was among the alternatives, by drawn amplitude.
@@ -136,9 +144,7 @@ Json rates_of(const Json& answers, const fs::path& folder, const fs::path& below
   return score_reports(answers, folder, below)["tables"]["all"];
 }
 
-}  // namespace
-
-Json score_challenge(const fs::path& folder, const fs::path& seal) {
+Json scores_of(const fs::path& folder, const fs::path& seal) {
   const Json answers = open_seal(folder, seal);
   const std::string digest = read_file(folder / "seal.sha256", 4096, Exit::kData).substr(0, 64);
   Json out{{"seed", answers["seed"]}, {"sha256", digest}};
@@ -151,6 +157,17 @@ Json score_challenge(const fs::path& folder, const fs::path& seal) {
     out["ablations"][part] = rates_of(answers, folder / "ablations" / part, "");
   }
   return out;
+}
+
+}  // namespace
+
+Json score_challenge(const fs::path& folder, const fs::path& seal) {
+  try {
+    return scores_of(folder, seal);
+  } catch (const Json::exception& error) {
+    fail(Exit::kData, seal.string(), ": it, or a report below ", folder.string(),
+         ", is not of dcnn-conceal and dcnn-diagnose: ", error.what());
+  }
 }
 
 }  // namespace dcnn::conceal

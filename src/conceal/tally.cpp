@@ -80,7 +80,7 @@ void add_scenario(const Json& s, Tally& tally) {
   if (has("null faint", group)) {
     tally.count("null_specificity", wrong == 0 && s["verdict"] == "consistent");
     tally.count("null_without_name", wrong == 0 && s["verdict"] != "failed");
-  } else if (group == "unlisted") {
+  } else if (has("unlisted law", group)) {
     tally.count("abstention", wrong == 0 && s["verdict"] != "failed");
   } else {
     tally.count("set", s["set"]);

@@ -33,7 +33,7 @@ int stage(const Hidden& h) {
   if (h.effect == "misalignment") return 1;
   if (h.effect == "gain") return 2;
   if (h.effect == "crosstalk") return 3;
-  if (h.effect == "lowpass") return 4;
+  if (h.effect == "lowpass" || h.effect == "creep") return 4;
   return h.effect == "time_delay" ? 5 : 6;
 }
 
@@ -89,7 +89,8 @@ Eigen::MatrixXd force(const Path& path, const Tool& nominal, const std::vector<H
   const Eigen::MatrixXd field = felt_field(path, gravity);
   Eigen::MatrixXd F(path.samples(), 3);
   for (Index i = 0; i < F.rows(); ++i) F.row(i) = rigid(path, i, tool, gravity);
-  for (const Hidden& h : hidden) add_force(path, h, field, F);
+  const Eigen::MatrixXd carried = path.load.rows() > 0 ? path.load : F;
+  for (const Hidden& h : hidden) add_force(path, h, field, carried, F);
   for (int s = 0; s <= 6; ++s) {
     if (s == 6) F.rowwise() += tool.bias.transpose();
     for (const Hidden& h : hidden) {

@@ -23,6 +23,7 @@ struct Path {
   std::vector<Eigen::Matrix3d> rotation;   // sensor to base
   Eigen::MatrixXd velocity, acceleration;  // (T, 3), base
   Eigen::MatrixXd rate, rate_derivative;   // (T, 3), sensor
+  Eigen::MatrixXd load;  // (T, 3) N, what an axis of a machine transmits; no rows: a tool
   Eigen::Index samples() const { return pose.rows(); }
   double time(Eigen::Index i) const { return start + kStep * static_cast<double>(i); }
 };

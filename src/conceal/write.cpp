@@ -59,8 +59,7 @@ Json answer(const Hidden& h) {
   one["interval_s"] = h.interval_s ? Json{h.interval_s->first, h.interval_s->second} : Json();
   one["parameters"] = Json::object();
   for (const auto& [name, value] : h.parameters) one["parameters"][name] = value;
-  const auto& ids = listed_effects();
-  one["listed"] = std::find(ids.begin(), ids.end(), h.effect) != ids.end();
+  one["listed"] = is_listed(h.effect);
   one["foreign"] = h.foreign;
   one["amplitude"] = h.amplitude;
   return one;

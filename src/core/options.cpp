@@ -4,12 +4,14 @@
 #include <numeric>
 #include <utility>
 
+#include "dcnn/core/excerpt.h"
+
 namespace dcnn {
 
 Options::Options(Json object, std::string where, Exit exit)
     : object_(std::move(object)), where_(std::move(where)), exit_(exit) {
   if (object_.is_null()) object_ = Json::object();
-  require(object_.is_object(), exit_, where_, ": must be a JSON object, not ", object_.dump());
+  require(object_.is_object(), exit_, where_, ": must be a JSON object, not ", excerpt(object_.dump()));
 }
 
 bool Options::has(const std::string& key) const { return object_.contains(key); }
@@ -35,7 +37,7 @@ std::string Options::choice(const std::string& key, const std::string& fallback,
 
 Options Options::child(const std::string& key) {
   const Json value = raw(key);
-  if (!value.is_null() && !value.is_object()) reject(key, "must be an object, not ", value.dump());
+  if (!value.is_null() && !value.is_object()) reject(key, "must be an object, not ", excerpt(value.dump()));
   Options child(value, where_, exit_);
   child.prefix_ = path(key) + ".";
   return child;
@@ -54,7 +56,7 @@ void Options::finish() const {
   }
 }
 
-std::string Options::path(const std::string& key) const { return prefix_ + key; }
+std::string Options::path(const std::string& key) const { return prefix_ + excerpt(key); }
 
 namespace {
 

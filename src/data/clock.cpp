@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/elementary.h"
+#include "data/limits.h"
 #include "data/spline.h"
 
 namespace dcnn {
@@ -15,7 +16,6 @@ constexpr double kGap = 5.0;          // times dt
 constexpr double kOff = 0.2;          // of dt
 constexpr double kTolerated = 0.01;   // of the steps
 constexpr double kMostLost = 0.1;     // of the rows; with more the median step is no clock's
-constexpr double kSlowest = 1000.0;   // s
 constexpr double kPoses = 1.0;        // s; between rows further apart a hand or an arm moves unseen
 constexpr Index kRowsPerPeriod = 40;  // of a motion; poses one by one are chosen further apart
 
@@ -135,8 +135,10 @@ void set_clock(Recording& recording, const std::string& file, bool poses) {
     recording.notes.push_back("rows a second or more apart: poses at rest, nothing between them");
     return;
   }
-  require(recording.dt < kSlowest, Exit::kData, file, ": the median step of column 't' is ",
+  require(recording.dt < kSlowestStep, Exit::kData, file, ": the median step of column 't' is ",
           recording.dt, " s; write t in seconds");
+  require(recording.dt >= kFastestStep, Exit::kData, file, ": the median step of column 't' is ",
+          recording.dt, " s, faster than any sensor; write t in seconds");
   recording.segments = split_at_gaps(t, recording.dt);
   for (std::size_t k = 1; k < recording.segments.size(); ++k) {
     const Index row = recording.segments[k].begin;
@@ -177,6 +179,10 @@ void resample(Recording& recording, double hz, const std::vector<std::string>& s
   const Table old = recording.table;
   const Eigen::VectorXd t = recording.column("t");
   if (hz == 0.0) hz = 1.0 / recording.dt;
+  constexpr double kMostRowsOfOne = 100.0;
+  require(hz * recording.dt <= kMostRowsOfOne, Exit::kUsage, "resampling to ", hz,
+          " Hz makes more than ", kMostRowsOfOne, " rows of each; the recording has ",
+          1.0 / recording.dt, " Hz");
   std::vector<Grid> grids;
   std::vector<Segment> segments;
   for (const Segment& segment : recording.segments) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "data/limits.h"
 #include "data/spectral.h"
 #include "data/spline.h"
 
@@ -136,6 +137,9 @@ int shortest(const DerivativeSpec& spec, double dt) {
 void check_lengths(const Recording& recording, const DerivativeSpec& spec) {
   require(recording.dt > 0.0, Exit::kData, recording.name,
           ": has no column 't', so no derivatives; log the time or use features of the pose alone");
+  require(spec.window(recording.dt) <= kLongestWindow, Exit::kData, recording.name,
+          ": derivative.window_s of ", spec.window_s, " s is more than ", kLongestWindow,
+          " samples of ", recording.dt, " s; shorten it");
   const int least = shortest(spec, recording.dt);
   for (const Segment& segment : recording.segments) {
     require(segment.size() >= least, Exit::kData, recording.name, ": samples ", segment.begin + 1,

@@ -5,6 +5,7 @@
 
 #include "core/elementary.h"
 #include "data/feature_blocks.h"
+#include "data/limits.h"
 #include "data/rows.h"
 #include "dcnn/data/pose_noise.h"
 
@@ -71,6 +72,15 @@ void add_block(FeatureLayout& layout, const Block& block, const std::vector<Reco
   layout.units.insert(layout.units.end(), block.names.size(), block.unit);
 }
 
+/// What a derivative keeps and weighs at every sample is bounded.
+void check_window(const FeatureLayout& layout, const std::string& where, Exit exit) {
+  const DerivativeSpec& derivative = layout.spec.derivative;
+  if (layout.dt <= 0.0) return;
+  require(derivative.window(layout.dt) <= kLongestWindow, exit, where, ": derivative.window_s of ",
+          derivative.window_s, " s is more than ", kLongestWindow, " samples of ", layout.dt,
+          " s; shorten it");
+}
+
 }  // namespace
 
 std::vector<Block> used_blocks(const FeatureLayout& layout, const std::string& where, Exit exit) {
@@ -127,7 +137,10 @@ FeatureLayout parse_layout(const Json& json, const std::string& where, Exit exit
   layout.spec = parse_features(options.child("features"), layout.system);
   layout.names = options.get<std::vector<std::string>>("names");
   layout.units = options.get<std::vector<std::string>>("units");
-  layout.dt = options.number("dt_s", 0.0, 0.0, 1e6);
+  layout.dt = options.number("dt_s", 0.0, 0.0, kSlowestStep);
+  if (layout.dt > 0.0 && layout.dt < kFastestStep) {
+    options.reject("dt_s", "must be 0 or at least ", kFastestStep, ", not ", layout.dt);
+  }
   layout.circular_mean = vector_of(options, "circular_mean");
   layout.notes = options.get<std::vector<std::string>>("notes", {});
   layout.pose_deviation = parse_pose_deviation(options);
@@ -135,6 +148,7 @@ FeatureLayout parse_layout(const Json& json, const std::string& where, Exit exit
   require(layout.names.size() == layout.units.size(), exit, where,
           ": there must be one unit per feature name");
   used_blocks(layout, where, exit);
+  check_window(layout, where, exit);
   return layout;
 }
 
@@ -150,6 +164,7 @@ FeatureLayout make_layout(const std::vector<Recording>& training, const FeatureS
     if (recording.dt > 0.0 && layout.dt > 0.0) check_rate(recording, layout.dt);
     layout.dt = std::min(layout.dt, recording.dt);  // one static list: no feature needs time
   }
+  check_window(layout, training[0].name, Exit::kUsage);
   for (const Block& block : feature_blocks(layout.spec, system)) add_block(layout, block, training);
   require(!layout.names.empty(), Exit::kData, training[0].name,
           ": holds no signal that a feature could be made of; log positions or velocities");

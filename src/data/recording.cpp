@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "data/clock.h"
+#include "data/limits.h"
 #include "data/pose_checks.h"
 #include "dcnn/data/filter.h"
+#include "dcnn/data/table_reader.h"
 
 namespace dcnn {
 namespace {
@@ -107,6 +109,39 @@ void convert_units(Recording& recording, const ReadOptions& options) {
   }
 }
 
+/// The columns that this system gives a meaning to, but for time and pose, which have tests of
+/// their own.
+Names known_columns(const System& system) {
+  if (system.kind == System::Kind::kWrist) {
+    return {"fx",     "fy",     "fz",     "tx",     "ty", "tz", "fx_sim", "fy_sim",
+            "fz_sim", "tx_sim", "ty_sim", "tz_sim", "vx", "vy", "vz",     "wx",
+            "wy",     "wz",     "ax",     "ay",     "az", "dwx", "dwy",   "dwz",
+            "temperature"};
+  }
+  Names names;
+  for (const Axis& axis : system.axes) {
+    for (const auto& name : {axis.measured, axis.position, axis.velocity, axis.acceleration,
+                             axis.simulated}) {
+      names.push_back(name);
+    }
+    names.insert(names.end(), axis.signals.begin(), axis.signals.end());
+  }
+  return names;
+}
+
+/// Squares and products of what is measured stay far from overflow.
+void check_magnitudes(const Recording& recording, const System& system, const std::string& file) {
+  const double most = system.kind == System::Kind::kWrist ? kMostMeasured : kMostOfAxis;
+  for (const std::string& name : known_columns(system)) {
+    if (!recording.has(name)) continue;
+    const Eigen::VectorXd values = recording.column(name);
+    Index row = 0;
+    if (values.size() == 0 || values.cwiseAbs().maxCoeff(&row) <= most) continue;
+    fail(Exit::kData, file, ":", row + 2, ": column '", name, "' is ", values[row],
+         ", beyond any sensor; repair the log or correct its unit");
+  }
+}
+
 void check_options(const ReadOptions& options, const System& system) {
   const bool plain =
       options.position_unit == 1.0 && options.angle_unit == 1.0 && options.force_sign == 1.0;
@@ -157,11 +192,18 @@ void Recording::set(const std::string& column_name, const Eigen::VectorXd& value
 
 Recording read_recording(const std::filesystem::path& path, const ReadOptions& options,
                          const System& system) {
+  check_options(options, system);
+  return make_recording(read_table(path), path, options, system);
+}
+
+Recording make_recording(SourceTable source, const std::filesystem::path& path,
+                         const ReadOptions& options, const System& system) {
   const std::string file = path.string();
   check_options(options, system);
   Recording recording;
   recording.name = path.filename().string();
-  recording.table = read_csv(path);
+  recording.table = std::move(source.table);
+  recording.notes = std::move(source.notes);
   require(
       recording.has("t") || options.static_list, Exit::kData, file,
       ":1: column 't' is missing; log the time in seconds (only lists of static poses have none)");
@@ -170,6 +212,7 @@ Recording read_recording(const std::filesystem::path& path, const ReadOptions& o
   if (!wrist) check_axis_columns(recording, system, options.motion_only, file);
   set_clock(recording, file, wrist && options.static_list);
   convert_units(recording, options);
+  check_magnitudes(recording, system, file);
   if (wrist) check_pose(recording, file);
   const bool asked = options.resample || system.resample_hz > 0.0;
   if (asked && recording.dt > 0.0) {

@@ -20,12 +20,20 @@ bool same_place(const Member& a, const Member& b) {
   return a.kind == b.kind && a.axis == b.axis && !a.interval_s && !b.interval_s;
 }
 
-/// Dry friction is a Stribeck curve that does not fall: the other takes its place, or none.
+/// Both act along one line; that of alpha:base_x is base_x.
+bool same_line(const Member& a, const Member& b) {
+  const auto line = [](const Member& m) { return m.axis.substr(m.axis.find(':') + 1); };
+  return line(a) == line(b);
+}
+
+/// Dry friction is a Stribeck curve that does not fall, and one of gears that does not vary: the
+/// other takes its place, or none.
 bool both_dry(const Member& a, const Member& b) {
   const auto dry = [](const Member& m) {
-    return m.name() == "coulomb_friction" || m.name() == "stribeck_friction";
+    return m.name() == "coulomb_friction" || m.name() == "stribeck_friction" ||
+           m.name() == "gear_friction";
   };
-  return a.axis == b.axis && dry(a) && dry(b);
+  return same_line(a, b) && dry(a) && dry(b);
 }
 
 bool same_angle(const Member& a, const Member& b) {

@@ -172,6 +172,7 @@ std::vector<LoadedCase> load_axes(const DiagnosisRequest& request) {
   const auto holdout = read_all(request.holdout, request.read, system);
   std::vector<Recording> all = fit;
   all.insert(all.end(), holdout.begin(), holdout.end());
+  check_rates(all);
   std::vector<LoadedCase> cases;
   for (std::size_t k = 0; k < system.axes.size(); ++k) {
     AxisPlan plan{system, k, {}, 1.0};

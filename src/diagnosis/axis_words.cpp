@@ -5,6 +5,7 @@
 #include <map>
 
 #include "dcnn/physics/effect.h"
+#include "diagnosis/plain_findings.h"
 #include "diagnosis/words.h"
 
 namespace dcnn {
@@ -48,8 +49,24 @@ const std::map<std::string, Sentence>& sentences() {
          return "friction that differs between the directions, by " + n.size("delta_c") +
                 " either way";
        }},
+      {"load_friction",
+       [](auto& n) { return "friction of " + n.plain("mu", 100.0) + " % of what is transmitted"; }},
+      {"gear_friction",
+       [](auto& n) {
+         return "dry friction of " + n("fc") + " that varies by " + n.plain("a", 100.0) +
+                " % with order " + n.plain("order") + " of the position";
+       }},
       {"hysteresis", [](auto& n) { return "hysteresis of " + n.size("force"); }},
       {"cable_spring", [](auto& n) { return "a spring of " + n("k"); }},
+      {"quadratic_spring",
+       [](auto& n) {
+         return "a spring that bends with the square of the position, " + n("k2");
+       }},
+      {"creep",
+       [](auto& n) {
+         return "a reading that goes on settling by " + n.plain("a", 100.0) + " % within " +
+                n("tau");
+       }},
       {"cubic_spring",
        [](auto& n) { return "a spring that stiffens with the cube of the position, " + n("k3"); }},
       {"cogging",
@@ -82,6 +99,7 @@ const std::map<std::string, Sentence>& sentences() {
 
 std::string axis_words(const Json& finding, const Axis& axis) {
   const std::string id = finding["effect"];
+  if (is_constant(finding)) return constant_words(finding) + " on " + axis.name;
   const auto sentence = sentences().find(id);
   const std::string what = sentence == sentences().end()
                                ? find_effect(id)->meaning

@@ -8,6 +8,7 @@
 
 #include "core/elementary.h"
 #include "core/linear_algebra.h"
+#include "diagnosis/gear_order.h"
 #include "diagnosis/spectral_lines.h"
 #include "physics/effect_law.h"
 
@@ -276,6 +277,7 @@ std::vector<Member> candidates(const Scan& scan, const Signals& left,
     for (const EffectFit& form : kind->fits) {
       const bool follows = !form.shapes.empty() && std::string(form.shapes[0].name) == "t_ref";
       if (follows && !has_temperature(study)) continue;
+      if (form.machines_only && !study.axis) continue;
       for (const auto& axis : axes_of(study, *kind)) {
         for (const auto& shapes : follows ? reference_temperatures(study) : seed_grid(form, axis)) {
           list.push_back(make_member(*kind, form, axis, study.has_torque(), shapes));
@@ -285,6 +287,7 @@ std::vector<Member> candidates(const Scan& scan, const Signals& left,
   }
   if (study.is_static()) return list;
   add_cogging(scan, left, list);
+  add_gear_frictions(study, left, list);
   add_resonances(scan, left, floors, list);
   add_hum(scan, left, floors, list);
   return list;

@@ -20,6 +20,7 @@ Eigen::MatrixXd rows_of(const Eigen::MatrixXd& all, const std::vector<Index>& ro
 Motion thinned(const Motion& motion, Index stride) {
   Motion thin;
   thin.recording = motion.recording;
+  thin.of_axis = motion.of_axis;
   thin.dt = motion.dt * static_cast<double>(stride);
   thin.has_clock = motion.has_clock;
   std::vector<Index> rows;
@@ -31,6 +32,7 @@ Motion thinned(const Motion& motion, Index stride) {
   thin.t = motion.t(rows);
   for (const Index k : rows) thin.R_BS.push_back(motion.R_BS[static_cast<std::size_t>(k)]);
   thin.euler = rows_of(motion.euler, rows);
+  thin.p_B = rows_of(motion.p_B, rows);
   thin.v_B = rows_of(motion.v_B, rows);
   thin.a_B = rows_of(motion.a_B, rows);
   thin.w_S = rows_of(motion.w_S, rows);

@@ -31,11 +31,11 @@ void linear_lags(const std::vector<EffectSpec>& effects, const Motion& motion,
   double seconds = 0.0;
   for (const EffectSpec& effect : effects) {
     const Stage stage = find_effect(effect.effect)->stage;
-    if (stage == Stage::kDynamics) {
+    if (stage == Stage::kDynamics && effect.effect != "creep") {
       const char* name = effect.effect == "lowpass" ? "tau_s" : "delay_s";
       seconds += effect.parameters.value(name, 0.0);
     } else {
-      (stage < Stage::kDynamics ? early : late).push_back(effect);
+      (stage <= Stage::kDynamics ? early : late).push_back(effect);
     }
   }
   ToolModel no_bias = model;
@@ -71,13 +71,14 @@ Chain::Chain(const Case& study, std::vector<Member> members)
 
 /// Rigid part and forces on the tool.
 Chain::Stages Chain::prepare(const Log& log, const std::vector<EffectSpec>& effects) const {
-  Stages stages{changed_tool(study_.simulator.model, effects), {}, {}};
+  Stages stages{changed_tool(study_.simulator.model, effects), {}, {}, {}};
   ToolModel without_bias = stages.model;
   without_bias.bias.setZero();
   without_bias.bias_torque.setZero();
   stages.forced = rigid_wrench(without_bias, log.motion);
   if (log.base.force.rows() > 0) stages.forced.force += log.base.force;
   if (log.base.torque.rows() > 0) stages.forced.torque += log.base.torque;
+  stages.load = stages.forced.force;
   for (const EffectSpec& effect : effects) {
     stages.pushes.push_back(push_of(effect, log, stages));
     add(stages.pushes.back(), 1.0, stages.forced);
@@ -103,9 +104,17 @@ Eigen::MatrixXd Chain::finish(const Log& log, const Stages& stages, Wrench wrenc
 Wrench Chain::push_of(const EffectSpec& effect, const Log& log, const Stages& stages) const {
   if (find_effect(effect.effect)->stage != Stage::kForce) return {};
   const Wrench& like = stages.forced;
+  const bool of_load = find_effect(effect.effect)->of_load;
   Wrench push{Eigen::MatrixXd::Zero(like.force.rows(), like.force.cols()),
-              Eigen::MatrixXd::Zero(like.torque.rows(), like.torque.cols())};
-  apply_effect(effect, log.motion, stages.model, push);
+              Eigen::MatrixXd::Zero(like.torque.rows(), like.torque.cols()),
+              of_load ? stages.load : Eigen::MatrixXd()};
+  if (effect.law.is_null()) {
+    apply_effect(effect, log.motion, stages.model, push);
+  } else {  // may depend on the force that it is added to
+    push = stages.forced;
+    apply_effect(effect, log.motion, stages.model, push);
+    add(stages.forced, -1.0, push);
+  }
   return push;
 }
 
@@ -128,6 +137,7 @@ Signals Chain::with(const Member& effect, std::optional<std::size_t> instead_of)
     Wrench wrench = stages_[k].forced;
     if (effect.kind->stage == Stage::kForce) {
       if (instead_of) add(stages_[k].pushes[*instead_of], -1.0, wrench);
+      if (effect.kind->of_load) wrench.load = stages_[k].load;
       apply_effect(spec, log.motion, stages_[k].model, wrench);
     }
     result.push_back(finish(log, stages_[k], std::move(wrench), effects));

@@ -25,7 +25,8 @@ class Chain {
  private:
   struct Stages {
     ToolModel model;             // as the members change it
-    Wrench forced;               // after the forces on the tool
+    Eigen::MatrixXd load;        // what is carried before the forces on the tool
+    Wrench forced;               // after them
     std::vector<Wrench> pushes;  // what each member adds there; no rows where it acts elsewhere
   };
   Eigen::MatrixXd finish(const Log& log, const Stages& stages, Wrench wrench,

@@ -8,9 +8,10 @@
 #include "diagnosis/axes.h"
 #include "diagnosis/budget.h"
 #include "diagnosis/candidates.h"
+#include "diagnosis/discovered.h"
+#include "diagnosis/dead_channels.h"
 #include "diagnosis/evidence/posterior_json.h"
 #include "diagnosis/findings.h"
-#include "diagnosis/formula.h"
 #include "diagnosis/holdout.h"
 #include "diagnosis/locate.h"
 #include "diagnosis/portrait.h"
@@ -64,11 +65,6 @@ Json unnamed_part(const Search& search, const std::optional<HoldOut::Excess>& re
   }
   part["words"] = "something that no effect of the catalogue explains, mostly between " +
                   brief(most->from_hz) + " and " + brief(most->to_hz) + " Hz";
-  if (const auto formula = formula_of(search.setting(), search.fit())) {
-    part["formula"] = formula->text;
-    part["words"] = part["words"].get<std::string>() + "; " + brief(100.0 * formula->share) +
-                    " % of it is like " + formula->text;
-  }
   return part;
 }
 
@@ -92,9 +88,12 @@ std::vector<std::string> names_of(const Case& study) {
 Json errors_json(const Search& search, const HoldOut& holdout, const JointFit& given) {
   const Case& study = search.study();
   const JointFit& fit = search.fit();
-  Json json{{"holdout_rmse_before", holdout.rmse({}, given.base)},
+  Json json{{"holdout_rmse_before", nullptr},
             {"holdout_rmse_parameters", nullptr},
-            {"holdout_rmse_after", holdout.rmse(fit.members, fit.base)}};
+            {"holdout_rmse_after", nullptr}};
+  if (holdout.empty()) return json;
+  json["holdout_rmse_before"] = holdout.rmse({}, given.base);
+  json["holdout_rmse_after"] = holdout.rmse(fit.members, fit.base);
   if (study.own_tool || study.axis) {
     const auto own =
         given.base.size() > 0 ? given : joint_fit(search.setting(), own_parameters(study));
@@ -107,6 +106,8 @@ Json errors_json(const Search& search, const HoldOut& holdout, const JointFit& g
 
 CaseDiagnosis diagnose_case(LoadedCase loaded,
                             const std::function<void(const std::string&)>& progress) {
+  refuse_dead_channels(loaded.fit);
+  refuse_dead_channels(loaded.holdout);
   std::vector<Span> held_out;
   if (loaded.holdout.logs.empty()) held_out = held_out_blocks(loaded.fit, true);
   Search search(std::move(loaded.fit), held_out, progress);
@@ -127,9 +128,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   report["findings"] = findings_json(search, holdout);
   // What a loose load's impacts are is not predicted.
   std::optional<HoldOut::Excess> refuted;
-  if (!search.knocking()) {
-    refuted = holdout.excess(search);
-  }
+  if (!search.knocking()) refuted = holdout.excess(search);
   report["verdict"] =
       verdict_of(!report["findings"].empty(), search.remains() || refuted.has_value());
   Case as_given = study;
@@ -162,6 +161,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   diagnosis.model = to_json(diagnosis.corrected);
   diagnosis.holdout = holdout.records(given, fit);
   diagnosis.portraits = portraits(search);
+  add_discovered(search, holdout, diagnosis);
   return {std::move(diagnosis), fit.base.size() > 0 ? fit.base : study.base_coefficients};
 }
 

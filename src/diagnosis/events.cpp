@@ -9,18 +9,42 @@
 namespace dcnn {
 namespace {
 
-constexpr double kGrid = 0.25;     // s, of the exhaustive search
-constexpr double kStepEnds = 2.5;  // s, in which a step cannot be told from a bias
-constexpr double kLongest = 60.0;  // s, of a contact
-constexpr double kPart = 0.6;      // of a recording at most: a force that stays is no event
+constexpr double kFinestGrid = 0.25;  // s, of the exhaustive search; a cell holds a sample
+constexpr double kStepEnds = 2.5;     // s, in which a step cannot be told from a bias
+constexpr double kLongest = 60.0;     // s, of a contact
+constexpr double kPart = 0.6;         // of a recording at most: a force that stays is no event
 
-/// Whitened residual summed over cells of kGrid, in the sensor's axes and in the base's.
+/// Whitened residual summed over cells of time, in the sensor's axes and in the base's.
 struct Cells {
+  double grid = 0.0;      // s, their length
   std::vector<double> t;  // beginning of each
   std::vector<std::size_t> log;
   Eigen::MatrixXd sum;     // (cells, channels), of residual·weight
   Eigen::VectorXd weight;  // (cells) number of blocks
 };
+
+/// The sample of a motion nearest to a time, whatever gaps it has.
+Index sample_at(const Motion& motion, double t) {
+  const auto begin = motion.t.begin(), end = motion.t.end();
+  const auto after = std::lower_bound(begin, end, t);
+  if (after == begin) return 0;
+  if (after == end) return motion.samples() - 1;
+  const bool nearer = t - *(after - 1) < *after - t;
+  return (nearer ? after - 1 : after) - begin;
+}
+
+/// Adds the cells of a recording: none lie in a gap longer than an event.
+void add_cells(const Motion& motion, std::size_t log, Cells& cells) {
+  double t = motion.t(0);
+  for (std::size_t s = 0; s < motion.segments.size(); ++s) {
+    const double first = motion.t(motion.segments[s].begin);
+    if (first - t > kLongest) t += cells.grid * std::floor((first - t) / cells.grid);
+    for (const double end = motion.t(motion.segments[s].end - 1); t <= end; t += cells.grid) {
+      cells.t.push_back(t);
+      cells.log.push_back(log);
+    }
+  }
+}
 
 Cells make_cells(const Scan& scan, bool in_base) {
   const Case& study = scan.setting().study;
@@ -30,33 +54,33 @@ Cells make_cells(const Scan& scan, bool in_base) {
   const auto& info = whitener.row_info();
   const Index channels = study.channel_count();
   Cells cells;
-  std::vector<std::vector<Index>> first_cell(study.logs.size());
+  cells.grid = std::max(kFinestGrid, study.dt());
+  std::vector<std::size_t> first_cell;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
-    const auto& motion = study.logs[k].motion;
-    const double begin = motion.t(0), end = motion.t(motion.samples() - 1);
-    first_cell[k] = {static_cast<Index>(cells.t.size())};
-    for (double t = begin; t <= end; t += kGrid) {
-      cells.t.push_back(t);
-      cells.log.push_back(k);
-    }
+    first_cell.push_back(cells.t.size());
+    add_cells(study.logs[k].motion, k, cells);
   }
+  first_cell.push_back(cells.t.size());
+  /// The last cell of a recording that begins at or before a time.
+  const auto cell_of = [&](std::size_t log, double t) {
+    const auto begin = cells.t.begin() + static_cast<Index>(first_cell[log]);
+    const auto end = cells.t.begin() + static_cast<Index>(first_cell[log + 1]);
+    return std::max<Index>(0, std::upper_bound(begin, end, t) - cells.t.begin() - 1);
+  };
   cells.sum.setZero(static_cast<Index>(cells.t.size()), channels);
   cells.weight.setZero(static_cast<Index>(cells.t.size()));
   const Eigen::VectorXd& r = scan.residual();
   for (Index row = 0; row < r.size(); ++row) {
     const auto& at = info[static_cast<std::size_t>(row)];
     const auto& motion = study.logs[at.log].motion;
-    const auto offset = static_cast<Index>((at.t - motion.t(0)) / kGrid);
-    const Index cell = first_cell[at.log][0] + offset;
-    if (cell >= cells.weight.size()) continue;
+    const Index cell = cell_of(at.log, at.t);
     const double value = r(row) * scan.setting().mask(row);
     if (at.channel == 0) cells.weight(cell) += scan.setting().mask(row);
     if (!in_base || study.channels[at.channel] > 2) {
       cells.sum(cell, at.channel) += value;
       continue;
     }
-    const auto sample =
-        std::clamp<Index>(std::llround((at.t - motion.t(0)) / study.dt()), 0, motion.samples() - 1);
+    const Index sample = sample_at(motion, at.t);
     const Eigen::Matrix3d& R = motion.R_BS[static_cast<std::size_t>(sample)];
     for (Index j = 0; j < std::min<Index>(3, channels); ++j) {
       cells.sum(cell, j) += R(j, study.channels[at.channel]) * value;
@@ -78,13 +102,14 @@ Stretch best_span(const Cells& cells, const Stretch* taken) {
   for (const std::size_t log : cells.log) ++length[log];
   for (Index a = 0; a < n; ++a) {
     const auto part = kPart * static_cast<double>(length[cells.log[static_cast<std::size_t>(a)]]);
-    const auto longest = static_cast<Index>(std::min(kLongest / kGrid, part));
+    const auto longest = static_cast<Index>(std::min(kLongest / cells.grid, part));
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(cells.sum.cols());
     double weight = 0.0;
     for (Index b = a; b < std::min(n, a + longest); ++b) {
       if (cells.log[static_cast<std::size_t>(b)] != cells.log[static_cast<std::size_t>(a)]) break;
       const double begin = cells.t[static_cast<std::size_t>(a)];
-      const double end = cells.t[static_cast<std::size_t>(b)] + kGrid;
+      const double end = cells.t[static_cast<std::size_t>(b)] + cells.grid;
+      if (end - begin > kLongest + cells.grid) break;
       const bool overlaps = taken && taken->log == cells.log[static_cast<std::size_t>(a)] &&
                             begin < taken->end + 0.5 && end > taken->begin - 0.5;
       if (overlaps) break;
@@ -119,7 +144,7 @@ Trial find_contact(const Scan& scan) {
     const auto& t = study.logs[first.log].motion.t;
     const double whole = t(t.size() - 1) - t(0), length = ends(1) - ends(0);
     if (length < 0.05 || length > kPart * whole) return 0.0;
-    if (ends(0) < t(0) - kGrid || ends(1) > t(t.size() - 1) + kGrid) return 0.0;
+    if (ends(0) < t(0) - cells.grid || ends(1) > t(t.size() - 1) + cells.grid) return 0.0;
     Stretch span = first;
     span.begin = ends(0);
     span.end = ends(1);

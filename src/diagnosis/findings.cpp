@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagnosis/candidates.h"
+#include "diagnosis/plain_findings.h"
 #include "diagnosis/words.h"
 
 namespace dcnn {
@@ -31,7 +32,8 @@ class Writer {
     const auto alternatives = search_.alternatives();
     const JointFit& fit = search_.fit();
     const auto numbers = estimates(search_.setting(), fit);
-    const double after = mean(holdout_.rmse(fit.members, fit.base));
+    const bool held = !holdout_.empty();
+    const double after = held ? mean(holdout_.rmse(fit.members, fit.base)) : 0.0;
     Json list = Json::array();
     for (std::size_t m = 0; m < fit.members.size(); ++m) {
       const Member& member = fit.members[m];
@@ -45,8 +47,11 @@ class Writer {
         entry["p_value"] = flip_p_value(search_.setting(), fit, m);
       }
       entry["alternatives"] = alternatives[m];
-      entry["holdout_gain"] =
-          1.0 - after / std::max(1e-300, mean(holdout_.rmse(others, rest.base)));
+      entry["holdout_gain"] = nullptr;
+      if (held) {
+        entry["holdout_gain"] =
+            1.0 - after / std::max(1e-300, mean(holdout_.rmse(others, rest.base)));
+      }
       list.push_back(entry);
     }
     for (const auto* apart : {&search_.rounding(), &search_.knocking()}) {
@@ -87,6 +92,7 @@ class Writer {
                {"parameters", parameters_json(numbers)},
                {"words", in_words(member, numbers)}};
     if (!member.axis.empty()) entry["axis"] = member.axis;
+    if (is_constant(entry)) entry["words"] = constant_words(entry);
     if (member.interval_s) {
       entry["interval_s"] = {member.interval_s->first, member.interval_s->second};
     }

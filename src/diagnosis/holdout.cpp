@@ -43,8 +43,15 @@ std::vector<Span> held_out_blocks(const Case& study, bool with_guards) {
     const double first = motion.t(0), last = motion.t(motion.samples() - 1);
     const double piece = shortened(kPiece, motion);
     const double guard = with_guards ? shortened(kGuard, motion) : 0.0;
-    for (double t = first + (kEvery - 3) * piece; t + piece <= last + 1e-9; t += kEvery * piece) {
+    // No more blocks than rows: where a gap is longer than a period, the next row decides.
+    const double period = kEvery * piece, start = first + (kEvery - 3) * piece;
+    for (Index row = 0; row < motion.samples();) {
+      const double t = start + period * std::floor((motion.t(row) - first) / period);
+      if (t + piece > last + 1e-9) break;
       spans.push_back({k, t - guard, t + piece + guard});
+      do {
+        ++row;
+      } while (row < motion.samples() && motion.t(row) < t + 3.0 * piece);
     }
   }
   return spans;
@@ -69,6 +76,12 @@ HoldOut::HoldOut(const Case& fitted, const Case& recordings) {
     }
     held_.push_back(held);
   }
+}
+
+bool HoldOut::empty() const {
+  return std::all_of(held_.begin(), held_.end(), [](const std::vector<char>& rows) {
+    return std::find(rows.begin(), rows.end(), 1) == rows.end();
+  });
 }
 
 Signals HoldOut::prediction(const std::vector<Member>& members, const Eigen::VectorXd& base) const {
@@ -107,14 +120,14 @@ std::vector<double> HoldOut::rmse(const std::vector<Member>& members,
 }
 
 std::optional<HoldOut::Excess> HoldOut::excess(const Search& search) const {
-  constexpr double kMost = 1.2, kNormal = 1.96;
+  constexpr double kMost = 1.2, kChance = 1.96;
   const std::vector<double> errors = rmse(search.fit().members, search.fit().base);
   double rows = 0.0;
   for (const auto& held : held_)
     rows += static_cast<double>(std::count(held.begin(), held.end(), 1));
   // Relative deviation of an rms of n normal numbers: 1/sqrt(2n).
   const auto block = static_cast<double>(search.setting().whitener.block());
-  const double chance = kNormal / std::sqrt(2.0 * std::max(1.0, rows / block));
+  const double chance = kChance / std::sqrt(2.0 * std::max(1.0, rows / block));
   std::optional<Excess> worst;
   for (std::size_t j = 0; j < errors.size(); ++j) {
     double noise = search.floors()[j].whole_deviation();

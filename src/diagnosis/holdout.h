@@ -14,6 +14,8 @@ class HoldOut {
   /// Recordings of their own, or (`recordings` without logs) the blocks of the fitted ones.
   HoldOut(const Case& fitted, const Case& recordings);
 
+  /// No row was held out: the recordings are too short, or lists of poses.
+  bool empty() const;
   /// RMSE by channel of the case's simulator with these members, with these coefficients of its
   /// linear base where it has one.
   std::vector<double> rmse(const std::vector<Member>& members, const Eigen::VectorXd& base) const;

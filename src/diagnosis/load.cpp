@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace dcnn {
 namespace {
@@ -67,6 +68,22 @@ Log make_log(Recording recording, const Case& study, bool columns) {
 
 }  // namespace
 
+void check_rates(const std::vector<Recording>& recordings) {
+  constexpr double kTolerance = 0.01;
+  const Recording& first = recordings.front();
+  for (const Recording& r : recordings) {
+    require((r.dt == 0.0) == (first.dt == 0.0), Exit::kData, r.name, ": ",
+            r.dt == 0.0 ? "is a list of poses without t beside "
+                        : "has a clock beside the list of poses ",
+            first.name, "; diagnose them apart");
+    require(r.has("t") == first.has("t"), Exit::kData, r.name,
+            ": one list of poses has times and the other none; diagnose them apart");
+    require(std::abs(r.dt - first.dt) <= kTolerance * first.dt, Exit::kData, r.name, ": has ",
+            1.0 / r.dt, " Hz beside ", 1.0 / first.dt, " Hz of ", first.name, "; use --resample ",
+            std::min(1.0 / r.dt, 1.0 / first.dt));
+  }
+}
+
 void set_clock(const DiagnosisRequest& request, const std::vector<Recording>& recordings,
                Case& study) {
   std::vector<std::pair<double, double>> spans;
@@ -95,12 +112,7 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   auto fit = read_all(request.fit, request.read), holdout = read_all(request.holdout, request.read);
   std::vector<Recording> all = fit;
   all.insert(all.end(), holdout.begin(), holdout.end());
-  for (const Recording& r : all) {
-    require((r.dt == 0.0) == (all.front().dt == 0.0) && r.has("t") == all.front().has("t"),
-            Exit::kData, r.name,
-            ": poses at rest and motions, or with times and without, in one "
-            "call; diagnose them one after the other");
-  }
+  check_rates(all);
   choose_channels(all, request, study);
   if (!study.has_torque()) study.simulator.model.inertia.reset();
   set_clock(request, all, study);

@@ -13,6 +13,10 @@ struct LoadedCase {
 };
 LoadedCase load_wrist(const DiagnosisRequest& request);
 
+/// Error(kData) unless all recordings have one rate, or all are lists of poses: spectra, noise and
+/// events are judged on one clock.
+void check_rates(const std::vector<Recording>& recordings);
+
 /// Whether the recordings share one clock, and when it ends. Error(kData)
 /// where they are told to share one and overlap.
 void set_clock(const DiagnosisRequest& request, const std::vector<Recording>& recordings,

@@ -15,7 +15,7 @@ bool same_family(const Member& a, const Member& b) {
 int Member::parameters() const {
   const int ends = !interval_s ? 0 : kind->interval == IntervalRule::kOnset ? 1 : 2;
   const auto fitted = (amplitudes.array() != 0.0).count();  // a component nothing measures stays 0
-  return static_cast<int>(fitted + shapes.size()) + ends;
+  return static_cast<int>(fitted + shapes.size()) + ends + (kind->special ? 1 : 0);
 }
 
 Member make_member(const EffectKind& kind, const EffectFit& form, const std::string& axis,
@@ -31,6 +31,9 @@ Member make_member(const EffectKind& kind, const EffectFit& form, const std::str
 }
 
 EffectSpec spec_of(const Member& member) {
+  if (!member.law.is_null()) {
+    return {member.kind->name, "", std::nullopt, member.law_parameters, "", member.law};
+  }
   return {member.kind->name, member.axis, member.interval_s,
           member.form->parameters(member.amplitudes, member.shapes), member.recording};
 }

@@ -24,9 +24,12 @@ struct Member {
   /// knocks): the joint fit leaves it as it is.
   bool fixed = false;
   Eigen::VectorXd fixed_deviation;  ///< then: of amplitudes and shapes, from that test
+  /// Of a discovered law, which is fixed: its form and its numbers (dcnn/physics/law.h).
+  Json law = nullptr, law_parameters = nullptr;
 
   std::string name() const { return kind->name; }
-  /// Numbers that were fitted: amplitudes, shapes and the ends of an interval.
+  /// Numbers that were fitted: amplitudes, shapes and the ends of an interval; and one for the
+  /// choice of a special law.
   int parameters() const;
 };
 

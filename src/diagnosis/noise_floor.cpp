@@ -17,7 +17,7 @@ constexpr double kUpperPart = 1.4;    // of the lowest frequency of the quiet ba
 constexpr double kColourAbove = 3.0;  // of the log-likelihood there
 constexpr double kSlowest = 0.02;     // Hz: flicker noise is taken for flat below
 constexpr double kLeastOfDifferences = 1e-6;
-constexpr int kPoints = 8192;      // of integrals over frequency
+constexpr int kFloorPoints = 8192;      // of integrals over frequency
 constexpr Index kFewestBins = 12;  // below this the quiet band says nothing
 
 /// Shape of AR(1) noise of unit variance.
@@ -132,16 +132,16 @@ double bound_at(const std::vector<std::pair<double, double>>& bounds, double hz)
 double Floor::deviation() const {
   if (lowpass_hz == 0.0 && flicker == 0.0 && bounds.empty()) return std::sqrt(white + coloured);
   double sum = 0.0;
-  for (int i = 0; i < kPoints; ++i) sum += density((i + 0.5) / kPoints * 0.5 / dt);
-  return std::sqrt(sum / kPoints);
+  for (int i = 0; i < kFloorPoints; ++i) sum += density((i + 0.5) / kFloorPoints * 0.5 / dt);
+  return std::sqrt(sum / kFloorPoints);
 }
 
 double Floor::whole_deviation() const {
   if (pose_gain.empty()) return deviation();
   double sum = 0.0;
-  for (int i = 0; i < kPoints; ++i) sum += pose_density((i + 0.5) / kPoints * 0.5 / dt);
+  for (int i = 0; i < kFloorPoints; ++i) sum += pose_density((i + 0.5) / kFloorPoints * 0.5 / dt);
   const double sensor = deviation();
-  return std::sqrt(sensor * sensor + sum / kPoints);
+  return std::sqrt(sensor * sensor + sum / kFloorPoints);
 }
 
 double Floor::density(double hz) const {

@@ -25,6 +25,10 @@ bool is_itself(const Case& study, const Member& member) {
   if (study.axis && name == "hysteresis") return member.amplitudes(0) > 0.0;
   // A drive's filters are faster than a tenth of a second.
   if (study.axis && name == "lowpass") return member.shapes(0) < 0.1;
+  if (name == "creep") return std::abs(member.amplitudes(0)) < 1.0;  // of a solid, no fluid
+  if (name == "gear_friction") {  // it resists in every position
+    return member.amplitudes(0) > 0.0 && member.amplitudes.tail(2).norm() < member.amplitudes(0);
+  }
   if (study.axis && name == "flexible_resonance") return member.shapes(1) < 0.5;
   // No more than all of the tool rings, but for noise.
   if (!study.axis && name == "flexible_resonance" && std::abs(member.amplitudes(0)) > 1.5) {
@@ -236,7 +240,9 @@ Trial Scan::improved(const Trial& start, Detail detail, int evaluations,
     x(i) = search_scale(shape, start.member.shapes(i));
     size(i) = shape.low > 0.0 ? 0.4 : 0.15 * (shape.high - shape.low);
     if (detail == Detail::kFine) size(i) *= 0.2;
-    if (start.member.name() == "cogging") size(i) = 0.01;
+    if (start.member.name() == "cogging" || (i == 0 && start.member.name() == "gear_friction")) {
+      size(i) = 0.01;
+    }
     if (start.member.name() == "hum")
       size(i) = 0.1 / (span_seconds(setting_.study) * start.member.shapes(i));
     if (start.member.name() == "flexible_resonance" && i == 0) size(i) = 0.05;

@@ -19,6 +19,7 @@ constexpr double kLeastGrowth = 0.001;     // of what the model explains already
 constexpr double kLeastOfMotion = 0.0003;  // the same for a mode: it mends errors of the motion
 constexpr int kMostRounds = 6;             // of exchanges
 constexpr int kMostGrowth = 30;            // of growth: what is added may be left out again
+constexpr int kMostSettled = 300;          // fits of everything: where laws only take turns, it ends
 constexpr double kLinearError = 0.01;      // of a gain that is estimated along a tangent
 constexpr double kRoundedError = 0.4;      // the same where rounding bends every tangent
 constexpr double kDegenerateError = 0.05;  // the same beside a law whose shape is at its bound
@@ -195,10 +196,10 @@ bool Search::swap() {
 /// Adds, exchanges and leaves out effects until nothing gains.
 void Search::explore() {
   bool recut = false;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostRounds && settled_ < kMostSettled; ++round) {
     while (simplify()) {
     }
-    for (int steps = 0; steps < kMostGrowth; ++steps) {
+    for (int steps = 0; steps < kMostGrowth && settled_ < kMostSettled; ++steps) {
       const auto before = places_of(fit_.members);
       if (!grow()) break;
       tune_to_mode();

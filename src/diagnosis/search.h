@@ -133,6 +133,7 @@ class Search {
   evidence::Posterior posterior_;
   std::vector<double> flicker_;  // of each channel, admitted beside the floor from above the motion
   bool events_allowed_ = true, remains_ = false;
+  int settled_ = 0;       // how often: what bounds the search
   bool tuned_ = false;    // the smoother, to a mode
   bool ringing_ = false;  // what shakes the motion unseen rings in the modes that were found
 };

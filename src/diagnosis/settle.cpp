@@ -10,6 +10,8 @@
 namespace dcnn {
 namespace {
 
+constexpr Index kFewestBlocks = 7;  // as many as poses: four numbers and three degrees of freedom
+
 /// 0 for blocks within one of the spans.
 Eigen::VectorXd mask_of(const Whitener& whitener, const std::vector<Span>& a,
                         const std::vector<Span>& b) {
@@ -62,6 +64,11 @@ void Search::make_setting(const std::vector<Member>& members) {
   }
   if (study_.axis) bound_by_residual(study_, raw, levels, floors_);
   const Whitener whitener(study_, floors_, levels);
+  const Index blocks = whitener.rows() / study_.channel_count();
+  require(blocks >= kFewestBlocks, Exit::kData, study_.logs.front().recording.name, ": ", blocks,
+          " blocks of ", whitener.block_seconds(),
+          " s are left of the recordings without the ends of their stretches, which cannot tell "
+          "noise from faults; record for longer, without gaps");
   const Index stride = whitener.coarse_stride();
   setting_ = std::make_unique<Setting>(Setting{
       study_, whitener, thinned(study_, stride), whitener.at_stride(stride), measured, {}, {}});
@@ -124,6 +131,7 @@ bool Search::floor_moved() const {
 }
 
 void Search::settle(const std::vector<Member>& members) {
+  ++settled_;
   make_setting(members);
   fit_ = joint_fit(*setting_, members);
   if (study_.axis && floor_moved()) {

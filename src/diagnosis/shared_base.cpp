@@ -16,7 +16,7 @@
 namespace dcnn {
 namespace {
 
-constexpr Index kPieces = 6;
+constexpr Index kSharedPieces = 6;
 constexpr Index kFriction = 5;  // columns: offset, viscous, and dry friction of three widths
 constexpr double kSharedBaseRidge = 1e-9;
 constexpr double kDryWidths[] = {0.02, 0.1, 0.4};  // of the rms velocity, in which friction turns
@@ -68,8 +68,8 @@ JointRows rows_of(const Case& study, const std::vector<Span>& held) {
       const double t = log.motion.t(i);
       if (is_held(held, k, t)) continue;
       kept.push_back(i);
-      const auto piece = static_cast<Index>(kPieces * (t - first) / span);
-      all.piece.push_back(static_cast<Index>(k) * kPieces + std::min(kPieces - 1, piece));
+      const auto piece = static_cast<Index>(kSharedPieces * (t - first) / span);
+      all.piece.push_back(static_cast<Index>(k) * kSharedPieces + std::min(kSharedPieces - 1, piece));
     }
     const Index before = all.arm.rows(), more = static_cast<Index>(kept.size());
     all.arm.conservativeResize(before + more, arm.cols());

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "dcnn/diagnosis/diagnose.h"
+#include "diagnosis/plain_findings.h"
 #include "diagnosis/words.h"
 
 namespace dcnn {
@@ -64,10 +65,33 @@ std::string capitalised(std::string text) {
   return text;
 }
 
+/// Findings and what has no name, in words.
+std::string what_is_missing(const Json& report) {
+  std::string text;
+  for (const Json& finding : in_lines(report["findings"])) {
+    text += (text.empty() ? "" : "; ") + finding["words"].get<std::string>();
+  }
+  if (!report["unnamed"]["words"].is_null()) {
+    text += (text.empty() ? "" : "; and ") + report["unnamed"]["words"].get<std::string>();
+  }
+  return capitalised(text);
+}
+
+/// The headline where nothing was held out.
+std::string headline_without(const Json& report) {
+  const std::string missing = report["verdict"] == "consistent"
+                                  ? "Nothing is missing that these recordings could show"
+                                  : what_is_missing(report);
+  return missing +
+         ". Nothing was held out (the recordings are too short, or without time), so the error on "
+         "new data is not known.";
+}
+
 }  // namespace
 
 std::string headline(const Json& report) {
   const Json& fit = report["fit"];
+  if (fit["holdout_rmse_before"].is_null()) return headline_without(report);
   const std::size_t j = telling_channel(fit);
   const auto unit = report["units"][j].get<std::string>();
   const auto at = [&](const char* key) { return brief(fit[key][j].get<double>()); };
@@ -75,14 +99,7 @@ std::string headline(const Json& report) {
     return "Nothing is missing: the simulator leaves " + at("holdout_rmse_before") + " " + unit +
            " on held-out data, the sensor's noise is " + at("noise_floor") + " " + unit + ".";
   }
-  std::string text;
-  for (const Json& finding : report["findings"]) {
-    text += (text.empty() ? "" : "; ") + finding["words"].get<std::string>();
-  }
-  if (!report["unnamed"]["words"].is_null()) {
-    text += (text.empty() ? "" : "; and ") + report["unnamed"]["words"].get<std::string>();
-  }
-  return capitalised(text) + ". The hold-out error of " + report["targets"][j].get<std::string>() +
+  return what_is_missing(report) + ". The hold-out error of " + report["targets"][j].get<std::string>() +
          " " + change_of(report, j) + ", the sensor's noise is " + at("noise_floor") + " " + unit +
          other_channels(report, j) + ".";
 }
@@ -93,16 +110,22 @@ std::string to_text(const Diagnosis& diagnosis) {
   std::ostringstream out;
   out << headline(report) << "\n\n";
   out << "verdict     " << report["verdict"].get<std::string>() << "\n";
-  for (const Json& finding : report["findings"]) {
+  for (const Json& finding : in_lines(report["findings"])) {
     out << "found       " << finding["effect"].get<std::string>();
     if (!finding["axis"].is_null()) out << " " << finding["axis"].get<std::string>();
     for (const auto& [name, number] : finding["parameters"].items()) {
-      out << "  " << name << " " << brief(number["value"].get<double>()) << " ["
-          << brief(number["ci95"][0].get<double>()) << ", "
+      out << "  " << name << " " << brief(number["value"].get<double>());
+      if (number["ci95"][0].is_null()) continue;
+      out << " [" << brief(number["ci95"][0].get<double>()) << ", "
           << brief(number["ci95"][1].get<double>()) << "]";
     }
     if (!finding["alternatives"].empty()) out << "  or " << finding["alternatives"].dump();
     out << "\n";
+  }
+  if (fit["holdout_rmse_before"].is_null()) {
+    out << "hold-out    none, noise " << brief(mean_of(fit["noise_floor"]))
+        << " (mean of the axes)\n";
+    return out.str();
   }
   out << "hold-out    before " << brief(mean_of(fit["holdout_rmse_before"]));
   if (!fit["holdout_rmse_parameters"].is_null()) {

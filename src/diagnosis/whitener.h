@@ -20,6 +20,8 @@ class Whitener {
   Index block() const { return block_; }  ///< samples of a mean
   Index rows() const { return rows_; }
   Eigen::VectorXd operator()(const Signals& signals) const;
+  /// The transpose of that map; recordings have these numbers of samples.
+  Signals transposed(const Eigen::VectorXd& rows, const std::vector<Index>& sizes) const;
 
   /// What one number of the result belongs to.
   struct Row {

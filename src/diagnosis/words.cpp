@@ -70,6 +70,12 @@ std::string in_words(const Member& member, const Estimates& n) {
   if (id == "quadratic_drag") return "drag of " + number("c2_ns2pm2") + " N s^2/m^2" + where;
   if (id == "lugre_friction")
     return "friction of " + number("fc_n") + " N that first gives way elastically" + where;
+  if (id == "load_friction")
+    return "friction of " + brief(100.0 * value_of(n, "mu")) + " % of the load across the way" +
+           where;
+  if (id == "creep")
+    return "the sensor goes on settling after a load, by " + brief(100.0 * value_of(n, "a")) +
+           " % within " + number("tau_s") + " s";
   if (id == "hysteresis")
     return "a cable with hysteresis of " + brief(std::abs(value_of(n, "force_n"))) + " N" + where;
   if (id == "cable_spring")
@@ -124,6 +130,8 @@ std::string separating_motion(const std::string& one, const std::string& other) 
       {"stribeck_friction", "creep along the axis, from 0.5 to 50 mm/s"},
       {"quadratic_drag", "make fast and slow strokes along the axis"},
       {"lugre_friction", "reverse many times, with small and large strokes at one speed"},
+      {"load_friction", "move along the axis with the tool in several orientations, or loads"},
+      {"creep", "hold still for a minute after the load has changed"},
       {"hysteresis", "turn to and fro in place over small and large angles"},
       {"cable_spring", "turn slowly through the whole range of the angle and stop on the way"},
       {"cogging", "turn through the whole range of the angle at two speeds"},

@@ -90,7 +90,15 @@ Chart sample_chart(const Bench& bench) {
   return chart;
 }
 
+/// The first row in one sentence.
+std::string bench_answer(const BenchRow& row) {
+  return row.file + " takes " + micro(row.p50) + " µs (median) and at most " + micro(row.maximum) +
+         " µs for a call of " + std::to_string(row.length) + (row.length == 1 ? " sample" : " samples") +
+         " on one thread of this machine.";
+}
+
 void add_calls(HtmlReport& page, const Bench& bench, const BenchRequest& request) {
+  page.paragraph(bench_answer(bench.rows.front()));
   page.chart(sample_chart(bench), "time per sample over the samples predicted in one call");
   page.heading("Time per call");
   std::vector<std::vector<std::string>> rows;

@@ -9,14 +9,14 @@
 #include "dcnn/experiment/train.h"
 #include "experiment/levels.h"
 #include "experiment/markup.h"
+#include "experiment/report_words.h"
 
 namespace dcnn {
 namespace {
 
-std::string with_spread(const Spread& s) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.4f ± %.4f", s.mean, s.deviation);
-  return text;
+/// One draw has no spread.
+std::string with_spread(const Spread& s, int runs) {
+  return significant(s.mean, 3) + (runs > 1 ? " ± " + significant(s.deviation, 2) : "");
 }
 
 std::vector<std::string> level_names(const Evaluation& evaluation) {
@@ -71,17 +71,20 @@ std::string answer(const Evaluation& evaluation) {
 void add_table(HtmlReport& page, const Evaluation& evaluation) {
   std::vector<std::string> header{"model", "SNR", "runs"};
   for (std::size_t j = 0; j < evaluation.targets.names.size(); ++j) {
-    header.push_back(evaluation.targets.names[j] + " [" + evaluation.targets.units[j] + "]");
+    header.push_back(evaluation.targets.names[j] + " [" + unit_text(evaluation.targets.units[j]) + "]");
   }
-  header.insert(header.end(), {"overall", "largest error", "R²"});
+  const std::string& unit = evaluation.targets.units.front();
+  const auto forces = static_cast<std::ptrdiff_t>(
+      std::count(evaluation.targets.units.begin(), evaluation.targets.units.end(), unit));
+  header.insert(header.end(), {"overall [" + unit + "]", "largest error [" + unit + "]", "least R²"});
   std::vector<std::vector<std::string>> rows;
   for (const auto& s : evaluation.summary) {
     std::vector<std::string> row{s.file, level_name(s.snr_db), std::to_string(s.runs)};
-    for (const Spread& axis : s.rmse) row.push_back(with_spread(axis));
-    row.push_back(s.overall ? with_spread(*s.overall) : "–");
+    for (const Spread& axis : s.rmse) row.push_back(with_spread(axis, s.runs));
+    row.push_back(s.overall ? with_spread(*s.overall, s.runs) : "–");
     char text[64];
     std::snprintf(text, sizeof text, "%.3f",
-                  *std::max_element(s.first.max_abs.begin(), s.first.max_abs.end()));
+                  *std::max_element(s.first.max_abs.begin(), s.first.max_abs.begin() + forces));
     row.emplace_back(text);
     std::snprintf(text, sizeof text, "%.4f",
                   *std::min_element(s.first.r2.begin(), s.first.r2.end()));
@@ -102,29 +105,65 @@ void add_table(HtmlReport& page, const Evaluation& evaluation) {
   reference("white noise of the sensor", beside.noise, std::nullopt);
   page.table(header, rows);
   page.paragraph(
-      "RMSE as mean ± standard deviation over noise draws; the largest error over all targets "
-      "and the least R² of them are those of the first draw. The rigid tool was fitted to the "
-      "training rows of the first model; no model can be better than the white noise.");
+      "RMSE: root mean square of measured - predicted, mean ± standard deviation over draws of the "
+      "noise on the input, whose power relative to the signal is the SNR (clean: none added). "
+      "Overall: the mean over the targets in " + unit + ". Largest error: over these targets; "
+      "R²: 1 - squared error / variance of the target, the least over all targets; both of the "
+      "first draw. The rigid tool was fitted to the training rows of the first model; no model "
+      "can be better than the white noise of the sensor.");
 }
 
 std::vector<double> values(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
+
+/// A target as measured and as every model predicts it.
+Chart trace_chart(const Evaluation& evaluation, std::size_t j) {
+  const auto column = static_cast<Eigen::Index>(j);
+  const Trace& first = evaluation.traces.front();
+  Chart chart;
+  chart.title = evaluation.targets.names[j];
+  chart.x_label = "time [s]";
+  chart.y_label = evaluation.targets.names[j] + " [" + unit_text(evaluation.targets.units[j]) + "]";
+  chart.series.push_back({"measured", values(first.t), values(first.measured.col(column)), {}});
+  for (const Trace& trace : evaluation.traces) {
+    chart.series.push_back({trace.model, values(trace.t), values(trace.predicted.col(column)), {}});
+  }
+  return chart;
+}
+
+/// One picture beside the answer: the error over noise, or where no noise was asked for a trace.
+void add_picture(HtmlReport& page, const Evaluation& evaluation) {
+  if (evaluation.summary.front().overall && level_names(evaluation).size() > 1) {
+    page.chart(level_chart(evaluation, "overall", evaluation.targets.units[0],
+                           [](const EvaluationSummary& s) { return *s.overall; }),
+               "Mean of the RMSEs per axis (Eq. 6); bars: mean, whiskers: one standard deviation "
+               "over draws.");
+  } else if (!evaluation.traces.empty()) {
+    page.chart(trace_chart(evaluation, 0), evaluation.data.front() + ", input without added noise");
+  }
+}
+
+/// Targets of one unit beside one another; nothing where only one level of noise was asked for.
+void add_levels(HtmlReport& page, const Evaluation& evaluation) {
+  if (level_names(evaluation).size() < 2) return;
+  const auto& targets = evaluation.targets;
+  page.heading("Error of each target against input noise");
+  for (const std::string& unit : std::set<std::string>(targets.units.begin(), targets.units.end())) {
+    std::vector<Chart> panels;
+    for (std::size_t j = 0; j < targets.names.size(); ++j) {
+      if (targets.units[j] != unit) continue;
+      panels.push_back(level_chart(evaluation, targets.names[j], unit,
+                                   [j](const EvaluationSummary& s) { return s.rmse[j]; }));
+      panels.back().width = 440;
+    }
+    page.panels(panels, "Bars: mean over draws of the noise; whiskers: one standard deviation.");
+  }
+}
 
 void add_traces(HtmlReport& page, const Evaluation& evaluation) {
   if (evaluation.traces.empty()) return;
   page.heading("Prediction over time");
   for (std::size_t j = 0; j < evaluation.targets.names.size(); ++j) {
-    const auto column = static_cast<Eigen::Index>(j);
-    const Trace& first = evaluation.traces.front();
-    Chart chart;
-    chart.title = evaluation.targets.names[j];
-    chart.x_label = "t [s]";
-    chart.y_label = evaluation.targets.names[j] + " [" + evaluation.targets.units[j] + "]";
-    chart.series.push_back({"measured", values(first.t), values(first.measured.col(column)), {}});
-    for (const Trace& trace : evaluation.traces) {
-      chart.series.push_back(
-          {trace.model, values(trace.t), values(trace.predicted.col(column)), {}});
-    }
-    page.chart(chart, evaluation.data.front() + ", input without added noise");
+    page.chart(trace_chart(evaluation, j), evaluation.data.front() + ", input without added noise");
   }
   page.heading("Residuals");
   for (std::size_t j = 0; j < evaluation.targets.names.size(); ++j) {
@@ -136,7 +175,7 @@ void add_traces(HtmlReport& page, const Evaluation& evaluation) {
       labels.push_back(trace.model);
     }
     page.chart(histogram(evaluation.targets.names[j],
-                         "measured - predicted [" + evaluation.targets.units[j] + "]", residuals,
+                         "measured - predicted [" + unit_text(evaluation.targets.units[j]) + "]", residuals,
                          labels, 60),
                "how the residual is spread, input without added noise");
   }
@@ -160,14 +199,21 @@ void add_training_curve(HtmlReport& page, const std::filesystem::path& model) {
     validation.y.push_back(spread(rmse).mean);
   }
   Chart chart;
-  chart.title = "training of " + model.filename().string();
+  chart.title = "training of " + model.filename().string() + ": loss";
   chart.x_label = "epoch";
-  chart.y_label = "loss, RMSE";
+  chart.y_label = "loss";
   chart.log_y = true;
-  chart.series = {loss, validation};
+  chart.legend = false;
+  chart.height = 240;
+  chart.series = {loss};
   page.chart(chart,
-             "from " + path.filename().string() +
-                 "; the loss is of the targets as the network sees them, with noise and dropout");
+             "From " + path.filename().string() +
+                 "; the loss is of the targets as the network sees them, with noise and dropout.");
+  if (validation.x.empty()) return;
+  chart.title = "training of " + model.filename().string() + ": validation";
+  chart.y_label = "RMSE, mean over targets";
+  chart.series = {validation};
+  page.chart(chart, "On rows that the network was not trained on, without added noise.");
 }
 
 void add_settings(HtmlReport& page, const Evaluation& evaluation,
@@ -202,23 +248,12 @@ void add_settings(HtmlReport& page, const Evaluation& evaluation,
 
 std::string to_html(const Evaluation& evaluation, const EvaluationRequest& request) {
   HtmlReport page("Tool dynamics identification: evaluation");
-  const auto& targets = evaluation.targets;
   page.paragraph(answer(evaluation));
   for (const auto& warning : evaluation.references.warnings) page.paragraph(warning);
-  if (evaluation.summary.front().overall) {
-    page.chart(level_chart(evaluation, "overall", targets.units[0],
-                           [](const EvaluationSummary& s) { return *s.overall; }),
-               "mean of the RMSEs per axis (Eq. 6); bars: mean, whiskers: one standard deviation "
-               "over draws");
-  }
+  add_picture(page, evaluation);
   add_table(page, evaluation);
   add_traces(page, evaluation);
-  page.heading("Error of each target against input noise");
-  for (std::size_t j = 0; j < targets.names.size(); ++j) {
-    page.chart(level_chart(evaluation, targets.names[j], targets.units[j],
-                           [j](const EvaluationSummary& s) { return s.rmse[j]; }),
-               "");
-  }
+  add_levels(page, evaluation);
   if (std::any_of(request.models.begin(), request.models.end(), [](const auto& model) {
         return std::filesystem::exists(run_directory(model) / "metrics.jsonl");
       })) {

@@ -1,4 +1,5 @@
 // An evaluation as JSON for machines and as a table for people.
+#include <algorithm>
 #include <cstdio>
 
 #include "dcnn/experiment/evaluate.h"
@@ -52,7 +53,18 @@ std::string cell(const char* format, double value) {
   return text;
 }
 
-constexpr std::size_t kColumn = 22;
+/// Four digits; one draw of the noise has no spread.
+std::string cell_with_spread(const Spread& s, int runs) {
+  return significant(s.mean, 4) + (runs > 1 ? " +- " + significant(s.deviation, 2) : "");
+}
+
+/// Width of a target's column.
+std::size_t column_width(const Evaluation& evaluation) {
+  const bool spread = std::any_of(evaluation.summary.begin(), evaluation.summary.end(),
+                                  [](const EvaluationSummary& s) { return s.runs > 1; });
+  return spread ? 20 : 11;
+}
+
 constexpr const char* kUnidentified = "(no identification)";
 
 }  // namespace
@@ -88,22 +100,23 @@ Json to_json(const Evaluation& evaluation) {
 }
 
 std::string to_text(const Evaluation& evaluation) {
+  const std::size_t column = column_width(evaluation);
   std::size_t width = std::string(kUnidentified).size() + 2;
   for (const auto& s : evaluation.summary) width = std::max(width, s.file.size() + 2);
   std::string text;
   for (const auto& warning : evaluation.references.warnings) text += warning + "\n";
   text += padded("file", width) + padded("SNR [dB]", 10) + padded("runs", 6);
   for (std::size_t j = 0; j < evaluation.targets.names.size(); ++j) {
-    text += padded(evaluation.targets.names[j] + " [" + evaluation.targets.units[j] + "]", kColumn);
+    text += padded(evaluation.targets.names[j] + " [" + evaluation.targets.units[j] + "]", column);
   }
   text += "overall\n";
   const auto line = [&](const std::string& name, const std::string& level, int runs,
                         const std::vector<Spread>& rmse, const std::optional<Spread>& overall) {
     text += padded(name, width) + padded(level, 10) + padded(std::to_string(runs), 6);
     for (const Spread& axis : rmse) {
-      text += padded(cell("%.5f", axis.mean) + " +- " + cell("%.5f", axis.deviation), kColumn);
+      text += padded(cell_with_spread(axis, runs), column);
     }
-    text += overall ? cell("%.5f", overall->mean) + " +- " + cell("%.5f", overall->deviation) : "-";
+    text += overall ? cell_with_spread(*overall, runs) : "-";
     text += "\n";
   };
   for (const auto& s : evaluation.summary) {
@@ -112,8 +125,8 @@ std::string to_text(const Evaluation& evaluation) {
   const auto reference = [&](const std::string& name, const std::vector<double>& rmse,
                              const std::optional<double>& overall) {
     text += padded(name, width) + padded("clean", 10) + padded("1", 6);
-    for (const double value : rmse) text += padded(cell("%.5f", value), kColumn);
-    text += (overall ? cell("%.5f", *overall) : "-") + "\n";
+    for (const double value : rmse) text += padded(significant(value, 4), column);
+    text += (overall ? significant(*overall, 4) : "-") + "\n";
   };
   const auto& beside = evaluation.references;
   if (beside.rigid) reference("(rigid tool)", beside.rigid->rmse, beside.rigid->overall);
@@ -121,7 +134,7 @@ std::string to_text(const Evaluation& evaluation) {
   reference("(white noise)", beside.noise, std::nullopt);
   for (const auto& row : evaluation.unfiltered) {
     text += row.file + ": against the unfiltered targets, clean:";
-    for (const double value : row.score.rmse) text += " " + cell("%.5f", value);
+    for (const double value : row.score.rmse) text += " " + significant(value, 4);
     text += "\n";
   }
   return text;

@@ -83,15 +83,16 @@ std::vector<std::string> warnings(const std::string& model, const std::vector<do
   const double ratio = mean_ratio(rmse, references.rigid);
   if (ratio > kTie) {
     lines.push_back(model + ": its error is " + significant(ratio, 3) +
-                    " times that of the rigid tool; dcnn-train --model auto keeps the better one, "
-                    "--model rigid is the rigid tool");
+                    " times that of the rigid tool" +
+                    (references.rigid_file.empty() ? "" : ", which is " + references.rigid_file) +
+                    "; dcnn-train --model auto keeps the better one");
   }
   return lines;
 }
 
 void add_warnings(Evaluation& evaluation) {
   EvaluationReferences& references = evaluation.references;
-  References beside{evaluation.unidentified.rmse, {}, references.noise};
+  References beside{evaluation.unidentified.rmse, {}, references.noise, references.rigid_file};
   if (references.rigid) beside.rigid = references.rigid->rmse;
   for (const EvaluationSummary& s : evaluation.summary) {
     if (s.snr_db) continue;

@@ -17,6 +17,7 @@ struct References {
   std::vector<double> none;   ///< of predicting zero
   std::vector<double> rigid;  ///< of the rigid tool fitted to the same training rows; may be empty
   std::vector<double> noise;  ///< white noise of the measured targets; empty for poses at rest
+  std::string rigid_file = {};  ///< the rigid tool as a model, for words
 };
 
 /// Standard deviation of the white noise of each column: the median of |third difference| over

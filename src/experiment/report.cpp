@@ -120,7 +120,9 @@ void HtmlReport::table(const std::vector<std::string>& header,
   for (std::size_t i = 0; i < header.size(); ++i) {
     numeric.push_back(!rows.empty() && column_is_numeric(rows, i));
   }
-  body_ += "<div class=\"wide\"><table>\n<thead>" + table_row(header, numeric, "th") +
+  constexpr std::size_t kMany = 7;  // columns from which on cells are narrow and may break
+  const std::string kind = header.size() > kMany ? " class=\"many\"" : "";
+  body_ += "<div class=\"wide\"><table" + kind + ">\n<thead>" + table_row(header, numeric, "th") +
            "</thead>\n<tbody>\n";
   for (const auto& row : rows) body_ += table_row(row, numeric, "td");
   body_ += "</tbody>\n</table></div>\n";

@@ -99,21 +99,36 @@ Table signals(const TeleopTrace& trace) {
   return table;
 }
 
+/// What the compensation does to the force that the hand feels in free motion, in one sentence.
+std::string teleop_answer(const std::vector<TeleopResult>& results) {
+  std::string text;
+  for (const TeleopResult& r : results) {
+    const Json& contact = r.row["contact_interval_s"];
+    text += (text.empty() ? "" : "; ") + r.name + ": " + cell(r.row["handle_force_free_rms_n"], 1) +
+            " N rms on the hand in free motion, " +
+            (contact.is_null() ? std::string("no contact")
+                               : "up to " + cell(r.row["force_max_n"], 1) + " N in contact");
+  }
+  return "What the hand feels. " + text + ".";
+}
+
 }  // namespace
 
 void write_teleop(const std::filesystem::path& folder, const TeleopConfig& config,
                   const std::vector<TeleopResult>& results, std::uint64_t seed) {
   HtmlReport page("Bilateral teleoperation");
+  page.paragraph(teleop_answer(results));
+  const auto compared = comparison(results);
+  page.chart(compared[1], "'ideal' knows the tool exactly, 'none' sends no force back, 'ns' the raw force.");
+  add_table(results, page);
   page.paragraph("A simulated demonstration (seed " + std::to_string(seed) +
                  "); every mass, stiffness and delay is a free assumption and stands in the "
                  "configuration. The hand pushes 15 mm into a wall at about 70 to 75 s.");
-  add_table(results, page);
   page.paragraph(
       "Errors are slave minus scaled master without correction of the delay. The least "
       "energy is what link, slave and wall took from the hand: below zero they gave "
       "back more than they had been given.");
   Json variants = Json::array();
-  const auto compared = comparison(results);
   page.heading("All variants");
   for (std::size_t k = 0; k < compared.size(); ++k) {
     page.chart(compared[k], "");

@@ -10,6 +10,7 @@
 #include "experiment/references.h"
 #include "experiment/run_directory.h"
 #include "experiment/splitter.h"
+#include "experiment/training_checks.h"
 #include "models/weighted_model.h"
 
 namespace dcnn {
@@ -171,7 +172,10 @@ void compare_with_references(const std::filesystem::path& out, const Identifier&
   for (const auto y : validation.y.colwise()) {
     references.none.push_back(std::sqrt(y.squaredNorm() / static_cast<double>(y.size())));
   }
-  if (rigid.model) references.rigid = rmse_of(*rigid.model, validation);
+  if (rigid.model) {
+    references.rigid = rmse_of(*rigid.model, validation);
+    references.rigid_file = rigid_file(out).string();
+  }
   outcome.summary["references"] = to_json(references);
   outcome.summary["warnings"] =
       warnings(out.filename().string(), outcome.summary["validation_rmse"], references,
@@ -207,6 +211,7 @@ TrainingOutcome train(const TrainingRequest& request, const TrainingObserver& ob
   for (const auto& recording : held_out) splitter.add_whole(recording, validation);
   require(training.x.rows() > 0, Exit::kData, recordings.front().name,
           ": no sample is left to train on; choose the feature set 'body' or longer recordings");
+  check_training(recordings, identifier.targets, configuration.system, observer);
 
   const auto folder = run_directory(request.out);
   Learner learner(request, observer, configuration, identifier, training, validation);

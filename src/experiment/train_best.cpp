@@ -1,5 +1,6 @@
 // --model auto: the best of several identifiers on rows that none was fitted to.
 #include <algorithm>
+#include <optional>
 
 #include "dcnn/core/file.h"
 #include "dcnn/experiment/train.h"
@@ -51,6 +52,21 @@ Json choice(const std::vector<Tried>& tried, const Tried& best) {
                       " % of that of predicting zero (mean over the targets); " + words}};
 }
 
+/// The rigid tool that stands beside every model: noise-free, a body that can exist. It has no
+/// limits of its training, so it does not run online.
+std::optional<Tried> rigid_tool(const TrainingRequest& request, const Tried& like) {
+  const fs::path file = rigid_file(like.file);
+  const Json& rmse = like.summary["references"]["rigid"];
+  if (request.configuration.online || rmse.is_null() || !fs::exists(file)) return std::nullopt;
+  Tried tool{"rigid tool", file, like.summary};
+  tool.summary["model"] = "rigid";
+  tool.summary["validation_rmse"] = rmse;
+  tool.summary["parameters"] = read_identifier(file).model->parameter_count();
+  tool.summary["warnings"] = Json::array();
+  tool.error = relative_error(tool.summary);
+  return tool;
+}
+
 }  // namespace
 
 TrainingOutcome train_best(const TrainingRequest& request, const TrainingObserver& observer) {
@@ -70,12 +86,13 @@ TrainingOutcome train_best(const TrainingRequest& request, const TrainingObserve
     const double error = relative_error(outcome.summary);
     tried.push_back({model, one.out, std::move(outcome.summary), error});
   }
+  if (auto tool = rigid_tool(request, tried.front())) tried.push_back(std::move(*tool));
   const Tried* best = &tried.front();
   for (const Tried& one : tried) {
     if (one.error < best->error) best = &one;
   }
   copy_model(best->file, request.out);
-  copy_model(rigid_file(best->file), rigid_file(request.out));
+  copy_model(rigid_file(tried.front().file), rigid_file(request.out));
   TrainingOutcome outcome{true, best->summary};
   outcome.summary["file"] = request.out.string();
   outcome.summary["run_directory"] = folder.string();

@@ -72,7 +72,8 @@ TensorEntry describe(const StoredTensor& tensor, std::uint64_t begin) {
                                                                     tensor.shape.end(), Index{1},
                                                                     std::multiplies<>()));
         require(all_finite(values), Exit::kFailure, "model not written: tensor ",
-                quoted(tensor.name), " is not finite; training diverged, lower the learning rate");
+                quoted(tensor.name), " is not finite: the recordings' numbers are beyond what can be learned, or the "
+                "training diverged (lower training.lr)");
         entry.dtype = dtype_of(values);
         entry.end = begin + values.size() * sizeof(values[0]);
       },

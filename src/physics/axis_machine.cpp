@@ -97,6 +97,7 @@ Motion axis_motion(const Recording& recording, const Axis& axis, const Derivativ
   motion.recording = recording.name;
   motion.t = recording.column("t");
   motion.dt = recording.dt;
+  motion.of_axis = true;
   motion.segments = recording.segments;
   motion.R_BS.assign(static_cast<std::size_t>(samples), Eigen::Matrix3d::Identity());
   motion.euler = motion.w_S = motion.dw_S = MatrixXd::Zero(samples, 3);

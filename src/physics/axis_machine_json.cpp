@@ -20,6 +20,7 @@ std::string axis_unit(const std::string& suffix, const Axis& axis) {
   static const std::vector<Suffix> kUnits{
       {"n", "U"},        {"mps", "P/s"},   {"nspm", "U*s/P"}, {"ns2pm2", "U*s^2/P^2"},
       {"npm", "U/P"},    {"nprad", "U/P"}, {"nprad3", "U/P^3"}, {"rad", "P"},
+      {"nprad2", "U/P^2"},
       {"hz", "Hz"},      {"s", "s"},       {"nps", "U/s"},    {"npk", "U/K"},
       {"degc", "degC"},  {"kg", "U*s^2/P"}};
   const std::string position = axis.position_unit.empty() ? "1" : axis.position_unit;
@@ -54,9 +55,9 @@ std::optional<AxisParameter> axis_parameter(const EffectKind& kind, const std::s
     if (letter == 'x') result.stem.resize(component);
   }
   const std::string id = kind.name;
-  if (id == "cogging" && result.stem == "phase") {
+  if (result.stem == "phase") {
     result.unit = "rad";
-    result.shift = sense > 0.0 ? std::numbers::pi : 0.0;
+    result.shift = id == "cogging" && sense > 0.0 ? std::numbers::pi : 0.0;
   }
   // What adds to the reading has the sign of the reading; what resists the motion the reaction's.
   const bool adds = kind.stage == Stage::kOffset || id == "contact";

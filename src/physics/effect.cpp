@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dcnn/physics/law.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {
@@ -62,11 +63,13 @@ void check_parameters(const EffectKind& kind, const EffectSpec& spec, Options pa
   } else {
     Motion motion;
     motion.euler = motion.v_B = motion.a_B = motion.w_S = motion.dw_S = Eigen::MatrixXd(0, 3);
-    Wrench wrench{motion.euler, motion.euler};
+    Wrench wrench{motion.euler, motion.euler, motion.euler};
     kind.apply(wrench, motion, spec, model, parameters);
   }
   parameters.finish();
 }
+
+void check_law(Options& law) { law::parse_structure(law); }
 
 EffectSpec parse_effect(Options entry) {
   EffectSpec spec;
@@ -84,6 +87,11 @@ EffectSpec parse_effect(Options entry) {
   spec.recording = entry.get<std::string>("recording", "");
   if (kind->change && !spec.recording.empty()) {
     entry.reject("recording", "must be absent: ", kind->name, " changes the tool itself");
+  }
+  if (kind->example_law) {
+    Options law = entry.child("law");
+    check_law(law);
+    spec.law = entry.raw("law");
   }
   check_parameters(*kind, spec, entry.child("parameters"));
   spec.parameters = entry.raw("parameters");
@@ -155,6 +163,7 @@ Json to_json(const std::vector<EffectSpec>& effects) {
     if (!spec.axis.empty()) entry["axis"] = spec.axis;
     if (spec.interval_s) entry["interval_s"] = {spec.interval_s->first, spec.interval_s->second};
     if (!spec.recording.empty()) entry["recording"] = spec.recording;
+    if (!spec.law.is_null()) entry["law"] = spec.law;
     entry["parameters"] = spec.parameters;
     list.push_back(entry);
   }
@@ -167,10 +176,15 @@ std::string unit_of_parameter(const std::string& name) {
                                                                        {"_nm", "N*m"},
                                                                        {"_n", "N"},
                                                                        {"_mps", "m/s"},
+                                                                       {"_radps", "rad/s"},
+                                                                       {"_mps2", "m/s^2"},
+                                                                       {"_m2ps2", "m^2/s^2"},
+                                                                       {"_radps2", "rad/s^2"},
                                                                        {"_nspm", "N*s/m"},
                                                                        {"_ns2pm2", "N*s^2/m^2"},
                                                                        {"_npm", "N/m"},
                                                                        {"_nprad", "N/rad"},
+                                                                       {"_nprad2", "N/rad^2"},
                                                                        {"_nprad3", "N/rad^3"},
                                                                        {"_hz", "Hz"},
                                                                        {"_s", "s"},
@@ -198,6 +212,7 @@ void apply_effect(const EffectSpec& effect, const Motion& motion, const ToolMode
   if (kind.needs_time == TimeNeed::kClock && !motion.has_clock) return;
   if (!effect.recording.empty() && effect.recording != motion.recording) return;
   Options parameters(effect.parameters, effect.effect, Exit::kData);
+  if (kind.of_load && wrench.load.rows() == 0) wrench.load = wrench.force;
   const Wrench before = effect.interval_s ? wrench : Wrench{};
   kind.apply(wrench, motion, effect, model, parameters);
   if (effect.interval_s) keep_outside(effect, kind, motion, before, wrench);

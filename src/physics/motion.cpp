@@ -41,8 +41,9 @@ MatrixXd body_rates(const MatrixXd& q, const MatrixXd& dq) {
 }
 
 void read_translation(const Recording& recording, const DerivativeSpec& spec, Motion& motion) {
-  motion.v_B = motion.a_B = MatrixXd(0, 3);
+  motion.v_B = motion.a_B = motion.p_B = MatrixXd(0, 3);
   const std::vector<std::string> v{"vx", "vy", "vz"}, a{"ax", "ay", "az"}, p{"x", "y", "z"};
+  if (recording.has_all(p)) motion.p_B = recording.block(p);
   if (recording.has_all(p) && !(recording.has_all(v) && recording.has_all(a))) {
     const auto derived = differentiate(recording.block(p), recording, spec);
     motion.v_B = derived.first;
@@ -136,6 +137,7 @@ Motion motion_of(const Trajectory& trajectory, const ToolModel& model) {
   motion.segments = {{0, samples}};
   motion.v_B = trajectory.velocity;
   motion.a_B = trajectory.acceleration;
+  motion.p_B = trajectory.position;
   motion.euler.resize(samples, 3);
   motion.w_S.resize(samples, 3);
   motion.dw_S.resize(samples, 3);

@@ -1,5 +1,6 @@
 #include "dcnn/physics/simulator.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dcnn/core/options.h"
@@ -88,6 +89,11 @@ ToolModel changed_tool(const ToolModel& model, const std::vector<EffectSpec>& ef
 
 void pass_on(const std::vector<EffectSpec>& effects, Stage first, const Motion& motion,
              const ToolModel& model, Wrench& wrench, const SensorNoise* noise, Rng* rng) {
+  const bool of_load = std::any_of(effects.begin(), effects.end(), [](const EffectSpec& effect) {
+    const EffectKind* kind = find_effect(effect.effect);
+    return kind && kind->of_load;
+  });
+  if (of_load && first == Stage::kForce) wrench.load = wrench.force;
   for (int s = static_cast<int>(first); s <= static_cast<int>(Stage::kQuantisation); ++s) {
     const auto stage = static_cast<Stage>(s);
     if (stage == Stage::kOffset) {

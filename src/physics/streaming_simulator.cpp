@@ -26,7 +26,8 @@ FeatureLayout layout_for(const ToolModel& model, const DerivativeSpec& derivativ
 
 bool runs_online(const EffectSpec& effect) {
   const EffectKind* kind = find_effect(effect.effect);
-  return kind && !effect.interval_s && effect.recording.empty() && (kind->change || kind->stream);
+  return kind && !effect.interval_s && effect.recording.empty() && (kind->change || kind->stream) &&
+         (!kind->online || kind->online(effect));
 }
 
 }  // namespace
@@ -74,11 +75,13 @@ void StreamingSimulator::reset() {
 }
 
 const InstantWrench& StreamingSimulator::push(const Vector3d& position, const Vector3d& euler) {
+  now_.p_B = position;
   return advance(features_.push(position, euler), rotation_from_euler(euler), euler);
 }
 
 const InstantWrench& StreamingSimulator::push(const Vector3d& position,
                                               const Eigen::Vector4d& quaternion) {
+  now_.p_B = position;
   const Eigen::Vector4d q = quaternion.normalized();
   const Eigen::Matrix3d R_BE = rotation_from_quaternion(q);
   return advance(features_.push(position, quaternion), R_BE, euler_from_rotation(R_BE));
@@ -98,6 +101,7 @@ const InstantWrench& StreamingSimulator::advance(const Eigen::VectorXd& x,
   Vector3d felt = model_.gravity;
   if (model_.inertial != ToolModel::Inertial::kNone) felt -= now_.a_B;
   wrench_ = rigid_at(model_, now_.R_BS.transpose() * felt, now_.w_S, now_.dw_S);
+  wrench_.load = wrench_.force;
   for (const EffectStream& act : before_bias_) act(wrench_, now_);
   wrench_.force += model_.bias;
   wrench_.torque += model_.bias_torque;

@@ -199,7 +199,7 @@ void write_row(const OnlineResult& result, int targets, LineWriter& out) {
 
 }  // namespace
 
-Json serve_lines(OnlineCompensator& compensator, int in, int out) {
+Json serve_lines(OnlineCompensator& compensator, int in, int out, PlotStream* plot) {
   LineReader lines(in);
   LineWriter answers(out);
   const auto header = lines.next();
@@ -214,7 +214,9 @@ Json serve_lines(OnlineCompensator& compensator, int in, int out) {
     const OnlineResult& result = compensator.step(columns.read(*line));
     write_row(result, torque ? 6 : 3, answers);
     if (!lines.ready()) answers.flush();
-    tally.times.add(thread_seconds() - begin);
+    const double taken = thread_seconds() - begin;
+    if (plot) plot->put(result, taken);
+    tally.times.add(taken);
     tally.add(result);
   }
   answers.flush();

@@ -23,7 +23,8 @@ class Server {
   Server(OnlineCompensator& compensator, UdpSocket& socket, const ServeOptions& options)
       : compensator_(compensator),
         socket_(socket),
-        gate_(options.key, random_number(), options.latest) {}
+        gate_(options.key, random_number(), options.latest),
+        plot_(options.plot) {}
 
   /// Waits for one datagram until `until` at most, or for the moment when a cycle is missed.
   void turn(double until) noexcept {
@@ -66,12 +67,15 @@ class Server {
       compensator_.overrun();
     }
     socket_.send(gate_.answer(result, taken));
-    tally_.times.add(thread_seconds() - begin);
+    const double cpu = thread_seconds() - begin;
+    if (plot_) plot_->put(result, cpu);
+    tally_.times.add(cpu);
   }
 
   OnlineCompensator& compensator_;
   UdpSocket& socket_;
   PacketGate gate_;
+  PlotStream* plot_;
   Tally tally_;
   double due_ = 0.0;  // when the next sample is missed; 0 before the first one
   std::array<std::uint8_t, kMostBytes> buffer_;

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <ctime>
@@ -18,6 +19,17 @@ namespace {
 
 using Address = std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)>;
 
+/// getaddrinfo() takes the last 16 bits of any number.
+void require_port(const std::string& port, const std::string& text) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
+  const bool read = error == std::errc() && end == port.data() + port.size();
+  require(read || error == std::errc::result_out_of_range, Exit::kUsage, "'", text,
+          "' is no address; give HOST:PORT or PORT, for example 127.0.0.1:5301");
+  require(read && number >= 1 && number <= 65535, Exit::kUsage, "'", text, "': port ", port,
+          " is not between 1 and 65535");
+}
+
 Address resolve(const std::string& text) {
   const auto colon = text.rfind(':');
   std::string host = colon == std::string::npos ? "" : text.substr(0, colon);
@@ -26,6 +38,7 @@ Address resolve(const std::string& text) {
     host = host.substr(1, host.size() - 2);
   }
   if (host.empty()) host = "127.0.0.1";
+  require_port(port, text);
   addrinfo hints{};
   hints.ai_socktype = SOCK_DGRAM;
   hints.ai_flags = AI_NUMERICSERV;
@@ -60,6 +73,14 @@ UdpSocket::UdpSocket(const std::string& listen, const std::string& peer) {
   if (!done) ::close(socket_);
   require(done, Exit::kFailure, "cannot ", step, *step == 'l' ? listen : peer, ": ",
           std::strerror(error));
+}
+
+UdpSocket UdpSocket::to(const std::string& peer) {
+  const Address there = resolve(peer);
+  UdpSocket end(::socket(there->ai_family, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  require(end.socket_ >= 0 && ::connect(end.socket_, there->ai_addr, there->ai_addrlen) == 0,
+          Exit::kFailure, "cannot send to ", peer, ": ", std::strerror(errno));
+  return end;
 }
 
 UdpSocket::~UdpSocket() {

@@ -96,6 +96,21 @@ TEST_F(CInterface, OfPythonGivesWhatRunsOnline) {
                          " < " + samples_).first);
 }
 
+TEST(CInterfaceOfMatlab, IsWellFormedForOctave) {
+  if (shell("command -v octave-cli").second != 0) GTEST_SKIP() << "octave is not installed here";
+  const auto [text, code] = shell("octave-cli --eval \"__parse_file__('" DCNN_SOURCE_DIR "/examples/predict.m')\" 2>&1");
+  EXPECT_EQ(code, 0) << text;
+}
+
+TEST(CLibrary, HasTheRecordedInterface) {
+  if (shell("command -v abidiff").second != 0) GTEST_SKIP() << "abigail-tools are not installed here";
+  const test::TemporaryFolder folder;
+  const std::string now = folder / "now.abi", tool = DCNN_SOURCE_DIR "/tools/support/interface ";
+  ASSERT_EQ(shell(tool + kLibrary + " > " + now).second, 0);
+  const auto [changes, code] = shell("abidiff " DCNN_SOURCE_DIR "/c/dcnn.abi " + now + " 2>&1");
+  EXPECT_EQ(code, 0) << changes << "\nif only functions were added: tools/package --abi";
+}
+
 TEST(CLibrary, ExportsItsVersionedSymbolsAlone) {
   std::istringstream names(shell("nm -D --defined-only --format=posix " + kLibrary).first);
   int count = 0;

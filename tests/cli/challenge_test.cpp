@@ -150,8 +150,7 @@ TEST(ChallengeScript, StoppedItLeavesNothingRunningAndGoesOn) {
                               DCNN_BIN_DIR + " " + arguments;
   const pid_t script = ::fork();
   if (script == 0) {
-    ::freopen("/dev/null", "w", stdout);
-    ::freopen("/dev/null", "w", stderr);
+    if (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr)) ::_exit(1);
     ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     ::_exit(127);
   }

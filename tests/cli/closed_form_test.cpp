@@ -57,7 +57,7 @@ TEST_F(ClosedFormTools, TheReactionIsNoticed) {
   const std::vector<std::string> command{"--model", "cf", "--train", poses_, "--out", at("r.dcnn")};
   EXPECT_EQ(run("train", command).err.find("negative"), std::string::npos);
   auto reaction = command;
-  reaction.insert(reaction.end(), {"--force-sign", "-1", "--force"});
+  reaction.insert(reaction.end(), {"--force-sign", "-1", "--force", "--accept", "reaction"});
   const auto result = run("train", reaction);
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_NE(result.err.find("the fitted mass is negative"), std::string::npos) << result.err;

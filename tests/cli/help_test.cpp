@@ -106,7 +106,7 @@ TEST(Dispatch, ListsEveryProgramAndRunsIt) {
 TEST(Scripts, PrintTheirHelpAndDoNothing) {
   const test::TemporaryFolder folder;
   for (const char* script :
-       {"accuracy", "challenge", "check-rooms", "demo", "hybrid", "install-deps", "real",
+       {"accuracy", "challenge", "check-rooms", "demo", "hybrid", "install-deps", "package", "real",
         "real-identifiers", "reproduce", "teleop-live", "test", "test-neon"}) {
     const std::string out = folder / "out.txt";
     const std::string command = "cd '" + folder.path().string() + "' && timeout 10 '" DCNN_SOURCE_DIR

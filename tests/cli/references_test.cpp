@@ -56,12 +56,14 @@ TEST(References, AutoKeepsTheBestAndSaysWhy) {
                                           kTrain, "--out", model, "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Json choice = parse_json(result.out, "train", Exit::kFailure)["choice"];
-  EXPECT_EQ(choice["model"], "rigid") << "one epoch is no match for regression";
-  EXPECT_EQ(choice["tried"].size(), 3U);
+  EXPECT_EQ(choice["model"], "rigid tool") << "one epoch is no match for physics";
+  EXPECT_EQ(choice["tried"].size(), 4U);
   for (const Json& one : choice["tried"]) {
-    EXPECT_GE(one["relative_error"].get<double>(), choice["tried"][0]["relative_error"].get<double>());
+    EXPECT_GE(one["relative_error"].get<double>(), choice["tried"][3]["relative_error"].get<double>());
   }
-  EXPECT_EQ(test::run("eval", {model, "--data", kTest, "--snr", "clean"}).exit_code, 0);
+  const auto scored = test::run("eval", {model, "--data", kTest, "--snr", "clean", "--json"});
+  ASSERT_EQ(scored.exit_code, 0) << scored.err;
+  EXPECT_TRUE(parse_json(scored.out, "eval", Exit::kFailure)["warnings"].empty()) << scored.out;
 }
 
 }  // namespace

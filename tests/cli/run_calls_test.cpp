@@ -23,10 +23,12 @@ constexpr long kSamples = 400;
 struct Service {
   std::string model;
   bool udp = false;
+  bool plot = false;  ///< with a thread that sends every cycle to a plotting program
 };
 
 void PrintTo(const Service& service, std::ostream* out) {
-  *out << service.model << (service.udp ? " over UDP" : " line by line");
+  *out << service.model << (service.udp ? " over UDP" : " line by line")
+       << (service.plot ? " with plots" : "");
 }
 
 /// Sends samples and waits for each answer.
@@ -52,6 +54,7 @@ class RunCalls : public ::testing::TestWithParam<Service> {
                                        "--fallback",   bench().simulator,
                                        "--average",    "4",
                                        "--track-bias", "10"};
+    if (GetParam().plot) arguments.insert(arguments.end(), {"--plot", "59870"});
     if (!GetParam().udp) {
       arguments.emplace_back("--stdin");
       around.input = bench().log;
@@ -89,6 +92,7 @@ TEST_P(RunCalls, NoAllocationAndNoLock) {
 
 TEST_P(RunCalls, NoSystemCallButThoseOfWaitingReceivingSendingAndTheClock) {
   if (kSanitized) GTEST_SKIP() << "the sanitizer makes calls of its own";
+  if (GetParam().plot) GTEST_SKIP() << "the thread that sends makes calls of its own";
   const auto trace = bench().folder / "trace";
   const auto result = serve({.wrapper = {"strace", "-f", "-o", trace.string()}});
   if (result.exit_code != 0) GTEST_SKIP() << "strace does not run here";
@@ -113,7 +117,8 @@ TEST_P(RunCalls, NoSystemCallButThoseOfWaitingReceivingSendingAndTheClock) {
 
 INSTANTIATE_TEST_SUITE_P(, RunCalls,
                          ::testing::Values(Service{"rigid", false}, Service{"rigid", true},
-                                           Service{"dcnn", false}, Service{"dcnn", true}));
+                                           Service{"rigid", true, true}, Service{"dcnn", false},
+                                           Service{"dcnn", true}));
 
 }  // namespace
 }  // namespace dcnn

@@ -89,10 +89,12 @@ inline Json frictions_along_base() {
   return frictions;
 }
 
-/// The effects that were found, in the order of the report.
+/// The effects of the catalogue that were found, in the order of the report.
 inline std::vector<std::string> names(const Json& report) {
   std::vector<std::string> list;
-  for (const Json& f : report["findings"]) list.push_back(f["effect"].get<std::string>());
+  for (const Json& f : report["findings"]) {
+    if (f["effect"] != "discovered") list.push_back(f["effect"].get<std::string>());
+  }
   return list;
 }
 

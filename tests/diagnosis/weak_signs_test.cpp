@@ -107,19 +107,31 @@ TEST(WeakSigns, ACurvedSpringIsNoSpringAndCogging) {
 }
 
 // A force that grows with the product of a position and an angle stands in no catalogue.
-TEST(WeakSigns, WhatHasNoNameGetsAFormula) {
+TEST(WeakSigns, WhatHasNoNameGetsALaw) {
   const Bench bench(configuration(Json::array()));
   change(bench, [](Recording& log) {
     log.set("fz", log.column("fz") + 2.0 * log.column("x").cwiseProduct(log.column("beta")));
   });
-  const Json report = bench.diagnose().report;
+  const Diagnosis diagnosis = bench.diagnose();
+  const Json& report = diagnosis.report;
   EXPECT_EQ(report["verdict"], "unexplained") << report["findings"].dump(1);
-  ASSERT_TRUE(report["unnamed"]["formula"].is_string()) << report["unnamed"].dump();
-  const auto formula = report["unnamed"]["formula"].get<std::string>();
-  EXPECT_NE(formula.find("N/(m*rad)"), std::string::npos) << formula;
+  ASSERT_EQ(report["findings"].size(), 1U) << report["findings"].dump(1);
+  const Json& finding = report["findings"][0];
+  EXPECT_EQ(finding["effect"], "discovered");
+  EXPECT_EQ(finding["axis"], "tool_z");
+  const auto formula = finding["law"]["expression"].get<std::string>();
+  EXPECT_NE(formula.find("x"), std::string::npos) << formula;
   EXPECT_NE(formula.find("beta"), std::string::npos) << formula;
-  EXPECT_NE(formula.find("along the sensor's z axis"), std::string::npos) << formula;
-  EXPECT_NE(report["unnamed"]["words"].get<std::string>().find(formula), std::string::npos);
+  EXPECT_EQ(report["unnamed"]["formula"], formula);
+  EXPECT_GT(finding["holdout_gain"].get<double>(), 0.01);
+  // The law is part of the model that is written, which predicts the force of the noise's size.
+  EXPECT_LT(report["fit"]["holdout_rmse_after"][2].get<double>(), 0.042);
+  const Simulator again = parse_simulator(diagnosis.model, "model.json", Exit::kModel);
+  ASSERT_EQ(again.effects.size(), 1U);
+  const Recording held = read_recording(bench / "hold.csv", ReadOptions(), System());
+  const Recording predicted = predict_motion(again, held, DerivativeSpec());
+  EXPECT_LT((predicted.column("fz") - diagnosis.holdout[0].after.col(2)).cwiseAbs().maxCoeff(),
+            1e-6);
 }
 
 // |1 + fraction (H - 1)|^2 at the mode, where H = 1/(2 zeta i).

@@ -48,10 +48,10 @@ TEST_P(EveryEffect, RunsSampleBySampleAsOverTheWholeRecording) {
   for (Index start : {Index{0}, Index{0}}) {  // twice: a new stretch forgets the old one
     for (Index k = start; k < motion.samples(); ++k) {
       const auto i = static_cast<std::size_t>(k);
-      const Instant now{k == start,          motion.dt,         motion.R_BS[i],
-                        motion.euler.row(k), motion.v_B.row(k), motion.a_B.row(k),
-                        motion.w_S.row(k),   motion.dw_S.row(k)};
-      InstantWrench wrench{given.force.row(k), given.torque.row(k)};
+      const Instant now{k == start,          motion.dt,          motion.R_BS[i],
+                        motion.euler.row(k), motion.v_B.row(k),  motion.a_B.row(k),
+                        motion.w_S.row(k),   motion.dw_S.row(k), motion.p_B.row(k)};
+      InstantWrench wrench{given.force.row(k), given.torque.row(k), given.force.row(k)};
       act(wrench, now);
       ASSERT_LT((wrench.force - wanted.force.row(k).transpose()).norm(), 1e-9) << k;
       ASSERT_LT((wrench.torque - wanted.torque.row(k).transpose()).norm(), 1e-9) << k;
@@ -70,15 +70,16 @@ TEST_P(EveryEffect, IsWholeInItsDescription) {
 }
 
 // The parameters that scale each effect; the others are shapes (widths, times, frequencies).
-const std::set<std::string> kShapes{"v0_mps",  "vs_mps",   "sigma0_npm", "sigma1_nspm", "width_rad",
-                                    "asym",    "rest_rad", "order",      "phase_rad",   "gap_m",
-                                    "freq_hz", "zeta",     "t_ref_degc", "limit_n"};
+const std::set<std::string> kShapes{
+    "v0_mps",  "vs_mps",      "sigma0_npm", "sigma1_nspm",  "width_rad",   "asym",       "rest_rad",
+    "order",   "phase_rad",   "gap_m",      "freq_hz",      "zeta",        "t_ref_degc", "limit_n",
+    "power_1", "scale_1_mps", "memory_2_s", "centre_2_rad", "scale_2_rad", "gain_2"};
 
 TEST_P(EveryEffect, StrengthZeroIsTheIdentity) {
   const std::string name = kind().name;
   if (name == "inertial_terms") GTEST_SKIP() << "has no strength";
   Json parameters = Json::parse(kind().example);
-  const bool settles = name == "thermal_drift";
+  const bool settles = name == "thermal_drift" || name == "creep";
   for (auto& [key, value] : parameters.items()) {
     if (!kShapes.count(key) && !(settles && key == "tau_s")) value = 0.0;
     if (key == "limit_n") value = 1e9;
@@ -192,7 +193,9 @@ TEST(Catalogue, HoldsEveryPublishedName) {
                                            "step_bias",
                                            "saturation",
                                            "quantisation",
-                                           "hum"};
+                                           "hum",
+                                           "load_friction",
+                                           "creep"};
   std::set<std::string> names;
   for (const auto* kind : effect_kinds())
     EXPECT_TRUE(names.insert(kind->name).second) << kind->name;
@@ -200,8 +203,8 @@ TEST(Catalogue, HoldsEveryPublishedName) {
   const auto kinds = effect_kinds();
   const auto more = std::count_if(kinds.begin(), kinds.end(),
                                   [](const EffectKind* kind) { return kind->machines_only; });
-  // and cable_field, of the embedded data
-  EXPECT_EQ(names.size(), published.size() + 1 + static_cast<std::size_t>(more));
+  // and cable_field, of the embedded data, and discovered
+  EXPECT_EQ(names.size(), published.size() + 2 + static_cast<std::size_t>(more));
 }
 
 TEST(Catalogue, IsListedInTheOrderInWhichItActs) {

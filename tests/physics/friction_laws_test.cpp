@@ -13,11 +13,15 @@ constexpr double kPi = std::numbers::pi;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// The force along z that an effect adds when the tool moves along base z with these velocities.
+/// The force along z that an effect adds when the tool moves along base z with these velocities,
+/// pressed with 2 N across its way.
 VectorXd friction_force(const EffectSpec& effect, const VectorXd& v) {
   Motion motion = still_motion(v.size());
   motion.v_B.col(2) = v;
-  return applied(effect, motion, no_wrench(v.size())).force.col(2);
+  Wrench wrench = no_wrench(v.size());
+  wrench.load = wrench.force;
+  wrench.load.col(0).setConstant(2.0);
+  return applied(effect, motion, wrench).force.col(2);
 }
 
 /// Velocity of a position amplitude·sin(2 pi hz t).

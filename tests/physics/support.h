@@ -41,7 +41,7 @@ inline Motion still_motion(Index samples, double dt = 0.002) {
   motion.dt = dt;
   motion.t = Eigen::VectorXd::LinSpaced(samples, 0.0, dt * static_cast<double>(samples - 1));
   motion.R_BS.assign(static_cast<std::size_t>(samples), Eigen::Matrix3d::Identity());
-  motion.euler = motion.v_B = motion.a_B = motion.w_S = motion.dw_S =
+  motion.p_B = motion.euler = motion.v_B = motion.a_B = motion.w_S = motion.dw_S =
       Eigen::MatrixXd::Zero(samples, 3);
   motion.segments = {{0, samples}};
   return motion;
@@ -53,10 +53,12 @@ inline Wrench no_wrench(Index samples) {
 
 /// One effect, checked as a configuration would be.
 inline EffectSpec make_effect(const std::string& effect, const std::string& axis,
-                              const Json& parameters, const Json& interval = nullptr) {
+                              const Json& parameters, const Json& interval = nullptr,
+                              const char* law = nullptr) {
   Json entry{{"effect", effect}, {"axis", nullptr}, {"interval_s", interval}};
   if (!axis.empty()) entry["axis"] = axis;
   entry["parameters"] = parameters;
+  if (law) entry["law"] = Json::parse(law);
   return parse_effects(Json::array({entry}), "test", Exit::kUsage).front();
 }
 
@@ -66,7 +68,7 @@ inline EffectSpec example_effect(const EffectKind& kind) {
   const bool interval =
       kind.interval == IntervalRule::kRequired || kind.interval == IntervalRule::kOnset;
   return make_effect(kind.name, axes.empty() ? "" : axes.front(), Json::parse(kind.example),
-                     interval ? Json{0.5, 1.5} : Json());
+                     interval ? Json{0.5, 1.5} : Json(), kind.example_law);
 }
 
 /// What the effect does to a given wrench.

@@ -118,6 +118,45 @@ TEST(Guard, AModelThatWouldPushTheOutputBeyondItsLimitIsNotFollowed) {
   EXPECT_EQ(guard.reason(), Reason::kLimit);
 }
 
+/// Bounds belong to what is allowed, and what is held back is said, on whichever axis.
+TEST(Guard, StepsUpToTheBoundsArePassedAndWhatIsBeyondIsHeldBackAndSaid) {
+  const GuardLimits limits;
+  for (int axis = 0; axis < 6; ++axis) {
+    const double slew = axis < 3 ? limits.slew_n : limits.slew_nm;
+    const double limit = axis < 3 ? limits.force_n : limits.torque_nm;
+    Guard guard = warm();
+    Cycle cycle = good(0.0);
+    cycle.measured[axis] = slew;
+    EXPECT_EQ(guard.step(cycle)[axis], slew);
+    EXPECT_FALSE(guard.limited()) << axis;
+    cycle.measured[axis] = 2.5 * slew;
+    EXPECT_EQ(guard.step(cycle)[axis], 2.0 * slew);
+    EXPECT_TRUE(guard.limited()) << axis;
+    EXPECT_EQ(guard.step(cycle)[axis], 2.5 * slew);
+    EXPECT_FALSE(guard.limited()) << axis;
+    cycle.measured[axis] = -1.5 * limit;
+    for (int k = 0; k < 1000; ++k) guard.step(cycle);
+    EXPECT_EQ(guard.step(cycle)[axis], -limit);
+    EXPECT_TRUE(guard.limited()) << axis;
+    EXPECT_EQ(guard.state(), RunState::kNetwork) << "both agree that it is beyond";
+  }
+}
+
+TEST(Guard, ADisagreementUpToItsBoundIsFollowed) {
+  const GuardLimits limits;
+  for (int axis = 0; axis < 6; ++axis) {
+    const double bound = axis < 3 ? limits.disagreement_n : limits.disagreement_nm;
+    Guard guard = warm();
+    Cycle cycle = good(0.0);
+    (*cycle.network)[axis] = -bound;
+    guard.step(cycle);
+    EXPECT_EQ(guard.state(), RunState::kNetwork) << axis;
+    (*cycle.network)[axis] = -bound * (1.0 + 1e-12);
+    guard.step(cycle);
+    EXPECT_EQ(guard.reason(), Reason::kDisagreement) << axis;
+  }
+}
+
 TEST(Guard, AnOutageIsHeldFadedAndLatched) {
   const GuardLimits limits;
   Guard guard = warm();

@@ -8,9 +8,12 @@
 #include <sstream>
 
 #include "dcnn/core/blocking.h"
+#include "dcnn/core/excerpt.h"
 #include "dcnn/core/options.h"
 #include "dcnn/core/parallel.h"
+#include "dcnn/data/table_reader.h"
 #include "dcnn/experiment/provenance.h"
+#include "dcnn/import/assemble.h"
 
 namespace dcnn {
 
@@ -124,7 +127,7 @@ void Tool::add_common() {
   option("--threads", common_.threads, "number of threads (default: all cores)")
       .between(1, 1024)
       .group(kEveryCommand);
-  option("--seed", common_.seed, "seed of everything random").group(kEveryCommand);
+  option("--seed", common_.seed, "seed of everything random").not_negative().group(kEveryCommand);
   add_row("-h,--help", "", "print this text").group = kEveryCommand;
   add_row("--version", "", "print the version").group = kEveryCommand;
 }
@@ -198,6 +201,7 @@ int Tool::run(int argc, char** argv, const std::function<Exit()>& body) {
   set_threads(common_.threads);
   fix_blocking();
   try {
+    for (const auto& check : checks_) check();
     outputs_.claim(common_.force);
     set_provenance({command_line(argc, argv), name_ + " " DCNN_VERSION, outputs_.inputs()});
     const Exit exit = body();
@@ -206,6 +210,8 @@ int Tool::run(int argc, char** argv, const std::function<Exit()>& body) {
     return static_cast<int>(exit);
   } catch (const Error& error) {
     return fail_line(error.what(), error.exit());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail_line(error.path1().string() + ": " + error.code().message(), Exit::kFailure);
   } catch (const std::bad_alloc&) {
     return fail_line("out of memory", Exit::kFailure);
   } catch (const std::exception& error) {
@@ -214,11 +220,10 @@ int Tool::run(int argc, char** argv, const std::function<Exit()>& body) {
 }
 
 int Tool::fail_line(const std::string& message, Exit exit) const {
+  constexpr std::size_t kMostBytes = 2000;  // a message may quote a whole document
   std::string line = message;
-  for (char& c : line) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  std::cerr << name_ << ": " << line << std::endl;
+  std::replace_if(line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  std::cerr << name_ << ": " << excerpt(line, kMostBytes) << std::endl;
   return static_cast<int>(exit);
 }
 
@@ -246,12 +251,29 @@ ReadFlags::ReadFlags(Tool& tool) {
       tool.option("--resample", resample_hz_,
                   "put irregular clocks on a regular one [Hz; default: the recording's rate]")
           .value_optional()
-          .not_negative()
+          .between(0, 1000000)
           .group(kReading);
+  tool.option("--recipe", recipe_,
+              "import.json of dcnn-import: recordings are logs of any format that it reads")
+      .group(kReading);
 }
+
+namespace {
+
+/// Every recording of this process is a log that the recipe turns into one.
+void read_by_recipe(const Path& file) {
+  set_table_reader([recipe = read_recipe(file)](const Path& log) {
+    Imported imported = import_recording(log, recipe, {});
+    imported.notes.insert(imported.notes.begin(), "imported by a recipe");
+    return SourceTable{std::move(imported.table), std::move(imported.notes)};
+  });
+}
+
+}  // namespace
 
 ReadOptions ReadFlags::options() const {
   ReadOptions options;
+  if (recipe_) read_by_recipe(*recipe_);
   if (position_unit_ == "mm") options.position_unit = 1e-3;
   if (angle_unit_ == "deg") options.angle_unit = std::numbers::pi / 180.0;
   options.force_sign = force_sign_;

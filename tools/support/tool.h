@@ -42,6 +42,9 @@ class Tool {
   Output output(const std::string& names, T& variable, const std::string& help,
                 const std::vector<std::string>& contents = {});
 
+  /// Done when the command line is read and before anything is written or made.
+  void check(std::function<void()> check) { checks_.push_back(std::move(check)); }
+
   const CommonFlags& common() const { return common_; }
 
   /// Parses, claims the outputs, then calls `body`. Returns the exit code; every failure has become one line on stderr.
@@ -65,10 +68,11 @@ class Tool {
   std::unique_ptr<CLI::App> app_;
   std::deque<OptionRow> rows_;  // options point to them
   Outputs outputs_;
+  std::vector<std::function<void()>> checks_;
   CommonFlags common_;
 };
 
-/// --position-unit, --angle-unit, --force-sign and --resample.
+/// --position-unit, --angle-unit, --force-sign, --resample and --recipe.
 class ReadFlags {
  public:
   explicit ReadFlags(Tool& tool);
@@ -77,6 +81,7 @@ class ReadFlags {
  private:
   std::string position_unit_ = "m", angle_unit_ = "rad";
   double force_sign_ = 1.0, resample_hz_ = 0.0;
+  std::optional<std::filesystem::path> recipe_;
   std::optional<Option> resample_;
 };
 

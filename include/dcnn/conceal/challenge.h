@@ -19,6 +19,9 @@ std::vector<std::string> plan(int scenarios, std::uint64_t seed);
 /// 0.3 and 0.1 or 0.05 times the noise, and 4 to 8 of every other group.
 std::vector<std::string> rates_plan(int rounds, std::uint64_t seed);
 
+/// So many of drawn_laws() in turn, 1, 3 and 10 times the noise.
+std::vector<std::string> laws_plan(int count);
+
 /// The same scenarios under the conditions of a family (scenario.h), or of each in turn (`all`).
 /// Error(kUsage) for another name.
 std::vector<std::string> in_family(std::vector<std::string> ids, const std::string& family);

@@ -79,17 +79,25 @@ struct Scenario {
 /// Ids of the catalogue that a wrist force can show, and those beyond it.
 const std::vector<std::string>& listed_effects();
 const std::vector<std::string>& unlisted_effects();
+/// Laws that hardware has beside those: of a wrist tool, and further ones of an axis of a machine.
+const std::vector<std::string>& hardware_effects();
+const std::vector<std::string>& axis_effects();
+/// Whether a diagnosis may name it: any but the unlisted ones.
+bool is_listed(const std::string& effect);
+/// Laws with drawn numbers, directions and places, by which a discovery is judged.
+const std::vector<std::string>& drawn_laws();
 
 /// Families of conditions: `plain` (500 Hz, 25 to 45 s, noise of one level), `tremor` (a hand's, 4
 /// to 14 Hz), `load` (noise of each axis its own, growing with the force, in bursts), `clock` (200
-/// to 2000 Hz, rows lost, an uneven clock) and `field` (some of each, recordings of 12 to 60 s).
+/// to 2000 Hz, rows lost, an uneven clock), `field` (some of each, recordings of 12 to 60 s) and
+/// `hardware` (plain conditions, one of hardware_effects() where another family has a listed one).
 const std::vector<std::string>& families();
 
 /// Draws the scenario `id` = "group:value/effect/number", or "family+group:value/effect/number", of
 /// a seed; the same arguments give the same bytes. Groups, A being an amplitude in sensor noises:
 /// `single:A`, `foreign:A` (the listed effect in another form), `poor:A` (on a motion that hardly
 /// excites), `faint:A`, `unlisted:A`, `mixed:A` (unlisted, and a listed one drawn) with an effect;
-/// `double:A`, `triple:A`, `collinear:A` (two neighbours) with effect `any`; `null:KIND` (a kind of
+/// `law:A` (one of drawn_laws()), `double:A`, `triple:A`, `collinear:A` (two neighbours) with effect `any`; `null:KIND` (a kind of
 /// noise, or `pose`) with effect `none`. What changes nothing on the motion that was drawn for it
 /// (dry friction along an axis that rests) is drawn anew, motion and all. Error(kUsage) for another
 /// id.

@@ -9,6 +9,7 @@
 #include "dcnn/core/parallel.h"
 #include "dcnn/data/csv.h"
 #include "dcnn/data/system.h"
+#include "dcnn/data/table_reader.h"
 
 namespace dcnn {
 
@@ -59,6 +60,10 @@ struct Recording {
 /// Error(kData).
 Recording read_recording(const std::filesystem::path& path, const ReadOptions& options,
                          const System& system);
+
+/// The same from a table that is in memory; `file` names it in errors.
+Recording make_recording(SourceTable table, const std::filesystem::path& file,
+                         const ReadOptions& options, const System& system);
 
 /// The measured quantities to predict: for `wrist` fx,fy,fz and tx,ty,tz where present.
 struct Targets {

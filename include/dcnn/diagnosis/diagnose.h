@@ -50,6 +50,9 @@ struct Diagnosis {
 Diagnosis diagnose(const DiagnosisRequest& request,
                    const std::function<void(const std::string&)>& progress);
 
+/// Findings as a reader wants them: those of friction along one axis as one curve ("friction"), and a
+/// spring whose numbers mean nothing as the constant that it is.
+Json in_lines(const Json& findings);
 /// What was found, in one plain sentence.
 std::string headline(const Json& report);
 /// The headline, then ten lines: what the terminal shows.

@@ -19,6 +19,8 @@ namespace dcnn {
 struct Wrench {
   Eigen::MatrixXd force;   ///< (T,3) N
   Eigen::MatrixXd torque;  ///< (T,3) N·m, or (0,3)
+  /// (T,3) N, what is carried before any effect of Stage::kForce; no rows where nothing asks for it.
+  Eigen::MatrixXd load = {};
 };
 
 /// What effects see of the motion at one sample, frames as in Motion.
@@ -29,11 +31,13 @@ struct Instant {
   Eigen::Vector3d euler = Eigen::Vector3d::Zero();  ///< alpha, beta, gamma of E, continuous
   Eigen::Vector3d v_B = Eigen::Vector3d::Zero(), a_B = Eigen::Vector3d::Zero();
   Eigen::Vector3d w_S = Eigen::Vector3d::Zero(), dw_S = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_B = Eigen::Vector3d::Zero();
 };
 
 /// One row of a Wrench.
 struct InstantWrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
+  Eigen::Vector3d load = Eigen::Vector3d::Zero();  ///< as Wrench::load
 };
 
 /// An effect that runs sample by sample; it owns its state, and calling it allocates nothing.
@@ -75,6 +79,7 @@ struct EffectSpec {
   std::optional<std::pair<double, double>> interval_s;
   Json parameters;
   std::string recording;  ///< acts in this file only; empty for all
+  Json law = nullptr;     ///< of a discovered one (dcnn/physics/law.h), else null
 };
 
 /// A parameter the force is not linear in: where the diagnosis looks for it.
@@ -93,6 +98,7 @@ struct EffectFit {
   std::vector<ShapeParameter> shapes = {};
   /// The published parameters that belong to amplitudes and shapes.
   Json (*parameters)(const Eigen::VectorXd& amplitudes, const Eigen::VectorXd& shapes) = nullptr;
+  bool machines_only = false;  ///< tried on axes of other machines alone
 };
 
 /// What an effect must know of time: nothing, when a row was taken, or the motion between rows.
@@ -108,11 +114,16 @@ struct EffectKind {
   const char* equation = nullptr;  ///< as published
   /// The parameter names with the values used by examples and tests, JSON.
   const char* example = "{}";
+  /// Of an effect whose form stands beside its parameters under the key `law`: one, JSON.
+  const char* example_law = nullptr;
   AxisRule axis = AxisRule::kNone;
   IntervalRule interval = IntervalRule::kOptional;
   TimeNeed needs_time =
       TimeNeed::kNone;         ///< what it needs to act, else it leaves the wrench as it is
   bool machines_only = false;  ///< the diagnosis looks for it on axes of other machines alone
+  bool of_load = false;        ///< needs Wrench::load
+  /// A relative of a commoner law, which it must outdo by the price of a number (prior::kSpecial).
+  bool special = false;
   /// Changes the model before anything is computed (Stage::kTool), else null.
   void (*change)(ToolModel&, Options& parameters) = nullptr;
   /// Changes the wrench (other stages), else null. Internal states start in equilibrium with the
@@ -122,6 +133,8 @@ struct EffectKind {
   /// The same sample by sample; null where the future, the recording's clock or a foreign force is
   /// needed.
   EffectStream (*stream)(const EffectSpec&, Options& parameters) = nullptr;
+  /// Whether one that streams does so with these parameters; null: always.
+  bool (*online)(const EffectSpec&) = nullptr;
   /// The ways in which its parameters are fitted (thermal_drift has two); empty for what the
   /// diagnosis does not look for.
   std::vector<EffectFit> fits = {};

@@ -19,10 +19,12 @@ struct Motion {
   std::vector<Eigen::Matrix3d> R_BS;
   Eigen::MatrixXd euler;      ///< alpha, beta, gamma of E, continuous
   Eigen::MatrixXd v_B, a_B;   ///< of the sensor's origin, in B; (0,3) where nothing logged tells it
+  Eigen::MatrixXd p_B;        ///< position of the sensor's origin as logged; (0,3) where it is not
   Eigen::MatrixXd w_S, dw_S;  ///< angular velocity and acceleration, in S
   Eigen::VectorXd temperature;  ///< degC, empty where not logged
   double dt = 0.0;              ///< s; 0 for a list of poses at rest
   bool has_clock = true;        ///< t is a time
+  bool of_axis = false;         ///< of one axis of a machine (axis_machine.h), not of a tool
   std::vector<Segment> segments;
 
   Index samples() const { return t.size(); }

@@ -5,6 +5,7 @@
 
 #include "dcnn/core/json.h"
 #include "dcnn/data/recording.h"
+#include "dcnn/runtime/plot_stream.h"
 #include "dcnn/runtime/udp.h"
 
 namespace dcnn {
@@ -32,6 +33,7 @@ struct ServeOptions {
   double latest = PacketGate::kOldest;  ///< s, most that a packet may come later than the fastest
   double seconds = 0.0;                 ///< 0: until stop() says so
   std::function<bool()> stop;
+  PlotStream* plot = nullptr;  ///< told of every cycle
 };
 
 /// Answers every sample in its cycle; where none comes in time, tells the peer what the guard does
@@ -42,7 +44,7 @@ Json serve_udp(OnlineCompensator& compensator, const ServeOptions& options);
 /// Reads a header and rows as in a recording from one file descriptor, answers each row on the
 /// other one: t, targets with _ext, state, reason, contact. A row that is no sample is a bad cycle,
 /// not an end. Error(kData) for a header without a pose or force.
-Json serve_lines(OnlineCompensator& compensator, int in, int out);
+Json serve_lines(OnlineCompensator& compensator, int in, int out, PlotStream* plot = nullptr);
 
 /// Plays a recording forwards and backwards through packets on a loopback pair of sockets, as fast
 /// as it goes, for so many cycles: what serve_udp() costs and whether memory grows.

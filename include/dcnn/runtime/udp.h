@@ -26,6 +26,8 @@ class UdpSocket {
   UdpSocket& operator=(const UdpSocket&) = delete;
   /// Two that speak with each other on the loopback, on ports that are free.
   static std::pair<UdpSocket, UdpSocket> pair();
+  /// One that only sends, from any port that is free.
+  static UdpSocket to(const std::string& peer);
 
   /// Waits for a datagram until `deadline` (monotonic_seconds(); the past: does not wait). Nothing
   /// when none came; a longer one than `buffer` is cut to it.

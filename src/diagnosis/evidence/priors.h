@@ -4,6 +4,9 @@
 namespace dcnn::evidence::prior {
 
 constexpr double kName = 0.04;      ///< probability of each listed effect, shared by its axes
+/// Of a law that bends a commoner one, as a share of the latter's; in a search it costs one number
+/// more.
+constexpr double kSpecial = 0.1;
 constexpr double kUnknown = 0.12;   ///< of physics that no effect of the catalogue describes
 constexpr double kSlowNoise = 0.1;  ///< of noise that rises as 1/f below the floor's band
 /// Power of a sensor's slow noise over its floor at most, in any octave.

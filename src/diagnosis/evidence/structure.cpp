@@ -53,6 +53,7 @@ double log_prior(const Setting& setting, const JointFit& fit, std::size_t m) {
   const Member& member = fit.members[m];
   const auto axes = std::max<std::size_t>(1, axes_of(setting.study, *member.kind).size());
   double sum = elementary::log(prior::kName / (1.0 - prior::kName)) - elementary::log(double(axes));
+  if (member.kind->special) sum += elementary::log(prior::kSpecial);
   if (member.interval_s) {
     const double edges = member.kind->interval == IntervalRule::kRequired ? 2.0 : 1.0;
     sum += edges * elementary::log(prior::kEdge / std::max(1.0, span_seconds(setting.study)));

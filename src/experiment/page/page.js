@@ -30,9 +30,11 @@ function draw(script) {
   const group = groups.get(data.x) || groups.set(data.x, []).get(data.x);
   const values = new Map();
   const key = plot.querySelector('.key');
+  const series = {};  // colours that come again are dashed
+  data.labels.forEach((name, k) => { if (data.colors.indexOf(data.colors[k]) < k) series[name] = { strokePattern: [7, 3] }; });
   const graph = new Dygraph(plot.querySelector('.graph'), data.rows, {
-    labels: [data.x, ...data.labels], colors: data.colors, xlabel: data.x, ylabel: data.y, legend: 'never',
-    strokeWidth: 1.2, animatedZooms: false, connectSeparatedPoints: true, axisLabelFontSize: 12,
+    labels: [data.x, ...data.labels], colors: data.colors, series, xlabel: data.x, ylabel: data.y, legend: 'never',
+    axes: { y: { axisLabelWidth: 64, axisLabelFormatter: v => String(Number(v.toPrecision(3))) } }, strokeWidth: 1.2, animatedZooms: false, connectSeparatedPoints: true, axisLabelFontSize: 12,
     drawCallback: follow(plot, group),
     highlightCallback: (e, x, points) => {
       for (const p of points) values.get(p.name).textContent = ' ' + Number(p.yval).toPrecision(4) + ' at ' + Number(x).toPrecision(6);
@@ -67,6 +69,22 @@ const number = text => {
   return match ? Number(match[0].replace('−', '-')) : NaN;
 };
 
+// Some browsers give pages from files no clipboard; then a selection is copied.
+async function copied(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch (e) {
+    const area = document.createElement('textarea');
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    const done = document.execCommand('copy');
+    area.remove();
+    return done;
+  }
+}
+
 function sortable(table) {
   const body = table.tBodies[0];
   Array.from(table.tHead.rows[0].cells).forEach((cell, k) => {
@@ -92,8 +110,7 @@ function sortable(table) {
   copy.onclick = async () => {
     const quoted = cell => '"' + cell.textContent.replace(/"/g, '""') + '"';
     const text = Array.from(table.rows, row => Array.from(row.cells, quoted).join(',')).join('\n');
-    await navigator.clipboard.writeText(text);
-    copy.textContent = 'copied';
+    copy.textContent = await copied(text) ? 'copied' : 'the browser does not allow it';
   };
   table.parentElement.after(copy);
 }

@@ -24,28 +24,12 @@ bool is_done(const Step& step, const std::filesystem::path& stamp, const std::st
   return complete && read_json(stamp, Exit::kFailure).value("inputs_sha256", "") == identity;
 }
 
-/// Progress over all steps that are not skipped, by their expected cost.
-class Weights {
- public:
-  explicit Weights(const std::vector<Step>& steps) {
-    for (const Step& step : steps) total_ += step.seconds;
-  }
-  void skip(const Step& step) { total_ -= step.seconds; }
-  void finish(const Step& step) { done_ += step.seconds; }
-  double share(const Step& step, double within) const {
-    return std::clamp((done_ + within * step.seconds) / std::max(total_, 1e-9), 0.0, 1.0);
-  }
-
- private:
-  double total_ = 0, done_ = 0;
-};
-
-void work_on(const Step& step, const std::string& identity, const Weights& weights,
+void work_on(const Step& step, const std::string& identity, const StepTimes& times,
              const ReproductionObserver& observer) {
   double furthest = 0;  // candidates of a preset begin anew
   const auto progress = [&](double share) {
     furthest = std::max(furthest, share);
-    if (observer.progress) observer.progress(weights.share(step, furthest), step.name);
+    if (observer.progress) observer.progress(times.share(step, furthest), step.name);
   };
   progress(0);
   step.work({observer.stop_wanted, progress, observer.note, identity});
@@ -53,15 +37,47 @@ void work_on(const Step& step, const std::string& identity, const Weights& weigh
 
 }  // namespace
 
+StepTimes::StepTimes(const std::vector<Step>& steps) {
+  for (const Step& step : steps) kinds_[name_of(step)].left += step.seconds;
+}
+
+/// "A/dcnn: training" is a training; scorings are told apart by their noise.
+std::string StepTimes::name_of(const Step& step) { return step.name.substr(step.name.rfind(' ') + 1); }
+
+void StepTimes::skip(const Step& step, double measured) {
+  Kind& kind = kinds_[name_of(step)];
+  kind.left -= step.seconds;
+  if (measured > 0.0) kind.expected += step.seconds, kind.measured += measured;
+}
+
+void StepTimes::finish(const Step& step, double measured) {
+  skip(step, measured);
+  done_ += measured;
+}
+
+double StepTimes::factor(const Kind& kind) const {
+  if (kind.expected > 0.0) return kind.measured / kind.expected;
+  double expected = 0.0, measured = 0.0;
+  for (const auto& [name, other] : kinds_) expected += other.expected, measured += other.measured;
+  return expected > 0.0 ? measured / expected : 1.0;
+}
+
+double StepTimes::share(const Step& step, double within) const {
+  double left = 0.0;
+  for (const auto& [name, kind] : kinds_) left += kind.left * factor(kind);
+  const double own = within * step.seconds * factor(kinds_.at(name_of(step)));
+  return std::clamp((done_ + own) / std::max(done_ + left, 1e-9), 0.0, 1.0);
+}
+
 bool run_steps(const std::vector<Step>& steps, const std::filesystem::path& folder,
                const ReproductionObserver& observer, ReproductionOutcome& outcome) {
-  Weights weights(steps);
+  StepTimes times(steps);
   for (const Step& step : steps) {
     if (observer.stop_wanted && observer.stop_wanted()) return false;
     const std::string identity = sha256_hex({step.name, "\n", step.inputs()});
     const auto stamp = stamp_path(folder, step.name);
     if (is_done(step, stamp, identity)) {
-      weights.skip(step);
+      times.skip(step, read_json(stamp, Exit::kFailure).value("seconds", 0.0));
       ++outcome.skipped;
       continue;
     }
@@ -69,7 +85,7 @@ bool run_steps(const std::vector<Step>& steps, const std::filesystem::path& fold
     std::filesystem::remove(stamp, ignored);  // what it says is about to become wrong
     const auto begin = std::chrono::steady_clock::now();
     try {
-      work_on(step, identity, weights, observer);
+      work_on(step, identity, times, observer);
     } catch (const Stopped&) {
       return false;
     }
@@ -77,7 +93,7 @@ bool run_steps(const std::vector<Step>& steps, const std::filesystem::path& fold
     const Json written = {
         {"step", step.name}, {"inputs_sha256", identity}, {"seconds", took.count()}};
     write_file(stamp, written.dump(2) + "\n");
-    weights.finish(step);
+    times.finish(step, took.count());
     ++outcome.done;
   }
   return true;

@@ -10,7 +10,7 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
-std::string with_spread(const Spread& s, int runs) {
+std::string level_with_spread(const Spread& s, int runs) {
   if (runs < 2) return fixed(s.mean, 4);
   return fixed(s.mean, 4) + " ± " + fixed(s.deviation, 4);
 }
@@ -74,12 +74,12 @@ void add_score_table(HtmlReport& page, const Scores& scores, const std::vector<E
   if (scores.models.front().levels.front().overall) {
     add_level_table(
         page, scores, entries, "overall [" + scores.units[0] + "]",
-        [](const LevelScore& level) { return with_spread(*level.overall, level.runs); });
+        [](const LevelScore& level) { return level_with_spread(*level.overall, level.runs); });
   }
   for (std::size_t j = 0; j < scores.targets.size(); ++j) {
     add_level_table(
         page, scores, entries, scores.targets[j] + " [" + scores.units[j] + "]",
-        [j](const LevelScore& level) { return with_spread(level.rmse[j], level.runs); });
+        [j](const LevelScore& level) { return level_with_spread(level.rmse[j], level.runs); });
   }
 }
 
@@ -155,7 +155,7 @@ void add_training_spread(HtmlReport& page, const ReproductionPlan& plan, const R
             results.scores.at(kFurtherTrainings + "/" + further_training(k)).models[m].levels[l];
         if (level.overall) values.push_back(level.overall->mean);
       }
-      row.push_back(with_spread(spread(values), static_cast<int>(values.size())));
+      row.push_back(level_with_spread(spread(values), static_cast<int>(values.size())));
     }
     rows.push_back(row);
   }

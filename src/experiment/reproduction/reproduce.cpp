@@ -53,7 +53,7 @@ Json summary_of(const ReproductionRequest& request, const std::vector<Verdicts>&
   return summary;
 }
 
-void check(const ReproductionRequest& request, const ReproductionPlan& plan) {
+void check_request(const ReproductionRequest& request, const ReproductionPlan& plan) {
   require(request.data.empty() || request.data.size() == 2, Exit::kUsage,
           "--data: give a training and a test recording");
   require(plan.entries.size() > 1, Exit::kUsage, "--models: nothing to train");
@@ -69,7 +69,7 @@ void check(const ReproductionRequest& request, const ReproductionPlan& plan) {
 
 Json reproduction_plan(const ReproductionRequest& request) {
   const ReproductionPlan plan = make_plan(request);
-  check(request, plan);
+  check_request(request, plan);
   Workshop workshop(request, plan);
   Json list = Json::array();
   double total = 0;
@@ -83,7 +83,7 @@ Json reproduction_plan(const ReproductionRequest& request) {
 ReproductionOutcome reproduce(const ReproductionRequest& request,
                               const ReproductionObserver& observer) {
   const ReproductionPlan plan = make_plan(request);
-  check(request, plan);
+  check_request(request, plan);
   const OutputLayout layout{request.out};
   Workshop workshop(request, plan);
   ReproductionOutcome outcome;

@@ -1,0 +1,162 @@
+// A force law as data: a product of shapes of named coordinates along a direction, with units.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "dcnn/physics/effect.h"
+
+namespace dcnn::law {
+
+using Eigen::Vector3d;
+
+/// A scalar of the motion or of the force that the law is added to.
+struct Coordinate {
+  const char* name;       ///< "v_tool_z"
+  const char* unit;       ///< "m/s"
+  const char* frame;      ///< base, sensor, tool, or "" for what no frame changes
+  const char* words;      ///< "the velocity along the tool"
+  bool is_rate = false;   ///< a displacement per second: states of displacement integrate it
+  bool is_clock = false;  ///< of the recording's clock: not known online
+};
+/// All of them; a law names one by its place in this list.
+const std::vector<Coordinate>& coordinates();
+
+/// A vector of the sensor frame that the force is proportional to.
+struct Direction {
+  const char* name;   ///< "base_x", "velocity"
+  const char* unit;   ///< empty for unit vectors, else of the vector, which is divided by a scale
+  const char* words;  ///< "the base's x axis"
+};
+const std::vector<Direction>& directions();
+/// An axis of sensor, tool or base.
+bool is_axis(std::size_t direction);
+
+/// f(u), u = (q - centre)/scale, q the coordinate or a state that it drives; p a further number.
+struct Shape {
+  const char* name;
+  const char* equation;            ///< in u and p
+  const char* latex;               ///< with @ for u and # for p
+  const char* extra;               ///< stem of p, or empty
+  double least = 0.0, most = 0.0;  ///< bounds of p
+  bool free_scale = true;          ///< false: the amplitude does what the scale could, which stays
+  bool free_centre = true;
+  bool signed_scale = false;  ///< the two signs of the scale are two laws
+  double (*value)(double u, double p) = nullptr;
+};
+const std::vector<Shape>& shapes();
+
+/// What a coordinate drives before the shape.
+enum class Memory {
+  kNone,
+  kLag,       ///< s' = (q - s)/tau
+  kHighPass,  ///< q - s with that s
+  kPlay,      ///< s follows q at the distance of a width (Krasnosel'skii and Pokrovskii 1989)
+  kDahl,   ///< ds = (dx - abs(dx) s)/width, x the coordinate or, of a rate, its integral; |s| <= 1
+  kDwell,  ///< s' = 1 - abs(x') s/length: seconds of contact (Dieterich 1979)
+};
+
+struct Factor {
+  std::size_t shape = 0, coordinate = 0;  ///< places in shapes() and coordinates()
+  Memory memory = Memory::kNone;
+  bool centred = false;
+  bool operator==(const Factor&) const = default;
+};
+
+/// One number of a law, as published.
+struct Number {
+  std::string name, unit;
+  /// Set once and not fitted: the amplitude is told at this value.
+  bool is_reference = false;
+  double low = 0.0, high = 0.0;  ///< bounds; positive where low > 0
+};
+
+/// force = amplitude · product of factors · direction, the product behind a lag where `lagged`.
+struct Structure {
+  std::size_t direction = 0;
+  bool direction_lagged = false;  ///< the vector passes a first-order lag
+  bool lagged = false;
+  bool on_torque = false;
+  std::vector<Factor> factors;
+  bool operator==(const Structure&) const = default;
+};
+
+/// The numbers that a structure has, in the order in which a law holds them: the amplitude, those
+/// of the direction, the lag, then factor by factor memory, centre, scale, p.
+std::vector<Number> numbers_of(const Structure& structure);
+
+struct Law {
+  Structure structure;
+  Eigen::VectorXd numbers;
+};
+
+/// The structure of a law as it stands in a file; expression, coordinates and the like are told
+/// again by to_json() and not read.
+Structure parse_structure(Options& options);
+Law parse_law(const Structure& structure, Options& parameters);
+/// {"axis", "factors", …, "expression", "latex", "words", "coordinates", "states"}.
+Json to_json(const Law& law);
+Json parameters_json(const Law& law);
+
+std::string expression(const Law& law);
+std::string latex(const Law& law);
+/// "a force against the velocity along the tool, …".
+std::string words(const Law& law);
+bool needs_clock(const Structure& structure);
+bool needs_position(const Structure& structure);
+
+/// What coordinates and directions are made of, at one sample.
+struct Sample {
+  Eigen::Matrix3d R_BS = Eigen::Matrix3d::Identity();
+  Vector3d euler, p_B, v_B, a_B, w_S, dw_S;
+  Vector3d load_S;  ///< N, the force that the law is added to
+  double t = 0.0;   ///< s, the recording's clock
+};
+double coordinate_at(std::size_t coordinate, const Sample& now);
+/// In the sensor frame; unit vectors are zero where what they are taken from is.
+Vector3d direction_at(std::size_t direction, const Sample& now);
+
+/// s' = (q - s)/tau of a value or a vector, exact for an input linear between samples.
+template <class Value>
+class LagRun {
+ public:
+  Value step(const Value& q, double tau, double h, bool first);
+
+ private:
+  Value s_{}, before_{};
+  double h_ = -1.0, decay_ = 0.0, ramp_ = 0.0;  // of the step before
+};
+
+/// The state that a factor's coordinate drives, and its value; allocates nothing.
+class FactorRun {
+ public:
+  FactorRun(const Factor& factor, const double* numbers);
+  /// `h` s after the sample before; `first` begins a stretch, states in equilibrium.
+  double step(double q, double h, bool first);
+
+ private:
+  double state(double q, double h, bool first);
+  const Shape* shape_;
+  Memory memory_;
+  bool is_rate_;
+  double size_ = 1.0, centre_ = 0.0, scale_ = 1.0, extra_ = 0.0;
+  double s_ = 0.0, before_ = 0.0;
+  LagRun<double> lag_;
+};
+
+/// The force of a law sample by sample; step() allocates nothing.
+class LawRun {
+ public:
+  explicit LawRun(const Law& law);
+  Vector3d step(const Sample& now, double h, bool first);
+
+ private:
+  Structure structure_;
+  double amplitude_ = 0.0, scale_ = 1.0, direction_tau_ = 0.0, tau_ = 0.0;
+  std::vector<FactorRun> factors_;
+  LagRun<double> lag_;
+  LagRun<Vector3d> direction_lag_;
+};
+
+}  // namespace dcnn::law

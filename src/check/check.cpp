@@ -1,0 +1,130 @@
+#include "dcnn/check/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "check/kind.h"
+#include "check/rows.h"
+
+namespace dcnn::check {
+namespace {
+
+using Eigen::Index;
+constexpr double kListed = 0.05;  // of a fault's probability; less is not worth a line
+constexpr std::size_t kReadingsListed = 8;
+
+/// What one fault does to the statistic of another: the consequence is not listed beside its cause.
+const std::vector<std::pair<std::string, std::string>> kConsequences{
+    {"counts", "force_unit"}, {"counts", "quantisation"}, {"wrap", "spikes"}, {"wrap", "contact"},
+    {"dropouts", "spikes"},   {"dropouts", "frozen"},     {"saturation", "frozen"},
+    {"frozen", "contact"},    {"saturation", "contact"},  {"held", "quantisation"},
+    {"held", "frozen"},       {"held", "delay"},          {"frozen", "held"},
+    {"clock_order", "jitter"}, {"moving_rows", "no_motion"}, {"frozen", "delay"},
+    {"contact", "position_axes"}, {"no_motion", "delay"}};
+
+void drop_consequences(std::vector<Fault>& faults) {
+  const std::vector<Fault> all = faults;
+  std::erase_if(faults, [&](const Fault& fault) {
+    return std::any_of(all.begin(), all.end(), [&](const Fault& cause) {
+      return cause.probability >= kLikely &&
+             std::find(kConsequences.begin(), kConsequences.end(), std::pair(cause.id, fault.id)) !=
+                 kConsequences.end();
+    });
+  });
+}
+
+/// A column that is no force at all leaves nothing to fit a tool to.
+void drop_readings_of_broken_columns(std::vector<Fault>& faults) {
+  const bool broken = std::any_of(faults.begin(), faults.end(), [](const Fault& fault) {
+    return (fault.id == "wrap" || fault.id == "dropouts") && fault.probability >= kLikely;
+  });
+  if (!broken) return;
+  std::erase_if(faults, [](const Fault& fault) {
+    return std::any_of(fault_kinds().begin(), fault_kinds().end(), [&](const FaultKind* kind) {
+      return kind->id == fault.id && kind->readings != nullptr && kind->of_force;
+    });
+  });
+}
+
+/// Certain ones that stop first; a register that wraps before what else its counts show; the rest
+/// by falling probability.
+void sort_faults(std::vector<Fault>& faults) {
+  const auto rank = [](const Fault& fault) {
+    return std::tuple(!(fault.stops && fault.probability >= kCertain),
+                      !(fault.id == "wrap" && fault.probability >= kCertain), -fault.probability);
+  };
+  std::stable_sort(faults.begin(), faults.end(),
+                   [&](const Fault& a, const Fault& b) { return rank(a) < rank(b); });
+}
+
+/// What the motion shows of a rigid tool: relative deviations from the fit's covariance.
+void set_identifiable(const Adopted& a, Report& report) {
+  if (!a.compared) return;
+  const double scale = std::max(1.0, static_cast<double>(3 * a.rows.centres.size()) / independent_of(a.fit.residual));
+  const auto deviation = [&](Index k) { return std::sqrt(std::max(0.0, a.fit.covariance(k, k) * scale)); };
+  const bool mass = a.fit.mass > 0.0 && deviation(0) < 0.1 * a.fit.mass;
+  report.identifiable["mass"] = mass;
+  for (Index k = 0; k < 3; ++k) {
+    const std::string axis(1, "xyz"[k]);
+    report.identifiable["com_" + axis] = mass && deviation(1 + k) < 0.01 * a.fit.mass;
+    report.identifiable["bias_" + axis] = deviation(4 + k) < 0.02 * 9.81 * std::max(a.fit.mass, 0.1);
+  }
+  report.identifiable["friction"] = a.motion.has_position && a.rows.half > 0;
+  report.identifiable["delay"] = a.rows.half > 0;
+}
+
+void set_curves(const Log& log, const Adopted& a, Report& report) {
+  if (!a.compared) return;
+  const auto n = static_cast<Index>(a.rows.centres.size());
+  Eigen::VectorXd t(n);
+  for (Index i = 0; i < n; ++i) {
+    const Index row = a.rows.centres[static_cast<std::size_t>(i)];
+    t[i] = log.t.size() > 0 ? log.t[row] * a.reading.clock : static_cast<double>(row);
+  }
+  for (Index j = 0; j < 3; ++j) {
+    const std::string axis = std::string("f") + "xyz"[j];
+    report.measured.push_back({axis, t, a.fit.force.col(j)});
+    report.rigid.push_back({axis + " of a rigid tool", t, a.fit.force.col(j) - a.fit.residual.col(j)});
+  }
+}
+
+void add_notes(const Log& log, const Adopted& a, Report& report) {
+  if (a.compared) return;
+  report.notes.push_back(log.is_wrist() ? "too short to fit a rigid tool: units, signs, axes and frames were not compared"
+                                        : "no pose with forces: units, signs and axes were compared by their size alone");
+}
+
+}  // namespace
+
+const Fault* Report::stopping(const std::vector<std::string>& accepted) const {
+  for (const Fault& fault : faults) {
+    const bool passes = std::find(accepted.begin(), accepted.end(), fault.id) != accepted.end();
+    if (fault.stops && fault.probability >= kCertain && !passes) return &fault;
+  }
+  return nullptr;
+}
+
+Report check(const Log& log) {
+  Report report;
+  report.log = log.name;
+  const Adopted adopted = adopt(log);
+  report.faults = adopted.faults;
+  const Evidence evidence{log, adopted};
+  for (const FaultKind* kind : fault_kinds()) {
+    if (kind->find == nullptr) continue;
+    for (Fault& fault : kind->find(evidence)) report.faults.push_back(std::move(fault));
+  }
+  std::erase_if(report.faults, [](const Fault& fault) { return fault.probability < kListed; });
+  drop_consequences(report.faults);
+  drop_readings_of_broken_columns(report.faults);
+  sort_faults(report.faults);
+  report.readings = adopted.weights;
+  if (report.readings.size() > kReadingsListed) report.readings.resize(kReadingsListed);
+  set_identifiable(adopted, report);
+  set_curves(log, adopted, report);
+  add_notes(log, adopted, report);
+  return report;
+}
+
+}  // namespace dcnn::check

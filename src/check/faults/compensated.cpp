@@ -1,0 +1,21 @@
+#include "check/kind.h"
+
+namespace dcnn::check {
+namespace {
+
+void compensations(const Log& log, const Reading& base, std::vector<Reading>& out) {
+  if (!log.is_wrist() || !log.declared.model || base.compensated) return;
+  Reading reading = base;
+  reading.compensated = true;
+  reading.channel = "fx";
+  reading.words = "the force holds no weight: the controller has subtracted a payload, or no tool is mounted";
+  out.push_back(reading);
+}
+
+}  // namespace
+
+const FaultKind compensated_fault{"compensated", true,
+                                  "record with the payload set to 0 kg, or add m R^T g of that payload back", "",
+                                  nullptr, compensations, true};
+
+}  // namespace dcnn::check

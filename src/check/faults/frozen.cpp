@@ -1,0 +1,59 @@
+#include <algorithm>
+#include <cmath>
+
+#include "check/rows.h"
+#include "core/elementary.h"
+
+namespace dcnn::check {
+namespace {
+
+constexpr double kMoves = 0.3;  // of the usual speed: a sensor at rest may repeat its value
+
+/// p-value of a run of L equal values among n rows whose neighbours are equal with probability q.
+double run_p(double n, double length, double q) {
+  return std::min(1.0, n * elementary::exp(length * elementary::log(std::max(q, 1.0 / n))));
+}
+
+bool at_an_end(const Eigen::VectorXd& x, double value) {
+  return value == x.maxCoeff() || value == x.minCoeff();
+}
+
+void find_frozen_column(const Log& log, const std::string& name, std::vector<Fault>& out) {
+  const Eigen::VectorXd x = log.column(name);
+  const std::vector<Run> runs = runs_of(x);
+  const auto longest = std::max_element(runs.begin(), runs.end(), [](const Run& a, const Run& b) {
+    return a.length < b.length;
+  });
+  const bool whole = longest->length == x.size();
+  if (longest->length < 8 || (!whole && (longest->value == 0.0 || at_an_end(x, longest->value)))) return;
+  const Eigen::Index end = longest->begin + longest->length;
+  if (relative_motion(log, longest->begin, end) < kMoves) return;
+  // Repeats outside of the run tell how often this channel repeats at all; held samples come in rows.
+  double others = 0.0, second = 1.0;
+  for (const Run& run : runs) {
+    if (&run == &*longest) continue;
+    others += static_cast<double>(run.length - 1);
+    second = std::max(second, static_cast<double>(run.length));
+  }
+  const double n = static_cast<double>(x.size());
+  const double q = whole ? 0.0 : others / std::max(1.0, n - static_cast<double>(longest->length));
+  const double p = run_p(n, static_cast<double>(longest->length) / second, q);
+  Fault fault = fault_of(frozen_fault, posterior_of_p(p), name,
+                         name + " is exactly " + shown_number(longest->value) + " for " +
+                             std::to_string(longest->length) + " rows while the robot moves");
+  set_interval(log, longest->begin, end, fault);
+  out.push_back(fault);
+}
+
+std::vector<Fault> find_frozen(const Evidence& e) {
+  std::vector<Fault> out;
+  if (!e.log.smooth) return out;
+  for (const std::string& name : measured_columns(e.log)) find_frozen_column(e.log, name, out);
+  return out;
+}
+
+}  // namespace
+
+const FaultKind frozen_fault{"frozen", true, "cut these rows, or repair the channel", "", find_frozen};
+
+}  // namespace dcnn::check

@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "check/rows.h"
+#include "core/elementary.h"
+
+namespace dcnn::check {
+namespace {
+
+using Eigen::Index;
+constexpr double kPerDegree = 180.0 / std::numbers::pi;
+constexpr double kRateError = 0.03;  // of a rate's deviation: its own filter, its own delay
+
+/// What a logged rate may be, (n,columns) each, if it is not what it is called.
+struct RateMeaning {
+  Eigen::MatrixXd rate;
+  double scale;
+  std::string words;
+};
+
+double rate_cost(const Eigen::MatrixXd& logged, const RateMeaning& meaning, double independent) {
+  const Eigen::MatrixXd off = logged / meaning.scale - meaning.rate;
+  const double variance = median(off.rowwise().squaredNorm());
+  const double size = meaning.rate.squaredNorm() / static_cast<double>(meaning.rate.rows());
+  return 0.5 * independent * elementary::log(std::max(variance + kRateError * kRateError * size, 1e-300));
+}
+
+/// The first meaning is the declared one.
+void compare_rates(const Eigen::MatrixXd& logged, const std::vector<RateMeaning>& meanings, double independent,
+                   const std::string& channel, std::vector<Fault>& out) {
+  const double declared = rate_cost(logged, meanings[0], independent);
+  double odds = 0.0, most = -1e300;
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < meanings.size(); ++k) {
+    const double gain = declared - rate_cost(logged, meanings[k], independent);
+    odds += kFaultPrior / static_cast<double>(meanings.size() - 1) * elementary::exp(std::min(gain, 600.0));
+    if (gain > most) most = gain, best = k;
+  }
+  if (odds < 0.05) return;
+  out.push_back(fault_of(rates_fault, odds / (1.0 + odds), channel,
+                         channel + " is not the derivative of its position: it is " + meanings[best].words));
+}
+
+std::vector<RateMeaning> meanings_of(const Eigen::MatrixXd& rate, bool turns) {
+  std::vector<RateMeaning> all{{rate, 1.0, "as declared"}, {-rate, 1.0, "of the other sign"}};
+  if (turns) {
+    all.push_back({rate, kPerDegree, "in degrees per second where the position is in radians"});
+    all.push_back({rate, 1.0 / kPerDegree, "in radians per second where the position is in degrees"});
+    all.push_back({rate, 30.0 / std::numbers::pi, "in revolutions per minute"});
+  }
+  all.push_back({rate, 1e3, "1000 times too large (milli-units, or a clock in ms)"});
+  all.push_back({rate, 1e-3, "1000 times too small"});
+  return all;
+}
+
+void find_joint_rates(const Evidence& e, std::vector<Fault>& out) {
+  const Sampled& rows = e.adopted.rows;
+  const double dt = e.log.step * e.adopted.reading.clock;
+  for (const Joint& joint : e.log.joints) {
+    if (joint.position.empty() || joint.velocity.empty()) continue;
+    const Eigen::MatrixXd rate = rows.smoothed(e.log.column(joint.position), rows.first) / dt;
+    const Eigen::MatrixXd logged = rows.smoothed(e.log.column(joint.velocity), rows.value);
+    if (rate.norm() == 0.0) continue;
+    compare_rates(logged, meanings_of(rate, joint.turns), e.adopted.independent, joint.velocity, out);
+  }
+}
+
+/// Rates of a wrist are in S; some log them in B.
+void find_wrist_rates(const Evidence& e, const std::vector<std::string>& names, bool angular,
+                      std::vector<Fault>& out) {
+  const Adopted& a = e.adopted;
+  if (!e.log.has_all(names) || (!angular && !a.motion.has_position)) return;
+  const Eigen::Matrix3d R_ES = e.log.declared.model ? e.log.declared.model->R_ES() : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  const double dt = e.log.step * a.reading.clock;
+  const auto n = static_cast<Index>(a.rows.centres.size());
+  Eigen::MatrixXd in_sensor(n, 3), in_base(n, 3);
+  for (Index i = 0; i < n; ++i) {
+    const Eigen::Matrix3d R = a.motion.R[static_cast<std::size_t>(i)];
+    const Eigen::Vector3d v = angular ? Eigen::Vector3d(R * a.motion.w.row(i).transpose() / dt)
+                                      : Eigen::Vector3d(a.reading.position * (a.reading.position_axes * a.motion.velocity.row(i).transpose()) / dt);
+    in_base.row(i) = v;
+    in_sensor.row(i) = (R * R_ES).transpose() * v;
+  }
+  std::vector<RateMeaning> all = meanings_of(in_sensor, angular);
+  all.push_back({in_base, 1.0, "in the base frame, not in the sensor's"});
+  const double unit = angular ? a.reading.angle : a.reading.position;
+  compare_rates(unit * a.rows.smoothed(e.log.block(names), a.rows.value), all, a.independent, names[0], out);
+}
+
+std::vector<Fault> find_rates(const Evidence& e) {
+  std::vector<Fault> out;
+  if (e.adopted.rows.half == 0 || e.adopted.rows.centres.size() < 12) return out;
+  find_joint_rates(e, out);
+  if (!e.adopted.compared) return out;
+  find_wrist_rates(e, {"wx", "wy", "wz"}, true, out);
+  find_wrist_rates(e, {"vx", "vy", "vz"}, false, out);
+  return out;
+}
+
+}  // namespace
+
+const FaultKind rates_fault{"rates", true, "convert the column, or leave it out: rates are then derived from the position", "",
+                            find_rates};
+
+}  // namespace dcnn::check

@@ -1,0 +1,148 @@
+#include "dcnn/check/log.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "check/statistics.h"
+
+namespace dcnn::check {
+namespace {
+
+using Names = std::vector<std::string>;
+constexpr double kGapSteps = 5.0;      // a longer step is a gap, as in every reader
+constexpr double kSmoothRatio = 0.05;  // of von Neumann's ratio, 2 for rows in any order
+constexpr Eigen::Index kFewRows = 50;
+
+Eigen::Index find_column(const Table& table, const std::string& name) {
+  const auto it = std::find(table.columns.begin(), table.columns.end(), name);
+  return it == table.columns.end() ? -1 : it - table.columns.begin();
+}
+
+std::vector<Joint> declared_joints(const System& system) {
+  std::vector<Joint> joints;
+  for (const Axis& axis : system.axes) {
+    const bool turns = axis.position_unit.empty() ? axis.unit != "N" : axis.position_unit != "m";
+    joints.push_back({axis.name, axis.position, axis.velocity, axis.measured, turns});
+  }
+  return joints;
+}
+
+/// q_1 or q1 with qd_1 and tau_1, as arms are logged.
+std::vector<Joint> recognised_joints(const Log& log) {
+  std::vector<Joint> joints;
+  const auto first = [&](const Names& stems, const std::string& k) -> std::string {
+    for (const std::string& stem : stems) {
+      if (log.has(stem + k)) return stem + k;
+    }
+    return "";
+  };
+  for (int k = 0; k <= 32; ++k) {
+    const std::string number = std::to_string(k);
+    const std::string q = first({"q_", "q"}, number);
+    if (q.empty()) continue;
+    joints.push_back({"joint " + number, q, first({"qd_", "qd", "dq_", "dq"}, number),
+                      first({"tau_", "tau", "i_A_"}, number), true});
+  }
+  return joints;
+}
+
+/// Von Neumann's ratio of the pose's columns, the median of those that move.
+double neighbours_ratio(const Log& log) {
+  std::vector<double> ratios;
+  for (const std::string& name : log.positions()) {
+    const Eigen::VectorXd x = log.column(name);
+    const double spread = (x.array() - x.mean()).square().sum();
+    if (spread <= 0.0) continue;
+    // Angles and quaternions may jump by a turn or a sign: the few largest steps are left out.
+    Eigen::VectorXd steps = steps_of(x).cwiseAbs2();
+    std::sort(steps.begin(), steps.end());
+    ratios.push_back(steps.head(steps.size() - steps.size() / 50).sum() / spread);
+  }
+  if (ratios.empty()) return 0.0;
+  return median(Eigen::Map<Eigen::VectorXd>(ratios.data(), static_cast<Eigen::Index>(ratios.size())));
+}
+
+std::vector<Segment> segments_of(const Log& log) {
+  std::vector<Segment> segments{{0, log.rows()}};
+  for (Eigen::Index i = 1; i < log.t.size(); ++i) {
+    if (log.t[i] - log.t[i - 1] <= kGapSteps * log.step) continue;
+    segments.back().end = i;
+    segments.push_back({i, log.rows()});
+  }
+  return segments;
+}
+
+}  // namespace
+
+bool Log::has(const std::string& column_name) const { return find_column(table, column_name) >= 0; }
+
+bool Log::has_all(const Names& columns) const {
+  return std::all_of(columns.begin(), columns.end(),
+                     [&](const std::string& column_name) { return has(column_name); });
+}
+
+Eigen::VectorXd Log::column(const std::string& column_name) const {
+  const Eigen::Index k = find_column(table, column_name);
+  require(k >= 0, Exit::kData, name, ":1: column '", column_name, "' is missing; add it");
+  return table.values.col(k);
+}
+
+Eigen::MatrixXd Log::block(const Names& columns) const {
+  Eigen::MatrixXd out(rows(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    out.col(static_cast<Eigen::Index>(k)) = column(columns[k]);
+  }
+  return out;
+}
+
+bool Log::is_wrist() const {
+  return declared.system.kind == System::Kind::kWrist && has_pose() && has_all({"fx", "fy", "fz"});
+}
+
+std::vector<Names> Log::sensors() const {
+  std::vector<Names> sensors;
+  for (const Names& names : {Names{"fx", "fy", "fz"}, Names{"tx", "ty", "tz"}}) {
+    if (has_all(names)) sensors.push_back(names);
+  }
+  for (const Joint& joint : joints) {
+    if (!joint.measured.empty()) sensors.push_back({joint.measured});
+  }
+  return sensors;
+}
+
+Names Log::positions() const {
+  Names names;
+  for (const Names& some : {kPosition, has_quaternion() ? kQuaternion : kEuler}) {
+    if (has_all(some)) names.insert(names.end(), some.begin(), some.end());
+  }
+  for (const Joint& joint : joints) {
+    if (!joint.position.empty()) names.push_back(joint.position);
+  }
+  return names;
+}
+
+Log make_log(const std::string& name, Table table, const Declared& declared) {
+  Log log{name, std::move(table), declared, {}, {}, 0.0, false, {}};
+  const bool axes = declared.system.kind == System::Kind::kAxes;
+  log.joints = axes ? declared_joints(declared.system) : recognised_joints(log);
+  for (const Joint& joint : log.joints) {
+    for (const std::string& column : {joint.position, joint.velocity, joint.measured}) {
+      require(column.empty() || log.has(column), Exit::kData, name, ":1: column '", column,
+              "' of axis '", joint.name, "' is missing; add it or correct the system description");
+    }
+  }
+  if (log.has("t")) {
+    log.t = log.column("t");
+    if (log.t.size() > 0) log.t.array() -= double(log.t[0]);
+    log.step = median(steps_of(log.t));
+  }
+  log.smooth = log.rows() >= kFewRows && neighbours_ratio(log) < kSmoothRatio;
+  log.segments = log.step > 0.0 ? segments_of(log) : std::vector<Segment>{{0, log.rows()}};
+  return log;
+}
+
+Log read_log(const std::filesystem::path& path, const Declared& declared) {
+  return make_log(path.filename().string(), read_table(path).table, declared);
+}
+
+}  // namespace dcnn::check

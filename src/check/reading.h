@@ -1,0 +1,96 @@
+// A reading: what the numbers of a log mean. The log as declared is one, each fault of units, signs,
+// axes, frames and orders is another; they are compared by how well a rigid tool explains them.
+#pragma once
+
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "dcnn/check/check.h"
+
+namespace dcnn::check {
+
+/// How three or four columns make R_BE.
+struct Orientation {
+  std::string order;                  ///< of elementary turns, "zyx"; of a quaternion, "wxyz"
+  bool reversed = false;              ///< the first column belongs to the last letter
+  bool inverse = false;               ///< the log holds R_EB
+  Eigen::Vector3d sign{1.0, 1.0, 1.0};  ///< of the Euler angles
+
+  bool operator==(const Orientation&) const = default;
+};
+
+struct Reading {
+  std::string fault, words, channel, flag;  ///< empty as declared
+  double prior = 1.0;
+  double clock = 1.0, position = 1.0, angle = 1.0, force = 1.0;  ///< SI per unit of the file
+  Orientation orientation;
+  Eigen::Matrix3d position_axes = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d force_axes = Eigen::Matrix3d::Identity();  ///< F_S = force_axes * F_log
+  bool force_in_base = false, compensated = false;
+  bool harmless = false;  ///< what one may leave undeclared: it stops nothing
+};
+
+/// Rows of the log on which readings are compared, smoothed over some 0.12 s, with derivatives
+/// per sample: units of the clock come later.
+struct Sampled {
+  std::vector<Eigen::Index> centres;
+  Eigen::Index half = 0;  ///< of the window [rows]; 0: single rows of a list of poses
+  Eigen::VectorXd value, first, second;  ///< weights of the window
+
+  Eigen::MatrixXd smoothed(const Eigen::MatrixXd& signals, const Eigen::VectorXd& weights,
+                           Eigen::Index shift = 0) const;
+};
+Sampled sample(const Log& log);
+
+/// The motion as one reading has it, per sample.
+struct Kinematics {
+  std::vector<Eigen::Matrix3d> R;       ///< R_BE
+  Eigen::MatrixXd w, dw;                ///< (n,3) in E
+  Eigen::MatrixXd position, velocity, acceleration;  ///< (n,3) in B; (n,3) zero without a position
+  bool has_position = false;
+};
+Kinematics kinematics(const Log& log, const Sampled& rows, const Reading& reading);
+
+/// R_BE of every row.
+std::vector<Eigen::Matrix3d> orientations(const Log& log, const Reading& reading);
+
+/// F = m field - m (dw x c + w x (w x c)) + bias, by robust least squares.
+struct RigidFit {
+  double mass = 0.0;
+  Eigen::Vector3d moment{0, 0, 0}, bias{0, 0, 0};  ///< m c [kg m], [N]
+  double variance = 0.0;     ///< of the residual per axis, robust [N^2]
+  Eigen::MatrixXd residual, force;  ///< (n,3) in S [N]
+  Eigen::MatrixXd field, covariance;  ///< (n,3) [m/s^2]; of mass, moment, bias (7,7)
+};
+struct FitOptions {
+  Eigen::Index shift = 0;  ///< the force is read so many rows later
+  bool friction = false;   ///< beside the tool: what is easily taken for a delay or a contact
+};
+RigidFit fit_rigid(const Log& log, const Sampled& rows, const Kinematics& motion,
+                   const Reading& reading, const FitOptions& options = {});
+
+/// Mean of the logarithm of the residual's variance per axis over eight stretches of time, `floor`
+/// [N] added to its deviation: a contact or a cable that pulls spoils one or two of them.
+double log_variance(const Eigen::MatrixXd& residual, double floor);
+
+/// What the comparison of readings came to: the likeliest one, faults applied one after another.
+struct Adopted {
+  Reading reading;
+  Sampled rows;
+  Kinematics motion;  ///< without rows where there is no pose
+  RigidFit fit;
+  bool compared = false;  ///< a rigid tool was fitted
+  double independent = 0.0;  ///< effective number of residuals
+  std::vector<Fault> faults;
+  std::vector<ReadingWeight> weights;
+};
+
+Reading declared_reading(const Log& log);
+/// Log posterior but for a constant.
+double log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
+                  const Reading& reading);
+Adopted adopt(const Log& log);
+
+
+}  // namespace dcnn::check

@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <cmath>
+
+#include "check/reading.h"
+#include "check/statistics.h"
+#include "core/elementary.h"
+
+namespace dcnn::check {
+namespace {
+
+using Eigen::Index;
+constexpr int kReweightings = 8;
+constexpr Index kStretches = 8;
+constexpr Index kFewestRows = 12;  // of a stretch
+constexpr double kChiSquareMedian = 2.366;  // of three degrees of freedom
+constexpr double kOwnScale = 3.0;  // Cauchy's weights halve at so many deviations
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d S;
+  S << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0;
+  return S;
+}
+
+constexpr double kFrictionSpeed = 0.02;     // m/s, over which dry friction changes its sign
+
+struct Design {
+  std::vector<Eigen::MatrixXd> rows;  // (3,7) of mass, moment, bias; (3,14) with friction
+  Eigen::MatrixXd force, field;                   // (n,3) in S
+};
+
+/// Dry and viscous friction along the base's axes, dry friction along the sensor's z, (3,7).
+Eigen::MatrixXd friction_columns(const Eigen::Matrix3d& R, const Eigen::Vector3d& v) {
+  const auto dry = [](double speed) { return elementary::tanh(speed / kFrictionSpeed); };
+  Eigen::MatrixXd columns(3, 7);
+  for (Index k = 0; k < 3; ++k) {
+    columns.col(k) = -dry(v[k]) * R.transpose().col(k);
+    columns.col(3 + k) = -v[k] * R.transpose().col(k);
+  }
+  columns.col(6) << 0.0, 0.0, -dry(R.col(2).dot(v));
+  return columns;
+}
+
+Design design_of(const Log& log, const Sampled& rows, const Kinematics& motion,
+                 const Reading& reading, const FitOptions& options) {
+  const auto n = static_cast<Index>(rows.centres.size());
+  Design design{{}, rows.smoothed(log.block({"fx", "fy", "fz"}), rows.value, options.shift),
+                Eigen::MatrixXd(n, 3)};
+  const bool known = log.declared.model.has_value();
+  const Eigen::Matrix3d R_ES = known ? log.declared.model->R_ES() : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  const Eigen::Vector3d g = known ? log.declared.model->gravity : Eigen::Vector3d(0.0, 0.0, -9.81);
+  const double rate = log.step > 0.0 ? 1.0 / (log.step * reading.clock) : 0.0;
+  const bool with_friction = options.friction && motion.has_position && rate > 0.0;
+  for (Index i = 0; i < n; ++i) {
+    const Eigen::Matrix3d R = motion.R[static_cast<std::size_t>(i)] * R_ES;
+    const Eigen::Vector3d a = rate * rate * reading.position *
+                              (reading.position_axes * motion.acceleration.row(i).transpose());
+    const Eigen::Vector3d w = rate * (R_ES.transpose() * motion.w.row(i).transpose());
+    const Eigen::Vector3d dw = rate * rate * (R_ES.transpose() * motion.dw.row(i).transpose());
+    const Eigen::Vector3d field =
+        R.transpose() * ((reading.compensated ? Eigen::Vector3d(0.0, 0.0, 0.0) : g) - a);
+    Eigen::MatrixXd A(3, with_friction ? 14 : 7);
+    A.leftCols(7) << field, -cross_matrix(dw) - cross_matrix(w) * cross_matrix(w),
+        Eigen::Matrix3d::Identity();
+    if (with_friction) {
+      const Eigen::Vector3d v = rate * reading.position * (reading.position_axes * motion.velocity.row(i).transpose());
+      A.rightCols(7) = friction_columns(R, v);
+    }
+    design.rows.push_back(std::move(A));
+    design.field.row(i) = field;
+    const Eigen::Vector3d F = reading.force * (reading.force_axes * design.force.row(i).transpose());
+    design.force.row(i) = reading.force_in_base ? Eigen::Vector3d(R.transpose() * F) : F;
+  }
+  return design;
+}
+
+/// Weighted least squares with a faint ridge for what the motion does not show; without the tool,
+/// its four columns are held at zero.
+Eigen::VectorXd solve(const Design& design, const Eigen::VectorXd& weight, bool with_tool,
+                      Eigen::MatrixXd& normal) {
+  const Index columns = design.rows[0].cols();
+  normal.setZero(columns, columns);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(columns);
+  for (std::size_t i = 0; i < design.rows.size(); ++i) {
+    const auto& A = design.rows[i];
+    const auto k = static_cast<Index>(i);
+    normal.noalias() += weight[k] * A.transpose() * A;
+    right.noalias() += weight[k] * A.transpose() * design.force.row(k).transpose();
+  }
+  // Moments are known to some 0.3 kg m, where an equation is good to 0.3 N.
+  for (Index k = 0; k < 4; ++k) normal(k, k) += with_tool ? (k == 0 ? 1e-9 : 1.0) : 1e15;
+  for (Index k = 7; k < columns; ++k) normal(k, k) += 1e-3;
+  return normal.ldlt().solve(right);
+}
+
+double fit_once(const Design& design, bool with_tool, RigidFit& fit, Eigen::MatrixXd& normal,
+                Eigen::VectorXd& x) {
+  const auto n = static_cast<Index>(design.rows.size());
+  Eigen::VectorXd weight = Eigen::VectorXd::Ones(n), squares(n);
+  fit.residual.resize(n, 3);
+  for (int k = 0; k < kReweightings; ++k) {
+    x = solve(design, weight, with_tool, normal);
+    for (Index i = 0; i < n; ++i) {
+      fit.residual.row(i) =
+          design.force.row(i) - (design.rows[static_cast<std::size_t>(i)] * x).transpose();
+    }
+    squares = fit.residual.rowwise().squaredNorm();
+    fit.variance = std::max(median(squares) / kChiSquareMedian, 1e-300);
+    weight = (1.0 + squares.array() / (3.0 * kOwnScale * kOwnScale * fit.variance)).inverse();
+  }
+  return x[0];
+}
+
+}  // namespace
+
+double log_variance(const Eigen::MatrixXd& residual, double floor) {
+  const Eigen::VectorXd squares = residual.rowwise().squaredNorm();
+  const Index n = squares.size(), stretches = std::clamp<Index>(n / kFewestRows, 1, kStretches);
+  double sum = 0.0;
+  for (Index k = 0; k < stretches; ++k) {
+    const Index begin = n * k / stretches, end = n * (k + 1) / stretches;
+    const double variance = median(squares.segment(begin, end - begin)) / kChiSquareMedian;
+    sum += elementary::log(std::max(variance + floor * floor, 1e-300));
+  }
+  return sum / static_cast<double>(stretches);
+}
+
+RigidFit fit_rigid(const Log& log, const Sampled& rows, const Kinematics& motion,
+                   const Reading& reading, const FitOptions& options) {
+  RigidFit fit;
+  Design design = design_of(log, rows, motion, reading, options);
+  Eigen::MatrixXd normal;
+  Eigen::VectorXd x;
+  // No tool has a negative mass: then the reading explains nothing but a constant.
+  if (fit_once(design, true, fit, normal, x) <= 0.0) fit_once(design, false, fit, normal, x);
+  fit.mass = std::max(0.0, x[0]);
+  fit.moment = x.segment<3>(1);
+  fit.bias = x.segment<3>(4);
+  fit.force = std::move(design.force);
+  fit.field = std::move(design.field);
+  fit.covariance = fit.variance * normal.inverse().topLeftCorner(7, 7);
+  return fit;
+}
+
+}  // namespace dcnn::check

@@ -1,0 +1,82 @@
+#include "check/rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace dcnn::check {
+
+using Eigen::Index;
+
+std::vector<Run> group_runs(const Eigen::MatrixXd& columns) {
+  std::vector<Run> runs;
+  for (Index i = 0; i < columns.rows(); ++i) {
+    if (i == 0 || (columns.row(i).array() != columns.row(i - 1).array()).any()) {
+      runs.push_back({i, 0, static_cast<double>(i)});
+    }
+    ++runs.back().length;
+  }
+  return runs;
+}
+
+double resolution(const Eigen::VectorXd& values) {
+  std::vector<double> sorted(values.begin(), values.end());
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted.empty()) return 0.0;
+  const double rounding = 1e-12 * std::max(std::abs(sorted.front()), std::abs(sorted.back()));
+  double least = 0.0;
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    const double step = sorted[i] - sorted[i - 1];
+    if (step > rounding && (least == 0.0 || step < least)) least = step;
+  }
+  return least;
+}
+
+Eigen::VectorXd outlying(const Eigen::VectorXd& x) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(x.size());
+  for (Index i = 2; i + 2 < x.size(); ++i) {
+    double near[4] = {x[i - 2], x[i - 1], x[i + 1], x[i + 2]};
+    std::sort(near, near + 4);
+    out[i] = x[i] - 0.5 * (near[1] + near[2]);
+  }
+  return out;
+}
+
+std::vector<std::string> measured_columns(const Log& log) {
+  std::vector<std::string> names;
+  for (const auto& sensor : log.sensors()) names.insert(names.end(), sensor.begin(), sensor.end());
+  return names;
+}
+
+double relative_motion(const Log& log, Index begin, Index end) {
+  double most = 0.0;
+  for (const std::string& name : log.positions()) {
+    const Eigen::VectorXd steps = steps_of(log.column(name)).cwiseAbs2();
+    const double whole = steps.mean();
+    if (whole > 0.0) most = std::max(most, steps.segment(begin, end - begin - 1).mean() / whole);
+  }
+  return std::sqrt(most);
+}
+
+double independent_of(const Eigen::MatrixXd& residual) {
+  constexpr double kMostOfAll = 200.0;  // what physics beyond a tool leaves is alike for long
+  const Index n = residual.rows();
+  const double power = std::max(residual.squaredNorm(), 1e-300);
+  const double rho = residual.topRows(n - 1).cwiseProduct(residual.bottomRows(n - 1)).sum() / power;
+  const double r = std::clamp(rho, 0.0, 0.99);
+  return std::min(kMostOfAll, static_cast<double>(3 * n) * (1.0 - r) / (1.0 + r));
+}
+
+void set_interval(const Log& log, Index begin, Index end, Fault& fault) {
+  if (log.t.size() == 0) return;
+  const double origin = log.table.values.rows() > 0 ? double(log.column("t")[0]) : 0.0;
+  fault.interval_s = {origin + log.t[begin], origin + log.t[std::min(end, log.t.size()) - 1]};
+}
+
+std::string shown_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+}  // namespace dcnn::check

@@ -1,0 +1,27 @@
+// What several statistics of rows share.
+#pragma once
+
+#include <string>
+
+#include "check/kind.h"
+#include "check/statistics.h"
+
+namespace dcnn::check {
+
+/// Runs of rows in which every column is equal; the value is the row's number where it began.
+std::vector<Run> group_runs(const Eigen::MatrixXd& columns);
+/// The least step between different values: the lattice that they lie on. 0 for a constant.
+double resolution(const Eigen::VectorXd& values);
+/// x_i less the median of its four neighbours, (T); 0 at the ends.
+Eigen::VectorXd outlying(const Eigen::VectorXd& values);
+/// Measured columns one by one.
+std::vector<std::string> measured_columns(const Log& log);
+/// Rms step of the positions' columns in rows [begin, end), relative to that of the whole log.
+double relative_motion(const Log& log, Eigen::Index begin, Eigen::Index end);
+/// Rows as times of the log's clock; nothing without one.
+void set_interval(const Log& log, Eigen::Index begin, Eigen::Index end, Fault& fault);
+/// Number of independent residuals among (n,3), by their correlation from row to row.
+double independent_of(const Eigen::MatrixXd& residual);
+std::string shown_number(double value);
+
+}  // namespace dcnn::check

@@ -1,0 +1,68 @@
+#include "check/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/elementary.h"
+
+namespace dcnn::check {
+
+double median(Eigen::VectorXd values) {
+  if (values.size() == 0) return 0.0;
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double robust_deviation(const Eigen::VectorXd& values) {
+  return 1.4826 * median((values.array() - median(values)).abs());
+}
+
+Eigen::VectorXd steps_of(const Eigen::VectorXd& values) {
+  const Eigen::Index n = values.size();
+  return n < 2 ? Eigen::VectorXd() : Eigen::VectorXd(values.tail(n - 1) - values.head(n - 1));
+}
+
+double noise_of(const Eigen::VectorXd& values) {
+  return robust_deviation(steps_of(steps_of(values))) / std::sqrt(6.0);
+}
+
+double repeats(const Eigen::VectorXd& values) {
+  const Eigen::VectorXd steps = steps_of(values);
+  if (steps.size() == 0) return 0.0;
+  return static_cast<double>((steps.array() == 0.0).count()) / static_cast<double>(steps.size());
+}
+
+std::vector<Run> runs_of(const Eigen::VectorXd& values) {
+  std::vector<Run> runs;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (runs.empty() || runs.back().value != values[i]) runs.push_back({i, 0, values[i]});
+    ++runs.back().length;
+  }
+  return runs;
+}
+
+double plausibility(double value, const Typical& typical) {
+  if (!(value > 0.0)) return -kMostSurprise;
+  const double spread = value < typical.median ? typical.below : typical.above;
+  const double z = elementary::log(value / typical.median) / spread;
+  return std::max(-0.5 * z * z, -kMostSurprise);
+}
+
+double posterior_of_p(double p) {
+  if (p >= 1.0 / std::numbers::e) return kFaultPrior;
+  p = std::max(p, 1e-300);
+  const double factor = -1.0 / (std::numbers::e * p * elementary::log(p));
+  const double odds = kFaultPrior / (1.0 - kFaultPrior) * factor;
+  return odds / (1.0 + odds);
+}
+
+double tail(double z) {
+  z = std::abs(z);
+  // Mills' ratio bounds the tail from above beyond one deviation, where it is used.
+  if (z < 1.0) return 1.0;
+  return std::min(1.0, std::sqrt(2.0 / std::numbers::pi) * elementary::exp(-0.5 * z * z) / z);
+}
+
+}  // namespace dcnn::check

@@ -1,0 +1,35 @@
+// Small robust statistics of one channel.
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "check/priors.h"
+
+namespace dcnn::check {
+
+double median(Eigen::VectorXd values);  ///< 0 for none
+/// 1.4826 times the median absolute deviation.
+double robust_deviation(const Eigen::VectorXd& values);
+/// Of white noise, from second differences, in which a slow signal cancels.
+double noise_of(const Eigen::VectorXd& values);
+/// Share of the steps that are exactly zero.
+double repeats(const Eigen::VectorXd& values);
+/// Rows of equal value one after the other.
+struct Run {
+  Eigen::Index begin = 0, length = 0;
+  double value = 0.0;
+};
+std::vector<Run> runs_of(const Eigen::VectorXd& values);
+/// (n-1) steps.
+Eigen::VectorXd steps_of(const Eigen::VectorXd& values);
+
+/// Log density of a log-normal quantity relative to its largest, not below -kMostSurprise.
+double plausibility(double value, const Typical& typical);
+/// Probability of a fault whose prior is kFaultPrior where a statistic's p-value is `p`: the bound
+/// of Sellke, Bayarri and Berger (2001) on the Bayes factor, -e p log p.
+double posterior_of_p(double p);
+/// Two-sided tail of the standard normal.
+double tail(double z);
+
+}  // namespace dcnn::check

@@ -1,0 +1,20 @@
+// The parts of a faulty log: which clean one it begins as, and what is done to it.
+#pragma once
+
+#include "dcnn/conceal/faulty.h"
+#include "dcnn/core/random.h"
+
+namespace dcnn::conceal {
+
+/// Clean logs: a wrist with Euler angles, on a motion whose accelerations count, with a quaternion, with logged rates; that hardly turns;
+/// poses at rest; three joints.
+enum class CleanLog { kEuler, kBrisk, kQuaternion, kRates, kStill, kStatic, kJoints };
+
+FaultyLog make_clean(CleanLog kind, Rng& rng);
+
+Eigen::Index column_of(const Table& table, const std::string& name);
+Eigen::Ref<Eigen::VectorXd> column(Table& table, const std::string& name);
+void append(Table& table, const std::string& name, const Eigen::VectorXd& values);
+void remove(Table& table, const std::string& name);
+
+}  // namespace dcnn::conceal

@@ -1,0 +1,213 @@
+#include "diagnosis/discovered.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dcnn/discovery/discover.h"
+
+namespace dcnn {
+namespace {
+
+using discovery::Discovered;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kLawInterval = 1.96;  // of a standard deviation: 95 %
+constexpr double kStillGained = 0.5;   // of a law's gain, once all are fitted through the chain
+
+/// The force on the tool to which a law is added.
+MatrixXd load_of(const Simulator& simulator, const std::vector<EffectSpec>& effects,
+                 const Log& log) {
+  ToolModel model = changed_tool(simulator.model, effects);
+  model.bias.setZero();
+  model.bias_torque.setZero();
+  Wrench wrench = rigid_wrench(model, log.motion);
+  if (log.base.force.rows() > 0) wrench.force += log.base.force;
+  for (const EffectSpec& effect : effects) {
+    if (find_effect(effect.effect)->stage == Stage::kForce) {
+      apply_effect(effect, log.motion, model, wrench);
+    }
+  }
+  return wrench.force;
+}
+
+/// Forces as the channels that a case measures.
+Signals channels_of(const Case& study, const std::vector<MatrixXd>& forces) {
+  Signals signals;
+  for (const MatrixXd& force : forces) {
+    signals.push_back(measured_part(study, {force, MatrixXd::Zero(force.rows(), 3)}));
+  }
+  return signals;
+}
+
+/// Channels as forces.
+std::vector<MatrixXd> forces_of(const Case& study, const Signals& signals) {
+  std::vector<MatrixXd> forces;
+  for (const MatrixXd& signal : signals) {
+    forces.emplace_back(MatrixXd::Zero(signal.rows(), 3));
+    for (Index j = 0; j < signal.cols(); ++j) {
+      const int channel = study.channels[static_cast<std::size_t>(j)];
+      if (channel < 3) forces.back().col(channel) = signal.col(j);
+    }
+  }
+  return forces;
+}
+
+/// The residual of a fit as a problem at the rate of `study`, whose rows `whitener` gives; both
+/// must outlive it.
+discovery::Problem problem_of(const Setting& setting, const JointFit& fit, const Case& study,
+                              const Whitener& whitener) {
+  discovery::Problem problem;
+  const auto effects = specs_of(fit.members);
+  std::vector<Index> sizes;
+  for (const Log& log : study.logs) {
+    problem.records.push_back({&log.motion, load_of(setting.study.simulator, effects, log)});
+    sizes.push_back(log.motion.samples());
+  }
+  problem.whiten = [&study, &whitener, &setting](const std::vector<MatrixXd>& forces) {
+    return VectorXd(whitener(channels_of(study, forces)).cwiseProduct(setting.mask));
+  };
+  problem.transposed = [&study, &whitener, &setting, sizes](const VectorXd& rows) {
+    return forces_of(study, whitener.transposed(rows.cwiseProduct(setting.mask), sizes));
+  };
+  for (const Whitener::Row& row : whitener.row_info()) {
+    problem.rows.push_back({row.log, row.channel, row.t});
+  }
+  problem.known = orthonormal(fit.tangent);
+  problem.residual = fit.residual - problem.known * (problem.known.transpose() * fit.residual);
+  problem.residual = problem.residual.cwiseProduct(setting.mask);
+  return problem;
+}
+
+bool can_hold_laws(const Search& search) {
+  const Case& study = search.study();
+  if (!search.remains() || study.is_static() || study.axis) return false;
+  return std::all_of(study.logs.begin(), study.logs.end(), [](const Log& log) {
+    return log.motion.v_B.rows() == log.motion.samples() &&
+           log.motion.a_B.rows() == log.motion.samples();
+  });
+}
+
+/// Looked for in block means, then fitted again at the log's rate.
+std::vector<Discovered> laws_in(const Search& search) {
+  const Setting& setting = search.setting();
+  const Index block = setting.whitener.block();
+  const Case thin = thinned(search.study(), block);
+  const Whitener coarse = setting.whitener.at_stride(block);
+  const auto laws = discovery::discover(problem_of(setting, search.fit(), thin, coarse));
+  if (laws.empty()) return laws;
+  return discovery::refitted(problem_of(setting, search.fit(), search.study(), setting.whitener),
+                             laws);
+}
+
+Member member_of(const law::Law& law, const Json& told) {
+  static const EffectFit form;
+  Member member;
+  member.kind = find_effect("discovered");
+  member.form = &form;
+  member.fixed = true;
+  member.law = told;
+  member.law_parameters = law::parameters_json(law);
+  return member;
+}
+
+Json law_json(const Discovered& found) {
+  Json json = law::to_json(found.law);
+  json["established"] = found.established;
+  json["rivals"] = found.rivals;
+  return json;
+}
+
+Json law_numbers(const Discovered& found) {
+  const auto numbers = law::numbers_of(found.law.structure);
+  Json json = Json::object();
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const auto at = static_cast<Index>(k);
+    const double value = found.law.numbers(at), half = kLawInterval * found.deviation(at);
+    json[numbers[k].name] = {
+        {"value", value}, {"ci95", {value - half, value + half}}, {"unit", numbers[k].unit}};
+  }
+  return json;
+}
+
+double mean_error(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double v : values) sum += v;
+  return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+}
+
+Json law_finding(const Discovered& found, const Json& law) {
+  const auto words = law["words"].get<std::string>();
+  Json entry{
+      {"effect", "discovered"},
+      {"kind", "structural"},
+      {"axis", nullptr},
+      {"interval_s", nullptr},
+      {"law", law},
+      {"parameters", law_numbers(found)},
+      {"words",
+       found.established ? words : "approximate formula, its form not established: " + words}};
+  if (law::is_axis(found.law.structure.direction)) entry["axis"] = law["axis"];
+  entry.update({{"confidence", nullptr},
+                {"p_value", nullptr},
+                {"alternatives", Json::array()},
+                {"holdout_gain", nullptr}});
+  return entry;
+}
+
+/// The numbers of the named effects as they are beside the laws; intervals keep their width.
+void move_numbers(const std::vector<Member>& members, Json& findings) {
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    if (!members[m].law.is_null()) continue;
+    const Json parameters = spec_of(members[m]).parameters;
+    for (auto& [name, number] : findings[m]["parameters"].items()) {
+      if (!parameters.contains(name)) continue;
+      const double moved = parameters[name].get<double>() - number["value"].get<double>();
+      number["value"] = parameters[name];
+      if (!number["ci95"].is_array()) continue;
+      for (std::size_t end = 0; end < 2; ++end) {
+        number["ci95"][end] = number["ci95"][end].get<double>() + moved;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void add_discovered(const Search& search, const HoldOut& holdout, Diagnosis& diagnosis) {
+  if (!can_hold_laws(search)) return;
+  const auto laws = laws_in(search);
+  if (laws.empty()) return;
+  std::vector<Member> members = search.fit().members;
+  double promised = 0.0;
+  for (const Discovered& found : laws) {
+    members.push_back(member_of(found.law, law_json(found)));
+    promised += found.gain;
+  }
+  const JointFit fit = joint_fit(search.setting(), members);
+  if (search.fit().chi2 - fit.chi2 < kStillGained * promised) return;
+  Json& report = diagnosis.report;
+  move_numbers(fit.members, report["findings"]);
+  const std::size_t named = fit.members.size() - laws.size();
+  const auto error = holdout.rmse(fit.members, fit.base);
+  Json expressions;
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    std::vector<Member> others = fit.members;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(named + k));
+    const Json law = fit.members[named + k].law;
+    Json entry = law_finding(laws[k], law);
+    entry["holdout_gain"] =
+        1.0 - mean_error(error) / std::max(1e-300, mean_error(holdout.rmse(others, fit.base)));
+    report["findings"].push_back(entry);
+    const auto text = law["expression"].get<std::string>();
+    expressions = expressions.is_null() ? text : expressions.get<std::string>() + " + " + text;
+  }
+  report["unnamed"]["formula"] = expressions;
+  report["fit"]["holdout_rmse_after"] = error;
+  diagnosis.corrected.effects = search.study().simulator.effects;
+  for (const auto& effect : specs_of(fit.members)) diagnosis.corrected.effects.push_back(effect);
+  diagnosis.model = to_json(diagnosis.corrected);
+  diagnosis.holdout = holdout.records(joint_fit(search.setting(), {}), fit);
+}
+
+}  // namespace dcnn

@@ -1,0 +1,142 @@
+#include "discovery/data.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dcnn::discovery {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Data::Data(const Problem& problem) : problem_(problem) {
+  for (const Record& record : problem.records) {
+    begins_.push_back(samples_);
+    samples_ += record.motion->samples();
+    dt_ = record.motion->dt;
+  }
+  begins_.push_back(samples_);
+  seconds_ = dt_ * static_cast<double>(samples_);
+  step_ = VectorXd::Constant(samples_, dt_);
+  values_.assign(law::coordinates().size(), VectorXd(samples_));
+  directions_.assign(law::directions().size(), MatrixXd(samples_, 3));
+  for (std::size_t k = 0; k < problem.records.size(); ++k) read(problem.records[k], begins_[k]);
+  measure();
+}
+
+void Data::read(const Record& record, Index begin) {
+  const Motion& motion = *record.motion;
+  const bool placed = motion.p_B.rows() == motion.samples();
+  for (Index k = 0; k < motion.samples(); ++k) {
+    law::Sample now;
+    now.R_BS = motion.R_BS[static_cast<std::size_t>(k)];
+    now.euler = motion.euler.row(k);
+    now.p_B = placed ? law::Vector3d(motion.p_B.row(k)) : law::Vector3d::Zero();
+    now.v_B = motion.v_B.row(k);
+    now.a_B = motion.a_B.row(k);
+    now.w_S = motion.w_S.row(k);
+    now.dw_S = motion.dw_S.row(k);
+    now.load_S = record.load.row(k);
+    now.t = motion.t(k);
+    for (std::size_t c = 0; c < values_.size(); ++c) {
+      values_[c](begin + k) = law::coordinate_at(c, now);
+    }
+    for (std::size_t d = 0; d < directions_.size(); ++d) {
+      directions_[d].row(begin + k) = law::direction_at(d, now).transpose();
+    }
+    if (k > 0) step_(begin + k) = motion.t(k) - motion.t(k - 1);
+  }
+}
+
+void Data::measure() {
+  const auto count = static_cast<double>(samples_);
+  for (std::size_t c = 0; c < values_.size(); ++c) {
+    low_.push_back(values_[c].minCoeff());
+    high_.push_back(values_[c].maxCoeff());
+    rms_.push_back(std::sqrt(values_[c].squaredNorm() / count));
+    if (!law::coordinates()[c].is_rate) {
+      path_range_.push_back(high_.back() - low_.back());
+      continue;
+    }
+    double x = 0.0, least = 0.0, most = 0.0;
+    for (Index k = 0; k < samples_; ++k) {
+      x += values_[c](k) * step_(k);
+      least = std::min(least, x), most = std::max(most, x);
+    }
+    path_range_.push_back(most - least);
+  }
+  for (const MatrixXd& direction : directions_) {
+    const double size = std::sqrt(direction.squaredNorm() / count);
+    sizes_.push_back(size > 1e-9 ? size : 0.0);
+  }
+}
+
+VectorXd Data::product(const std::vector<Piece>& pieces) const {
+  VectorXd product = VectorXd::Ones(samples_);
+  for (const Piece& piece : pieces) {
+    std::vector<double> numbers;
+    if (piece.factor.memory != law::Memory::kNone) numbers.push_back(piece.memory);
+    if (piece.factor.centred) numbers.push_back(piece.centre);
+    numbers.push_back(piece.scale);
+    numbers.push_back(piece.extra);
+    law::FactorRun run(piece.factor, numbers.data());
+    const VectorXd& q = values_[piece.factor.coordinate];
+    for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
+      for (Index k = begins_[r]; k < begins_[r + 1]; ++k) {
+        product(k) *= run.step(q(k), step_(k), k == begins_[r]);
+      }
+    }
+  }
+  return product;
+}
+
+VectorXd Data::lagged(const VectorXd& signal, double tau) const {
+  VectorXd out(samples_);
+  law::LagRun<double> lag;
+  for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
+    for (Index k = begins_[r]; k < begins_[r + 1]; ++k) {
+      out(k) = lag.step(signal(k), tau, step_(k), k == begins_[r]);
+    }
+  }
+  return out;
+}
+
+MatrixXd Data::vector_of(const Sketch& sketch) const {
+  const MatrixXd& direction = directions_[sketch.direction];
+  const double scale = *law::directions()[sketch.direction].unit ? sketch.vector_scale : 1.0;
+  if (sketch.vector_lag <= 0.0) return direction / scale;
+  MatrixXd out(samples_, 3);
+  for (Index i = 0; i < 3; ++i) out.col(i) = lagged(direction.col(i) / scale, sketch.vector_lag);
+  return out;
+}
+
+VectorXd Data::whiten(const MatrixXd& force) const {
+  std::vector<MatrixXd> forces;
+  for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
+    forces.push_back(force.middleRows(begins_[r], begins_[r + 1] - begins_[r]));
+  }
+  return problem_.whiten(forces);
+}
+
+MatrixXd Data::transposed(const VectorXd& rows) const {
+  const auto parts = problem_.transposed(rows);
+  MatrixXd out(samples_, 3);
+  for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
+    out.middleRows(begins_[r], begins_[r + 1] - begins_[r]) = parts[r];
+  }
+  return out;
+}
+
+VectorXd Data::raw_column(const Sketch& sketch) const {
+  VectorXd strength = product(sketch.pieces);
+  if (sketch.lag > 0.0) strength = lagged(strength, sketch.lag);
+  return whiten(strength.asDiagonal() * vector_of(sketch));
+}
+
+VectorXd Data::projected(const VectorXd& column) const {
+  if (problem_.known.cols() == 0) return column;
+  return column - problem_.known * (problem_.known.transpose() * column);
+}
+
+VectorXd Data::column(const Sketch& sketch) const { return projected(raw_column(sketch)); }
+
+}  // namespace dcnn::discovery

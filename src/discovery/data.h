@@ -1,0 +1,68 @@
+// Coordinates and directions of a problem's recordings, and the whitened columns of laws.
+#pragma once
+
+#include "dcnn/discovery/discover.h"
+#include "discovery/sketch.h"
+
+namespace dcnn::discovery {
+
+using Eigen::Index;
+
+class Data {
+ public:
+  explicit Data(const Problem& problem);
+
+  const Problem& problem() const { return problem_; }
+  Index samples() const { return samples_; }
+  double seconds() const { return seconds_; }
+  double dt() const { return dt_; }
+
+  /// Whether the recordings hold the coordinate and it changes.
+  bool varies(std::size_t coordinate) const { return high_[coordinate] > low_[coordinate]; }
+  const Eigen::VectorXd& coordinate(std::size_t coordinate) const { return values_[coordinate]; }
+  double low(std::size_t coordinate) const { return low_[coordinate]; }
+  double high(std::size_t coordinate) const { return high_[coordinate]; }
+  double middle(std::size_t c) const { return 0.5 * (low_[c] + high_[c]); }
+  double half_range(std::size_t c) const { return 0.5 * (high_[c] - low_[c]); }
+  double rms(std::size_t c) const { return rms_[c]; }
+  /// The path that the coordinate makes, or its integral where it is a rate, from end to end.
+  double path_range(std::size_t c) const { return path_range_[c]; }
+
+  /// (T,3), all recordings below each other, in the direction's own unit.
+  const Eigen::MatrixXd& direction(std::size_t direction) const { return directions_[direction]; }
+  /// Root of the mean square of its length.
+  double size_of(std::size_t direction) const { return sizes_[direction]; }
+  bool has_direction(std::size_t direction) const { return sizes_[direction] > 0.0; }
+
+  /// The product of a sketch's factors, without direction and lag, (T).
+  Eigen::VectorXd product(const std::vector<Piece>& pieces) const;
+  /// The same behind a lag.
+  Eigen::VectorXd lagged(const Eigen::VectorXd& signal, double tau) const;
+  /// The direction of a sketch over its scale and behind its lag, (T,3).
+  Eigen::MatrixXd vector_of(const Sketch& sketch) const;
+  /// The whitened column of a sketch of unit amplitude beside what is known, rows that must not be
+  /// looked at zero.
+  Eigen::VectorXd column(const Sketch& sketch) const;
+  /// The same, not projected.
+  Eigen::VectorXd raw_column(const Sketch& sketch) const;
+  Eigen::VectorXd projected(const Eigen::VectorXd& column) const;
+  /// Whitens a force (T,3).
+  Eigen::VectorXd whiten(const Eigen::MatrixXd& force) const;
+  /// The transpose of that, (T,3).
+  Eigen::MatrixXd transposed(const Eigen::VectorXd& rows) const;
+
+ private:
+  void read(const Record& record, Index begin);
+  void measure();
+
+  const Problem& problem_;
+  Index samples_ = 0;
+  double seconds_ = 0.0, dt_ = 0.0;
+  std::vector<Index> begins_;  // first sample of each record, and the end of the last
+  Eigen::VectorXd step_;       // s since the sample before; of the first of a record, dt
+  std::vector<Eigen::VectorXd> values_;
+  std::vector<double> low_, high_, rms_, path_range_, sizes_;
+  std::vector<Eigen::MatrixXd> directions_;
+};
+
+}  // namespace dcnn::discovery

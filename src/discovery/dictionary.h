@@ -1,0 +1,39 @@
+// Where a search for a law begins: factors with numbers, without a direction.
+#pragma once
+
+#include "discovery/data.h"
+
+namespace dcnn::discovery {
+
+/// What may be done with a coordinate.
+enum class Kind {
+  kRate,   ///< signed, with a zero of its own
+  kSize,   ///< not negative
+  kPlace,  ///< without a zero of its own: position, angle
+  kLoad,   ///< a force
+  kClock,
+};
+Kind kind_of(std::size_t coordinate);
+
+Piece piece(const char* shape, std::size_t coordinate, double scale, double extra = 0.0);
+Piece centred(Piece piece, double centre);
+Piece remembering(Piece piece, law::Memory memory, double size);
+
+/// A factor linear in the coordinate, about the middle of its range where it has no zero.
+Piece linear_in(const Data& data, std::size_t coordinate);
+
+using Atom = std::vector<Piece>;
+/// Some thousand single factors and products of two.
+std::vector<Atom> dictionary(const Data& data);
+
+/// A direction, perhaps behind a lag; the sketch has no factors.
+std::vector<Sketch> direction_sketches(const Data& data);
+
+/// Factors by which a law may be multiplied.
+std::vector<Piece> modulators(const Data& data);
+/// Other shapes of a piece's coordinate.
+std::vector<Piece> other_shapes(const Data& data, const Piece& piece);
+/// The piece with a state between coordinate and shape.
+std::vector<Piece> with_memories(const Data& data, const Piece& piece);
+
+}  // namespace dcnn::discovery

@@ -1,0 +1,183 @@
+#include "discovery/mutate.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/linear_algebra.h"
+#include "dcnn/core/parallel.h"
+#include "discovery/dictionary.h"
+#include "discovery/priors.h"
+
+namespace dcnn::discovery {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::size_t kMostPieces = 3, kParents = 3, kModulators = 5;
+constexpr int kRounds = 3;
+constexpr int kFirstSteps = 4, kLastSteps = 15;
+constexpr double kLeastExtra = 10.0;  // of chi-square, for a modulator to be refined
+
+/// What a second column adds to the gain of the first.
+double extra_gain(const Data& data, const Trial& trial, const VectorXd& column) {
+  const double energy = trial.column.squaredNorm();
+  if (!(energy > 0.0)) return 0.0;
+  const VectorXd beside = column - trial.column * (trial.column.dot(column) / energy);
+  const double own = beside.squaredNorm();
+  if (!(own > 1e-6 * column.squaredNorm())) return 0.0;
+  const double score = beside.dot(data.problem().residual);
+  return score * score / own;
+}
+
+/// The sketch times each modulator, those that gain most.
+std::vector<Sketch> modulated(const Data& data, const Trial& trial) {
+  const auto pieces = modulators(data);
+  std::vector<std::pair<double, std::size_t>> gains(pieces.size());
+  VectorXd strength = data.product(trial.sketch.pieces);
+  const MatrixXd vector = data.vector_of(trial.sketch);
+  for_each_piece(static_cast<Index>(pieces.size()), [&](Index k) {
+    const auto at = static_cast<std::size_t>(k);
+    VectorXd product = strength.cwiseProduct(data.product({pieces[at]}));
+    if (trial.sketch.lag > 0.0) product = data.lagged(product, trial.sketch.lag);
+    const VectorXd column = data.projected(data.whiten(product.asDiagonal() * vector));
+    gains[at] = {extra_gain(data, trial, column), at};
+  });
+  std::stable_sort(gains.begin(), gains.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Sketch> list;
+  std::set<std::size_t> seen;
+  for (const auto& [gain, at] : gains) {
+    if (gain < kLeastExtra || list.size() >= kModulators) break;
+    if (!seen.insert(pieces[at].factor.coordinate * 100 + pieces[at].factor.shape).second) continue;
+    Sketch sketch = trial.sketch;
+    sketch.pieces.push_back(pieces[at]);
+    list.push_back(sketch);
+  }
+  return list;
+}
+
+void add_deletions(const Sketch& from, std::vector<Sketch>& list) {
+  for (std::size_t k = 0; k < from.pieces.size(); ++k) {
+    if (from.pieces.size() > 1 || !law::is_axis(from.direction)) {
+      Sketch sketch = from;
+      sketch.pieces.erase(sketch.pieces.begin() + static_cast<std::ptrdiff_t>(k));
+      list.push_back(sketch);
+    }
+    if (from.pieces[k].factor.centred) {
+      Sketch sketch = from;
+      sketch.pieces[k].factor.centred = false;
+      list.push_back(sketch);
+    }
+    if (from.pieces[k].factor.memory != law::Memory::kNone) {
+      Sketch sketch = from;
+      sketch.pieces[k].factor.memory = law::Memory::kNone;
+      list.push_back(sketch);
+    }
+  }
+  for (double Sketch::*lag : {&Sketch::lag, &Sketch::vector_lag}) {
+    if (!(from.*lag > 0.0)) continue;
+    Sketch sketch = from;
+    sketch.*lag = 0.0;
+    list.push_back(sketch);
+  }
+}
+
+std::vector<Sketch> variants(const Data& data, const Trial& trial) {
+  const Sketch& from = trial.sketch;
+  std::vector<Sketch> list;
+  add_deletions(from, list);
+  for (std::size_t k = 0; k < from.pieces.size(); ++k) {
+    for (const auto& pieces :
+         {other_shapes(data, from.pieces[k]), with_memories(data, from.pieces[k])}) {
+      for (const Piece& piece : pieces) {
+        Sketch sketch = from;
+        sketch.pieces[k] = piece;
+        list.push_back(sketch);
+      }
+    }
+    if (kind_of(from.pieces[k].factor.coordinate) != Kind::kPlace &&
+        !from.pieces[k].factor.centred && law::shapes()[from.pieces[k].factor.shape].free_centre) {
+      Sketch sketch = from;
+      sketch.pieces[k] = centred(sketch.pieces[k], 0.0);
+      list.push_back(sketch);
+    }
+  }
+  Sketch sketch = from;
+  if (!(sketch.lag > 0.0)) {
+    sketch.lag = 0.15;
+    list.push_back(sketch);
+  }
+  sketch = from;
+  if (!(sketch.vector_lag > 0.0) && !law::is_axis(sketch.direction)) {
+    sketch.vector_lag = 0.15;
+    list.push_back(sketch);
+  }
+  if (from.pieces.size() < kMostPieces) {
+    const auto more = modulated(data, trial);
+    list.insert(list.end(), more.begin(), more.end());
+  }
+  return list;
+}
+
+/// All of them fitted, in their order.
+std::vector<Trial> fitted(const Data& data, const std::vector<Sketch>& sketches, int steps) {
+  std::vector<Trial> trials(sketches.size());
+  for_each_piece(static_cast<Index>(sketches.size()), [&](Index k) {
+    trials[static_cast<std::size_t>(k)] =
+        refined(data, sketches[static_cast<std::size_t>(k)], steps);
+  });
+  return trials;
+}
+
+/// Scores by the largest gain of all, the best first, one trial a structure.
+void rank(std::vector<Trial>& trials) {
+  double largest = 0.0;
+  for (const Trial& trial : trials) largest = std::max(largest, trial.gain);
+  for (Trial& trial : trials) trial.score = trial.gain - penalty(trial.sketch, largest);
+  std::stable_sort(trials.begin(), trials.end(),
+                   [](const Trial& a, const Trial& b) { return a.score > b.score; });
+  std::vector<Trial> unique;
+  for (Trial& trial : trials) {
+    const auto structure = structure_of(trial.sketch);
+    const bool known = std::any_of(unique.begin(), unique.end(), [&](const Trial& other) {
+      return structure_of(other.sketch) == structure;
+    });
+    if (!known) unique.push_back(std::move(trial));
+  }
+  trials = std::move(unique);
+}
+
+}  // namespace
+
+std::vector<Trial> evolved(const Data& data, std::vector<Trial> trials) {
+  std::vector<Sketch> sketches;
+  for (const Trial& trial : trials) sketches.push_back(trial.sketch);
+  trials = fitted(data, sketches, 2 * kFirstSteps);
+  rank(trials);
+  std::vector<law::Structure> done;
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<Sketch> next;
+    const std::size_t parents = round == 0 ? kParents : 2;
+    for (std::size_t k = 0; k < std::min(parents, trials.size()); ++k) {
+      const auto structure = structure_of(trials[k].sketch);
+      if (std::find(done.begin(), done.end(), structure) != done.end()) continue;
+      done.push_back(structure);
+      const auto more = variants(data, trials[k]);
+      next.insert(next.end(), more.begin(), more.end());
+    }
+    if (next.empty()) break;
+    auto children = fitted(data, next, kFirstSteps);
+    trials.insert(trials.end(), children.begin(), children.end());
+    rank(trials);
+    // The best few to the end: what is compared must have converged.
+    for (std::size_t k = 0; k < std::min(kParents, trials.size()); ++k) {
+      trials[k] = refined(data, trials[k].sketch, kLastSteps);
+    }
+    rank(trials);
+    if (trials.size() > 40) trials.resize(40);
+  }
+  return trials;
+}
+
+}  // namespace dcnn::discovery

@@ -1,0 +1,104 @@
+// Changes of a law that are tried: other shapes, further factors, memories.
+#include <string>
+
+#include "discovery/dictionary.h"
+
+namespace dcnn::discovery {
+namespace {
+
+using law::Memory;
+
+void add_modulators(const Data& data, std::size_t c, std::vector<Piece>& list) {
+  const double range = data.half_range(c), middle = data.middle(c);
+  const Kind kind = kind_of(c);
+  if (kind == Kind::kClock) {
+    list.push_back(piece("exponential", c, 0.3 * (data.high(c) - data.low(c))));
+    return;
+  }
+  list.push_back(centred(piece("affine", c, range, 0.3), middle));
+  if (kind == Kind::kSize) {
+    for (const double tau : {1.0, 3.0, 10.0}) {
+      list.push_back(remembering(piece("affine", c, data.rms(c), 1.0), Memory::kLag, tau));
+    }
+  }
+  if (kind != Kind::kPlace) list.push_back(piece("linear", c, data.rms(c)));
+  if (kind == Kind::kRate || kind == Kind::kSize) {
+    list.push_back(piece("falling", c, 0.3 * data.rms(c), 0.3));
+  }
+  if (kind == Kind::kRate || kind == Kind::kLoad) {
+    list.push_back(piece("even_power", c, data.rms(c), 1.0));
+    list.push_back(piece("tanh", c, 0.2 * data.rms(c)));
+    for (const double side : {1.0, -1.0}) {
+      list.push_back(piece("one_sided", c, side * data.rms(c), 1.0));
+    }
+  }
+  if (kind != Kind::kPlace) return;
+  for (const double at : {-0.4, 0.0, 0.4}) {
+    list.push_back(centred(piece("gaussian", c, 0.3 * range), middle + at * range));
+  }
+  const bool angle = std::string(law::coordinates()[c].unit) == "rad";
+  for (const double turns : {1.0, 2.0, 3.0, 5.0}) {
+    const double scale = angle ? 1.0 / turns : range / (3.1 * turns);
+    for (const double phase : {0.0, 1.57}) {
+      list.push_back(centred(piece("wavy", c, scale, 0.3), middle - phase * scale));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Piece> modulators(const Data& data) {
+  std::vector<Piece> list;
+  for (std::size_t c = 0; c < law::coordinates().size(); ++c) {
+    if (data.varies(c)) add_modulators(data, c, list);
+  }
+  return list;
+}
+
+std::vector<Piece> other_shapes(const Data& data, const Piece& from) {
+  std::vector<Piece> list;
+  const std::size_t c = from.factor.coordinate;
+  const double size = kind_of(c) == Kind::kPlace ? data.half_range(c) : data.rms(c);
+  const auto add = [&](const char* shape, double scale, double extra = 0.0) {
+    Piece p = from;
+    p.factor.shape = shape_named(shape);
+    if (p.factor.shape == from.factor.shape) return;
+    p.scale = scale;
+    p.extra = extra;
+    list.push_back(p);
+  };
+  if (from.factor.memory == Memory::kDahl || from.factor.memory == Memory::kDwell) return list;
+  add("linear", size);
+  add("power", size, 1.5);
+  add("even_power", size, 1.5);
+  add("tanh", 0.3 * size);
+  add("peaked", 0.5 * size);
+  add("fading", 0.5 * size);
+  add("log", 0.3 * size);
+  add("dead_band", 0.4 * size);
+  add("asymmetric", size, 0.5);
+  add("one_sided", size, 1.0);
+  add("one_sided", -size, 1.0);
+  if (kind_of(c) == Kind::kPlace) {
+    add("gaussian", 0.4 * size);
+    add("sine", 0.5 * size);
+  }
+  return list;
+}
+
+std::vector<Piece> with_memories(const Data& data, const Piece& from) {
+  std::vector<Piece> list;
+  if (from.factor.memory != Memory::kNone) return list;
+  const std::size_t c = from.factor.coordinate;
+  list.push_back(remembering(from, Memory::kLag, 0.2));
+  if (kind_of(c) == Kind::kPlace || kind_of(c) == Kind::kLoad) {
+    list.push_back(remembering(from, Memory::kPlay, 0.1 * data.half_range(c)));
+  }
+  if (kind_of(c) == Kind::kPlace || law::coordinates()[c].is_rate) {
+    Piece p = piece("linear", c, 1.0);
+    list.push_back(remembering(p, Memory::kDahl, 0.03 * data.path_range(c)));
+  }
+  return list;
+}
+
+}  // namespace dcnn::discovery

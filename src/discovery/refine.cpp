@@ -1,0 +1,172 @@
+#include "discovery/refine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/elementary.h"
+#include "core/linear_algebra.h"
+#include "discovery/priors.h"
+
+namespace dcnn::discovery {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kSettled = 0.05;  // of chi-square
+constexpr double kLeastLength = 0.05;
+
+/// A number of a sketch on the scale that it is searched on.
+struct Handle {
+  double* value;
+  bool logarithmic;
+  double low, high;
+  double step;  // of a difference
+  double most;  // of one Gauss-Newton step
+
+  double get() const { return logarithmic ? elementary::log(std::abs(*value)) : *value; }
+  void set(double x) const {
+    if (logarithmic) {
+      const double size = std::clamp(elementary::exp(x), low, high);
+      *value = std::copysign(size, *value);
+    } else {
+      *value = std::clamp(x, low, high);
+    }
+  }
+};
+
+Handle positive(double& value, double low, double high) {
+  return {&value, true, low, high, 0.01, 0.8};
+}
+
+void add_handles(const Data& data, Piece& piece, std::vector<Handle>& list) {
+  const std::size_t c = piece.factor.coordinate;
+  const law::Shape& shape = law::shapes()[piece.factor.shape];
+  const bool clock_memory =
+      piece.factor.memory == law::Memory::kLag || piece.factor.memory == law::Memory::kHighPass;
+  if (clock_memory) {
+    list.push_back(positive(piece.memory, 2.0 * data.dt(), 0.5 * data.seconds()));
+  } else if (piece.factor.memory == law::Memory::kPlay) {
+    list.push_back(positive(piece.memory, 1e-3 * data.half_range(c), data.half_range(c)));
+  } else if (piece.factor.memory != law::Memory::kNone) {
+    list.push_back(positive(piece.memory, 1e-3 * data.path_range(c), 2.0 * data.path_range(c)));
+  }
+  const double range = data.half_range(c);
+  if (piece.factor.centred && shape.free_centre) {
+    list.push_back({&piece.centre, false, data.low(c) - range, data.high(c) + range, 5e-3 * range,
+                    0.3 * range});
+  }
+  if (shape.free_scale) {
+    const double size = std::max(range, data.rms(c));
+    list.push_back(positive(piece.scale, 2e-3 * size, 50.0 * size));
+  }
+  if (!*shape.extra) return;
+  const bool is_power = shape.most < 100.0;
+  list.push_back({&piece.extra, false, is_power ? prior::kLeastPower : shape.least, shape.most,
+                  is_power ? 0.01 : 0.01 * (1.0 + std::abs(piece.extra)),
+                  is_power ? 0.5 : 2.0 * (1.0 + std::abs(piece.extra))});
+}
+
+/// In the order of the law's numbers, without the amplitude and the references.
+std::vector<Handle> handles_of(const Data& data, Sketch& sketch) {
+  std::vector<Handle> list;
+  if (sketch.vector_lag > 0.0) {
+    list.push_back(positive(sketch.vector_lag, 2.0 * data.dt(), 0.5 * data.seconds()));
+  }
+  if (sketch.lag > 0.0) {
+    list.push_back(positive(sketch.lag, 0.5 * data.dt(), 0.5 * data.seconds()));
+  }
+  for (Piece& piece : sketch.pieces) add_handles(data, piece, list);
+  return list;
+}
+
+void solve_amplitude(const Data& data, Trial& trial) {
+  const double energy = trial.column.squaredNorm();
+  const double score = trial.column.dot(data.problem().residual);
+  trial.sketch.amplitude = energy > 0.0 ? score / energy : 0.0;
+  trial.gain = energy > 0.0 ? score * score / energy : 0.0;
+}
+
+/// Derivatives by the search scales, unit amplitude.
+MatrixXd derivatives(const Data& data, const Trial& here) {
+  Sketch sketch = here.sketch;
+  const auto handles = handles_of(data, sketch);
+  MatrixXd columns(here.column.size(), static_cast<Index>(handles.size()));
+  for (std::size_t k = 0; k < handles.size(); ++k) {
+    const double before = *handles[k].value, at = handles[k].get();
+    handles[k].set(at + handles[k].step);
+    double moved = handles[k].get() - at;
+    if (std::abs(moved) < 0.5 * handles[k].step) {  // at the upper bound
+      handles[k].set(at - handles[k].step);
+      moved = handles[k].get() - at;
+    }
+    columns.col(static_cast<Index>(k)) =
+        moved == 0.0 ? VectorXd(VectorXd::Zero(here.column.size()))
+                     : VectorXd((data.column(sketch) - here.column) / moved);
+    *handles[k].value = before;
+  }
+  return columns;
+}
+
+VectorXd best_step(const Data& data, const Trial& here, const MatrixXd& slopes) {
+  MatrixXd A(slopes.rows(), slopes.cols() + 1);
+  A << here.column, here.sketch.amplitude * slopes;
+  const VectorXd left = data.problem().residual - here.sketch.amplitude * here.column;
+  return solve_gram(A.transpose() * A, A.transpose() * left, 1e-9).bottomRows(slopes.cols());
+}
+
+}  // namespace
+
+double penalty(const Sketch& sketch, double largest) {
+  const auto factors = static_cast<double>(sketch.pieces.size());
+  return (prior::kNumber + prior::kModelError * largest) * free_numbers(sketch) +
+         prior::kFactor * std::max(0.0, factors - 1.0) + prior::kMemory * memories(sketch);
+}
+
+Trial weighed(const Data& data, const Sketch& sketch) {
+  Trial trial{sketch, 0.0, 0.0, data.column(sketch)};
+  solve_amplitude(data, trial);
+  return trial;
+}
+
+Trial refined(const Data& data, const Sketch& sketch, int most_steps) {
+  Trial here = weighed(data, sketch);
+  for (int step = 0; step < most_steps && here.gain > 0.0; ++step) {
+    const MatrixXd slopes = derivatives(data, here);
+    if (slopes.cols() == 0) break;
+    const VectorXd change = best_step(data, here, slopes);
+    if (!change.allFinite()) break;
+    const double before = here.gain;
+    bool better = false;
+    for (double length = 1.0; length > kLeastLength && !better; length *= 0.35) {
+      Sketch next = here.sketch;
+      const auto handles = handles_of(data, next);
+      for (std::size_t k = 0; k < handles.size(); ++k) {
+        const double most = handles[k].most;
+        handles[k].set(handles[k].get() +
+                       length * std::clamp(change(static_cast<Index>(k)), -most, most));
+      }
+      Trial there = weighed(data, next);
+      better = there.gain > here.gain;
+      if (better) here = std::move(there);
+    }
+    if (!better || here.gain - before < kSettled) break;
+  }
+  return here;
+}
+
+MatrixXd tangent_of(const Data& data, const Sketch& sketch) {
+  Trial here{sketch, 0.0, 0.0, data.column(sketch)};
+  const MatrixXd slopes = derivatives(data, here);
+  MatrixXd columns(here.column.size(), slopes.cols() + 1);
+  columns << here.column, sketch.amplitude * slopes;
+  Sketch copy = sketch;
+  const auto handles = handles_of(data, copy);
+  for (std::size_t k = 0; k < handles.size(); ++k) {
+    if (handles[k].logarithmic)
+      columns.col(static_cast<Index>(k) + 1) /= std::abs(*handles[k].value);
+  }
+  return columns;
+}
+
+}  // namespace dcnn::discovery

@@ -1,0 +1,29 @@
+// The numbers of one sketch fitted to the residual, and what that gains.
+#pragma once
+
+#include "discovery/data.h"
+
+namespace dcnn::discovery {
+
+struct Trial {
+  Sketch sketch;
+  double gain = 0.0;       ///< of chi-square
+  double score = 0.0;      ///< of it, less the complexity penalty
+  Eigen::VectorXd column;  ///< whitened, beside what is known, of unit amplitude
+};
+
+/// The gain of a sketch with the numbers that it has, its amplitude solved for.
+Trial weighed(const Data& data, const Sketch& sketch);
+
+/// Gauss-Newton over its numbers, the amplitude solved for, at most so many steps.
+Trial refined(const Data& data, const Sketch& sketch, int most_steps);
+
+/// Derivatives of the whitened column by the numbers that are fitted, the amplitude first, in the
+/// order of the law's numbers; by the numbers themselves, not their search scales.
+Eigen::MatrixXd tangent_of(const Data& data, const Sketch& sketch);
+
+/// The penalty of a sketch: by its numbers, factors and memories; `largest` is the largest gain of
+/// any sketch, of which a share per number is what an error of the motion could buy.
+double penalty(const Sketch& sketch, double largest);
+
+}  // namespace dcnn::discovery

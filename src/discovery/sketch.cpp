@@ -1,0 +1,110 @@
+#include "discovery/sketch.h"
+
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+#include "core/elementary.h"
+
+namespace dcnn::discovery {
+namespace {
+
+template <class List>
+std::size_t place_named(const List& list, const char* name) {
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (std::strcmp(list[k].name, name) == 0) return k;
+  }
+  assert(false && "a shape or coordinate of this name");
+  return 0;
+}
+
+double one_digit(double value) {
+  const double size = elementary::pow(
+      10.0, static_cast<int>(std::floor(elementary::log(std::abs(value)) / elementary::log(10.0))));
+  return std::copysign(std::round(std::abs(value) / size) * size, value);
+}
+
+bool has_vector_scale(const Sketch& sketch) {
+  return *law::directions()[sketch.direction].unit != 0;
+}
+
+/// Visits the numbers of a sketch in the order in which a law holds them.
+template <class AnySketch, class Visit>
+void each_number(AnySketch& sketch, const Visit& visit) {
+  visit(sketch.amplitude);
+  if (has_vector_scale(sketch)) visit(sketch.vector_scale);
+  if (sketch.vector_lag > 0.0) visit(sketch.vector_lag);
+  if (sketch.lag > 0.0) visit(sketch.lag);
+  for (auto& piece : sketch.pieces) {
+    if (piece.factor.memory != law::Memory::kNone) visit(piece.memory);
+    if (piece.factor.centred) visit(piece.centre);
+    visit(piece.scale);
+    if (*law::shapes()[piece.factor.shape].extra) visit(piece.extra);
+  }
+}
+
+}  // namespace
+
+std::size_t shape_named(const char* name) { return place_named(law::shapes(), name); }
+std::size_t coordinate_named(const char* name) { return place_named(law::coordinates(), name); }
+
+law::Structure structure_of(const Sketch& sketch) {
+  law::Structure structure;
+  structure.direction = sketch.direction;
+  structure.direction_lagged = sketch.vector_lag > 0.0;
+  structure.lagged = sketch.lag > 0.0;
+  for (const Piece& piece : sketch.pieces) structure.factors.push_back(piece.factor);
+  return structure;
+}
+
+law::Law law_of(const Sketch& sketch) {
+  std::vector<double> numbers;
+  each_number(sketch, [&](double value) { numbers.push_back(value); });
+  return {structure_of(sketch),
+          Eigen::Map<Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()))};
+}
+
+Sketch sketch_of(const law::Law& law) {
+  Sketch sketch;
+  sketch.direction = law.structure.direction;
+  sketch.vector_lag = law.structure.direction_lagged ? 1.0 : 0.0;
+  sketch.lag = law.structure.lagged ? 1.0 : 0.0;
+  for (const law::Factor& factor : law.structure.factors) {
+    Piece piece;
+    piece.factor = factor;
+    sketch.pieces.push_back(piece);
+  }
+  Eigen::Index next = 0;
+  each_number(sketch, [&](double& value) { value = law.numbers(next++); });
+  return sketch;
+}
+
+Sketch with_round_references(Sketch sketch) {
+  if (has_vector_scale(sketch)) sketch.vector_scale = one_digit(sketch.vector_scale);
+  for (Piece& piece : sketch.pieces) {
+    const law::Shape& shape = law::shapes()[piece.factor.shape];
+    if (shape.free_scale) continue;
+    const double before = piece.scale;
+    piece.scale = one_digit(before);
+    if (*shape.extra && piece.factor.shape == shape_named("affine")) {
+      piece.extra *= piece.scale / before;
+    }
+  }
+  return sketch;
+}
+
+int free_numbers(const Sketch& sketch) {
+  int count = 0;
+  for (const law::Number& number : law::numbers_of(structure_of(sketch))) {
+    count += !number.is_reference;
+  }
+  return count;
+}
+
+int memories(const Sketch& sketch) {
+  int count = (sketch.lag > 0.0) + (sketch.vector_lag > 0.0);
+  for (const Piece& piece : sketch.pieces) count += piece.factor.memory != law::Memory::kNone;
+  return count;
+}
+
+}  // namespace dcnn::discovery

@@ -1,0 +1,39 @@
+// A law while it is being searched for: its numbers by factor, ready to be changed.
+#pragma once
+
+#include <vector>
+
+#include "dcnn/physics/law.h"
+
+namespace dcnn::discovery {
+
+struct Piece {
+  law::Factor factor;
+  double memory = 0.0, centre = 0.0, scale = 1.0, extra = 0.0;
+};
+
+struct Sketch {
+  std::size_t direction = 0;
+  double vector_scale = 1.0;
+  double vector_lag = 0.0, lag = 0.0;  ///< s; 0 for none
+  double amplitude = 1.0;
+  std::vector<Piece> pieces;
+};
+
+law::Structure structure_of(const Sketch& sketch);
+law::Law law_of(const Sketch& sketch);
+Sketch sketch_of(const law::Law& law);
+
+/// Place of a shape or coordinate by its name.
+std::size_t shape_named(const char* name);
+std::size_t coordinate_named(const char* name);
+
+/// The same law with the numbers at which its amplitude is told rounded to one digit.
+Sketch with_round_references(Sketch sketch);
+
+/// Numbers that are fitted, the amplitude among them.
+int free_numbers(const Sketch& sketch);
+/// States and lags.
+int memories(const Sketch& sketch);
+
+}  // namespace dcnn::discovery

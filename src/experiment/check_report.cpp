@@ -1,0 +1,99 @@
+#include "dcnn/experiment/check_report.h"
+
+#include "dcnn/core/file.h"
+#include "dcnn/experiment/report.h"
+#include "experiment/markup.h"
+#include "experiment/series.h"
+
+namespace dcnn {
+namespace {
+
+std::vector<std::string> fault_row(const check::Fault& fault) {
+  const std::string remedy = fault.remedy + (fault.flag.empty() ? "" : " (" + fault.flag + ")");
+  const std::string where =
+      fault.interval_s ? significant(fault.interval_s->first, 6) + " to " + significant(fault.interval_s->second, 6) : "";
+  return {fault.id, significant(fault.probability, 4), fault.words, where, remedy};
+}
+
+void add_faults(const check::Report& report, HtmlReport& page) {
+  if (report.faults.empty()) {
+    page.paragraph("Nothing is wrong that can be told from the data.");
+    return;
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const check::Fault& fault : report.faults) rows.push_back(fault_row(fault));
+  page.table({"fault", "probability", "what is wrong", "t", "what mends it"}, rows);
+}
+
+void add_forces(const check::Report& report, HtmlReport& page) {
+  std::vector<Chart> charts;
+  for (std::size_t k = 0; k < report.measured.size(); ++k) {
+    const check::Curve& logged = report.measured[k];
+    const check::Curve& rigid = report.rigid[k];
+    Chart chart{logged.label, "t [s]", "N", {}, {}, false, 440, 260, false};
+    chart.series.push_back({"as logged", list_of(logged.t), list_of(logged.values), {}});
+    chart.series.push_back({"rigid tool", list_of(rigid.t), list_of(rigid.values), {}});
+    charts.push_back(chart);
+  }
+  if (charts.empty()) return;
+  page.panels(charts, "The force, in the likeliest reading of the log, beside the best fit of a rigid tool (mass, centre "
+                      "of mass, offset), both smoothed over 0.12 s.");
+}
+
+void add_readings(const check::Report& report, HtmlReport& page) {
+  std::vector<std::vector<std::string>> rows;
+  for (const check::ReadingWeight& reading : report.readings) {
+    rows.push_back({reading.words, significant(reading.probability, 3)});
+  }
+  page.paragraph("Ways to read the log, by their posterior probability:");
+  page.table({"reading", "probability"}, rows);
+}
+
+void add_identifiable(const check::Report& report, HtmlReport& page) {
+  if (report.identifiable.empty()) return;
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [what, shown] : report.identifiable) rows.push_back({what, shown ? "yes" : "no"});
+  page.paragraph("What the motion shows:");
+  page.table({"number", "identifiable"}, rows);
+}
+
+}  // namespace
+
+Json check_json(const std::vector<check::Report>& reports) {
+  Json json;
+  json["faults"] = Json::array();
+  json["identifiable"] = Json::object();
+  json["logs"] = Json::array();
+  for (const check::Report& report : reports) {
+    Json one = check::to_json(report);
+    for (Json fault : one["faults"]) {
+      fault["log"] = report.log;
+      json["faults"].push_back(fault);
+    }
+    for (const auto& [what, shown] : report.identifiable) {
+      json["identifiable"][what] = shown || json["identifiable"].value(what, false);
+    }
+    json["logs"].push_back(std::move(one));
+  }
+  return json;
+}
+
+std::string check_html(const std::vector<check::Report>& reports) {
+  HtmlReport page("Check of recordings");
+  for (const check::Report& report : reports) {
+    page.heading(report.log);
+    add_faults(report, page);
+    add_forces(report, page);
+    add_readings(report, page);
+    add_identifiable(report, page);
+    for (const std::string& note : report.notes) page.paragraph(note);
+  }
+  return page.html();
+}
+
+void write_check(const std::filesystem::path& folder, const std::vector<check::Report>& reports) {
+  write_file(folder / "check.json", check_json(reports).dump(2) + "\n");
+  write_file(folder / "check.html", check_html(reports));
+}
+
+}  // namespace dcnn

@@ -1,0 +1,150 @@
+#include "experiment/diagnosis_tables.h"
+
+#include <set>
+
+#include "dcnn/diagnosis/diagnose.h"
+#include "experiment/report_words.h"
+
+namespace dcnn {
+namespace {
+
+std::string shown(const Json& value) {
+  if (value.is_null()) return "";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value.get<double>());
+  return text;
+}
+
+const std::vector<std::pair<const char*, const char*>> kStages{
+    {"holdout_rmse_before", "as given"},
+    {"holdout_rmse_parameters", "own numbers refitted"},
+    {"holdout_rmse_after", "with all findings"},
+    {"noise_floor", "sensor's noise"}};
+
+/// The unit of the target of this name.
+std::string unit_of_target(const Json& report, const Json& target) {
+  for (std::size_t j = 0; j < report["targets"].size(); ++j) {
+    if (plain_text(report["targets"][j]) == plain_text(target))
+      return plain_text(report["units"][j]);
+  }
+  return "";
+}
+
+/// "3.2 g", or where the effect has no size of its own the root mean square that it would add.
+std::string least_size(const Json& report, const Json& entry) {
+  if (entry.contains("least") && entry["least"].is_object()) {
+    const Json& least = entry["least"];
+    return words_of_parameter(plain_text(least["parameter"])) + " " +
+           with_unit(least["value"].get<double>(),
+                     unit_in_words(plain_text(least["parameter"]), plain_text(least["unit"])));
+  }
+  const auto units = report["units"].get<std::vector<std::string>>();
+  const bool one = std::set<std::string>(units.begin(), units.end()).size() == 1;
+  return with_unit(entry["minimum_detectable_rms"].get<double>(), one ? units.front() : "") +
+         " rms";
+}
+
+}  // namespace
+
+std::string plain_text(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump();
+}
+
+void add_errors(const Json& report, HtmlReport& page) {
+  const Json& fit = report["fit"];
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [key, label] : kStages) {
+    if (fit[key].is_null()) continue;
+    std::vector<std::string> row{label};
+    for (const Json& value : fit[key]) row.push_back(shown(value));
+    rows.push_back(row);
+  }
+  std::vector<std::string> header{"RMSE on held-out data"};
+  for (std::size_t j = 0; j < report["targets"].size(); ++j) {
+    header.push_back(plain_text(report["targets"][j]) + " [" +
+                     unit_text(plain_text(report["units"][j])) + "]");
+  }
+  page.table(header, rows);
+  page.paragraph("Verdict: " + plain_text(report["verdict"]) +
+                 ". RMSE: root mean square of measured - simulated over the samples that were held "
+                 "out of the fit, without the first and last 0.5 s of each recording.");
+}
+
+void add_findings(const Json& report, HtmlReport& page) {
+  page.heading("Findings");
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& f : in_lines(report["findings"])) {
+    std::string parameters;
+    for (const auto& [name, p] : f["parameters"].items()) {
+      parameters += (parameters.empty() ? "" : "; ") + words_of_parameter(name) + " ";
+      const Json& interval = p["ci95"];
+      const auto value = p["value"].get<double>();
+      const std::string unit = unit_in_words(name, p["unit"].get<std::string>());
+      parameters +=
+          interval[0].is_null() || interval[1].is_null()
+              ? with_unit(value, unit)
+              : with_interval(value, interval[0].get<double>(), interval[1].get<double>(), unit);
+    }
+    std::string alternatives;
+    for (const Json& a : f["alternatives"]) {
+      const Json& effect = a.is_object() ? a["effect"] : a;
+      alternatives += (alternatives.empty() ? "" : ", ") + words_of_effect(plain_text(effect));
+    }
+    rows.push_back({words_of_effect(plain_text(f["effect"])), words_of_axis(plain_text(f["axis"])),
+                    parameters, shown(f["confidence"]), shown(f["holdout_gain"]), alternatives});
+  }
+  if (rows.empty()) {
+    page.paragraph("No effect is named.");
+    return;
+  }
+  page.table({"what is missing", "where", "size, with its 95 % interval", "confidence",
+              "hold-out gain", "cannot be excluded"},
+             rows);
+  page.paragraph(
+      "Confidence: the probability that the finding is true, after the search over the whole "
+      "catalogue; empty where a test of its own found it. Hold-out gain: the share of the held-out "
+      "RMSE that would come back without this finding, 1 - after / (after without it). Names and "
+      "numbers for programs are in report.json.");
+}
+
+void add_places(const Json& report, HtmlReport& page) {
+  page.heading("Where the simulator as given differs");
+  page.paragraph(
+      "Excess: what measured - simulated has beyond the sensor's noise, as a root mean square: "
+      "sqrt(max(0, mean square - noise²)), in the unit of the target. The shares of each kind of "
+      "place (targets, times, conditions, frequencies) are of the excess' energy.");
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& a : report["where"]["axes"]) {
+    rows.push_back({plain_text(a["axis"]), shown(a["share"]),
+                    with_unit(a["excess_rms"].get<double>(), unit_of_target(report, a["axis"]))});
+  }
+  for (const Json& s : report["where"]["segments"]) {
+    rows.push_back({"time " + shown(s["interval_s"][0]) + " to " + shown(s["interval_s"][1]) + " s",
+                    shown(s["share"]), shown(s["excess_rms"])});
+  }
+  for (const Json& r : report["where"]["regimes"]) {
+    rows.push_back(
+        {plain_text(r["signal"]) + ": " + plain_text(r["condition"]), shown(r["share"]), ""});
+  }
+  for (const Json& b : report["where"]["bands"]) {
+    rows.push_back({shown(b["hz"][0]) + " to " + shown(b["hz"][1]) + " Hz", shown(b["share"]), ""});
+  }
+  page.table({"place", "share of the excess", "excess"}, rows);
+}
+
+void add_limits(const Json& report, HtmlReport& page) {
+  page.heading("What was not found, and from which size on it would have been");
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& n : report["not_detected"]) {
+    rows.push_back({words_of_effect(plain_text(n["effect"])), least_size(report, n), ""});
+  }
+  for (const Json& n : report["not_testable"]) {
+    rows.push_back({words_of_effect(plain_text(n["effect"])), "", plain_text(n["why"])});
+  }
+  page.table({"effect", "would have been found from", "not testable because"}, rows);
+  page.paragraph(
+      "Sizes hold for the axis on which the effect shows least. They are those that would be found "
+      "in nine of ten recordings like these; rms: root mean square of what the effect adds.");
+}
+
+}  // namespace dcnn

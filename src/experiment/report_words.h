@@ -1,0 +1,23 @@
+// What reports call things: effects, axes and parameters in words, numbers in units people use.
+#pragma once
+
+#include <string>
+
+namespace dcnn {
+
+/// "dry friction" for "coulomb_friction".
+std::string words_of_effect(const std::string& id);
+/// "along the tool" for "tool_z"; the name itself where it is a machine's own, empty for "".
+std::string words_of_axis(const std::string& axis);
+/// "friction force" for "fc_n", "centre of mass, x" for "delta_com_x_m".
+std::string words_of_parameter(const std::string& name);
+/// "N·m" for "N*m".
+std::string unit_text(const std::string& unit);
+/// The unit to give the two below for a parameter: shares without a unit are shown in per cent.
+std::string unit_in_words(const std::string& name, const std::string& unit);
+/// "3.2 g" for 0.0032 kg, "402 mN" or "0.402 N"; three digits.
+std::string with_unit(double value, const std::string& unit);
+/// The same for a value and its interval, in one unit: "0.402 N (0.398 to 0.406)".
+std::string with_interval(double value, double low, double high, const std::string& unit);
+
+}  // namespace dcnn

@@ -1,0 +1,116 @@
+#include <cmath>
+#include <cstdio>
+
+#include "dcnn/identification/identify.h"
+
+namespace dcnn {
+namespace {
+
+Json numbers_of(const Eigen::VectorXd& values) {
+  Json list = Json::array();
+  for (const double v : values) list.push_back(v);
+  return list;
+}
+
+Json estimates_json(const std::vector<IdentifiedNumber>& estimates) {
+  Json all = Json::object();
+  for (const IdentifiedNumber& e : estimates) {
+    Json one{{"value", e.value}, {"unit", e.unit}, {"shown", e.shown}};
+    one["ci95"] = Json::array({e.low, e.high});
+    one["motion"] = e.motion.empty() ? Json() : Json(e.motion);
+    all[e.name] = one;
+  }
+  return all;
+}
+
+std::string line_of(const IdentifiedNumber& e) {
+  char line[200];
+  const double half = 0.5 * (e.high - e.low);
+  // As many decimals as the interval has two digits for.
+  const int decimals = half > 0.0 && std::isfinite(half)
+                           ? std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 9)
+                           : 6;
+  std::snprintf(line, sizeof line, "  %-20s %*.*f  [%.*f, %.*f] %s%s\n", e.name.c_str(), 11,
+                decimals, e.value, decimals, e.low, decimals, e.high, e.unit.c_str(),
+                e.shown ? "" : "   not shown");
+  return line;
+}
+
+std::string join(const std::vector<std::string>& words) {
+  std::string all;
+  for (const auto& word : words) all += (all.empty() ? "" : ", ") + word;
+  return all;
+}
+
+/// One line for each motion: which numbers it would show.
+std::string missing_text(const std::vector<IdentifiedNumber>& estimates) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> motions;
+  for (const IdentifiedNumber& e : estimates) {
+    if (e.shown) continue;
+    auto found = std::find_if(motions.begin(), motions.end(),
+                              [&](const auto& m) { return m.first == e.motion; });
+    if (found == motions.end()) found = motions.insert(motions.end(), {e.motion, {}});
+    found->second.push_back(e.name);
+  }
+  std::string text;
+  for (const auto& [motion, names] : motions) {
+    text += "  " + join(names) + ": " + motion + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+Json to_json(const ToolIdentification& id) {
+  Json json{{"recordings", id.recordings},
+            {"simulator", to_json(id.model)},
+            {"parameters", estimates_json(id.parameters)},
+            {"targets", id.targets},
+            {"units", id.units},
+            {"residual_rms", numbers_of(id.residual_rms)},
+            {"cutoff_hz", numbers_of(id.cutoff_hz)},
+            {"constrained", id.constrained},
+            {"possible_share", id.possible_share},
+            {"notes", id.notes}};
+  Json beside = Json::array();
+  for (const BesideTool& law : id.beside) {
+    Json one{{"effect", law.effect}, {"words", law.words}};
+    one["axis"] = law.axis.empty() ? Json() : Json(law.axis);
+    one["parameters"] = estimates_json(law.parameters);
+    beside.push_back(one);
+  }
+  json["beside"] = beside;
+  Json missing = Json::array();
+  for (const IdentifiedNumber& e : id.parameters) {
+    if (!e.shown) missing.push_back(Json{{"parameter", e.name}, {"motion", e.motion}});
+  }
+  json["not_shown"] = missing;
+  return json;
+}
+
+std::string to_text(const ToolIdentification& id) {
+  std::string text = "The tool in the sensor's frame, from " + join(id.recordings) +
+                     " (95 % intervals):\n";
+  for (const IdentifiedNumber& e : id.parameters) text += line_of(e);
+  char line[160];
+  std::snprintf(line, sizeof line, "Residual: %.3g N", id.residual_rms.head(3).norm() / std::sqrt(3.0));
+  text += line;
+  if (id.residual_rms.size() == 6) {
+    std::snprintf(line, sizeof line, ", %.3g N*m", id.residual_rms.tail(3).norm() / std::sqrt(3.0));
+    text += line;
+  }
+  text += " rms in the motion's band.\n";
+  if (id.constrained) {
+    text += "Least squares alone gave a body that cannot exist; the numbers are those of bodies that "
+            "can.\n";
+  }
+  if (!id.beside.empty()) text += "Fitted beside the tool, since the data show it:\n";
+  for (const BesideTool& law : id.beside) text += "  " + law.words + "\n";
+  const std::string missing = missing_text(id.parameters);
+  if (!missing.empty()) {
+    text += "Not shown by this motion, and what would show it:\n" + missing;
+  }
+  return text;
+}
+
+}  // namespace dcnn

@@ -1,0 +1,202 @@
+#include "import/clocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "data/text.h"
+#include "dcnn/core/error.h"
+#include "import/roles.h"
+#include "import/units.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kNoTime = std::numeric_limits<double>::quiet_NaN();
+constexpr double kGapSteps = 5.0, kOffStep = 0.2;  // as in recordings
+
+/// Years 1990 to 2100 since 1970, s: a number in this range in exactly one of four units is a date.
+constexpr double kYear1990 = 6.3e8, kYear2100 = 4.1e9;
+
+/// Below 5 Hz a log is a list of poses or is not counted in seconds: the two look alike.
+constexpr double kSlowStep = 0.2;
+
+double median_of(std::vector<double> steps) {
+  if (steps.empty()) return 0.0;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return *middle;
+}
+
+std::vector<double> steps_of(const std::vector<double>& times) {
+  std::vector<double> steps;
+  double last = kNoTime;
+  for (const double t : times) {
+    if (std::isnan(t)) continue;
+    if (!std::isnan(last)) steps.push_back(t - last);
+    last = t;
+  }
+  return steps;
+}
+
+/// The unit of a clock that states none, by its size.
+void guess_unit(const LogChannel& channel, ClockRule* rule) {
+  const struct {
+    const char* unit;
+    double factor;
+  } kChoices[] = {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
+  for (const auto& choice : kChoices) {
+    const double seconds = channel.low * choice.factor;
+    if (seconds < kYear1990 || seconds > kYear2100) continue;
+    rule->unit = choice.unit;
+    rule->why = "a date since 1970";
+    return;
+  }
+  const double step = median_of(steps_of(channel.values));
+  std::ostringstream words;
+  if (step < kSlowStep) {
+    words << "steps of " << step;
+    rule->why = words.str();
+    return;
+  }
+  rule->assumed = true;
+  rule->unit = step < 1e3 ? "ms" : step < 1e5 ? "us" : "ns";
+  words << "steps of " << step << ": as seconds " << (channel.high - channel.low) / 3600.0 << " h";
+  rule->why = words.str();
+}
+
+const LogChannel* best_clock(const LogStream& stream) {
+  const LogChannel* best = nullptr;
+  int rank = 0;
+  for (const LogChannel& channel : stream.channels) {
+    if (channel.finite == 0 || clock_rank(channel.name) <= rank) continue;
+    best = &channel;
+    rank = clock_rank(channel.name);
+  }
+  return best;
+}
+
+/// secs and nsecs of one stamp; the same name but for its last word.
+bool find_pair(const LogStream& stream, ClockRule* rule) {
+  for (std::size_t k = 0; k + 1 < stream.channels.size(); ++k) {
+    if (stamp_part(stream.channels[k].name) != 1) continue;
+    if (stamp_part(stream.channels[k + 1].name) != 2) continue;
+    rule->kind = "column";
+    rule->channel = stream.channels[k].name;
+    rule->nanoseconds = stream.channels[k + 1].name;
+    rule->why = "whole seconds and nanoseconds";
+    return true;
+  }
+  return false;
+}
+
+bool usable_stamps(const LogStream& stream) {
+  if (static_cast<Index>(stream.stamped.size()) != stream.rows || stream.rows == 0) return false;
+  const auto [low, high] = std::minmax_element(stream.stamped.begin(), stream.stamped.end());
+  return *low > 0.0 && (*high > *low || stream.rows == 1);
+}
+
+void take_column(const LogStream& stream, const std::string& name, const ImportWishes& wishes,
+                 ClockRule* rule) {
+  const LogChannel& channel = stream.channels[static_cast<std::size_t>(stream.find(name))];
+  rule->kind = "column";
+  rule->channel = name;
+  const std::string stated = channel.unit;
+  if (!wishes.clock_unit.empty()) {
+    rule->unit = wishes.clock_unit;
+    rule->why = "as said";
+  } else if (const auto unit = find_unit(stated); unit && unit->quantity == "time") {
+    rule->unit = stated;
+    rule->why = "its name";
+  } else {
+    guess_unit(channel, rule);
+  }
+}
+
+const std::vector<double>& values_of(const LogStream& stream, const std::string& name,
+                                     const std::string& file) {
+  const Index at = stream.find(name);
+  require(at >= 0, Exit::kData, file, ": ", shown(stream.name), " has no channel ", shown(name),
+          ", which is to be its clock");
+  return stream.channels[static_cast<std::size_t>(at)].values;
+}
+
+}  // namespace
+
+ClockRule propose_clock(const LogStream& stream, const ImportWishes& wishes,
+                        std::vector<std::string>* guesses) {
+  ClockRule rule;
+  rule.stream = stream.name;
+  if (const auto offset = wishes.clock_offsets.find(stream.name);
+      offset != wishes.clock_offsets.end()) {
+    rule.offset = offset->second;
+  }
+  if (!wishes.clock.empty() && stream.find(wishes.clock) >= 0) {
+    take_column(stream, wishes.clock, wishes, &rule);
+  } else if (wishes.rate_hz > 0.0) {
+    rule.kind = "rate";
+    rule.hz = wishes.rate_hz;
+    rule.why = "as said";
+  } else if (usable_stamps(stream) && (wishes.stamps == "header" || stream.received.empty())) {
+    rule.kind = "header";
+    rule.why = "stamps of the messages";
+  } else if (!stream.received.empty()) {
+    rule.kind = "receive";
+    rule.why = wishes.stamps == "header" ? "no stamps in the messages" : "as said";
+  } else if (!find_pair(stream, &rule)) {
+    if (const LogChannel* channel = best_clock(stream)) {
+      take_column(stream, channel->name, wishes, &rule);
+    }
+  }
+  if (rule.assumed) {
+    guesses->push_back("the clock " + shown(rule.channel) + " has " + rule.why +
+                       ": say --clock-unit " + rule.unit + " (or s)");
+  }
+  return rule;
+}
+
+std::vector<double> clock_times(const LogStream& stream, const ClockRule& rule,
+                                const std::string& file) {
+  std::vector<double> times;
+  if (rule.kind == "header") times = stream.stamped;
+  if (rule.kind == "receive") times = stream.received;
+  if (rule.kind == "rate") {
+    for (Index k = 0; k < stream.rows; ++k) times.push_back(static_cast<double>(k) / rule.hz);
+  }
+  if (rule.kind == "column") {
+    times = values_of(stream, rule.channel, file);
+    const auto unit = find_unit(rule.unit);
+    require(unit && unit->quantity == "time", Exit::kData, file, ": ", shown(rule.unit),
+            " is no unit of time");
+    for (double& t : times) t *= unit->factor;
+    if (!rule.nanoseconds.empty()) {
+      const std::vector<double>& parts = values_of(stream, rule.nanoseconds, file);
+      for (std::size_t k = 0; k < times.size(); ++k) times[k] += 1e-9 * parts[k];
+    }
+  }
+  require(rule.kind == "none" || static_cast<Index>(times.size()) == stream.rows, Exit::kData, file,
+          ": ", shown(stream.name), " has no times of kind ", shown(rule.kind));
+  for (double& t : times) t += rule.offset;
+  return times;
+}
+
+ClockFigures clock_figures(const std::vector<double>& times) {
+  ClockFigures figures;
+  const std::vector<double> steps = steps_of(times);
+  if (steps.empty()) return figures;
+  figures.step = median_of(steps);
+  Index off = 0;
+  for (const double step : steps) {
+    figures.gaps += step > kGapSteps * figures.step;
+    figures.repeats += step == 0.0;
+    figures.backward += step < 0.0;
+    off += std::abs(step - figures.step) > kOffStep * figures.step;
+  }
+  figures.off = static_cast<double>(off) / static_cast<double>(steps.size());
+  const auto finite = [](double t) { return std::isfinite(t); };
+  figures.begin = *std::find_if(times.begin(), times.end(), finite);
+  figures.end = *std::find_if(times.rbegin(), times.rend(), finite);
+  return figures;
+}
+
+}  // namespace dcnn

@@ -1,0 +1,26 @@
+// Times of a stream's rows.
+#pragma once
+
+#include <vector>
+
+#include "dcnn/import/recipe.h"
+
+namespace dcnn {
+
+/// Where a stream's times come from, as far as names and sizes tell.
+ClockRule propose_clock(const LogStream& stream, const ImportWishes& wishes,
+                        std::vector<std::string>* guesses);
+
+/// s; empty for kind none. Rows without a time are NaN.
+std::vector<double> clock_times(const LogStream& stream, const ClockRule& rule,
+                                const std::string& file);
+
+/// Figures of a clock for the printed table.
+struct ClockFigures {
+  double begin = 0.0, end = 0.0, step = 0.0;  ///< s; step: the median
+  Index gaps = 0, repeats = 0, backward = 0;  ///< steps above 5 medians, of zero, negative
+  double off = 0.0;                           ///< part of the steps off by more than 20 %
+};
+ClockFigures clock_figures(const std::vector<double>& times);
+
+}  // namespace dcnn

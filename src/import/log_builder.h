@@ -1,0 +1,40 @@
+// Collects rows of streams while a log is read.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dcnn/import/log.h"
+
+namespace dcnn {
+
+class LogBuilder {
+ public:
+  LogBuilder(ForeignLog& log, const ReadLogOptions& options) : log_(log), options_(options) {}
+
+  /// The stream of `key`, made from `make` where it is new. The Error(kData) of more streams or
+  /// channels than a log of numbers has.
+  template <class Make>
+  std::size_t stream(const std::string& key, const Make& make) {
+    const auto found = streams_.find(key);
+    return found != streams_.end() ? found->second : add_stream(key, make());
+  }
+
+  /// Times in s; NaN where the log has none of that kind.
+  void add(std::size_t stream, double stamped, double received, std::span<const double> row);
+
+  ForeignLog& log() { return log_; }
+  const ReadLogOptions& options() const { return options_; }
+
+ private:
+  std::size_t add_stream(const std::string& key, LogStream stream);
+
+  ForeignLog& log_;
+  const ReadLogOptions& options_;
+  std::map<std::string, std::size_t> streams_;
+  std::vector<std::vector<char>> keep_;
+};
+
+}  // namespace dcnn

@@ -1,0 +1,26 @@
+// Logs that are arrays of numbers: NumPy, MATLAB.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "import/log_builder.h"
+
+namespace dcnn {
+
+/// Columns of one length.
+struct NumberArray {
+  std::vector<std::string> channels;
+  std::vector<std::vector<double>> columns;
+  Index rows = 0;
+};
+
+/// "force[0]" of an array with several columns.
+std::string element_name(const std::string& array, Index column, Index columns);
+
+/// Arrays of one length are one stream, called `name` or, where that is empty, by their length's
+/// rank ("arrays1": the longest), which the next log has, too.
+void add_number_arrays(std::vector<NumberArray> arrays, const std::string& name,
+                       LogBuilder& builder);
+
+}  // namespace dcnn

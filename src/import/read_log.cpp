@@ -1,0 +1,83 @@
+// Which reader a file is for, by its first bytes.
+#include <algorithm>
+#include <fstream>
+
+#include "data/text.h"
+#include "dcnn/core/error.h"
+#include "dcnn/import/log.h"
+#include "import/log_builder.h"
+#include "import/readers.h"
+#include "import/text_log.h"
+
+namespace dcnn {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The files of a folder that ros2 bag made; the path itself otherwise.
+std::vector<fs::path> files_of(const fs::path& path) {
+  if (!fs::is_directory(path)) return {path};
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(path, error)) {
+    const std::string extension = entry.path().extension();
+    if (extension == ".mcap" || extension == ".db3") files.push_back(entry.path());
+  }
+  require(!files.empty(), Exit::kData, path.string(),
+          ": is a folder without .mcap or .db3 files; name a file");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string first_bytes(const fs::path& path) {
+  std::string bytes(64, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, file.gcount())));
+  return bytes;
+}
+
+void read_one(const fs::path& path, std::size_t number, LogBuilder& builder) {
+  const std::string begin = path == "-" ? "" : first_bytes(path);
+  const auto starts = [&](std::string_view magic) { return begin.starts_with(magic); };
+  require(!starts("\x1F\x8B"), Exit::kData, path.string(), ": is compressed; unpack it: gunzip");
+  require(!starts("\x28\xB5\x2F\xFD"), Exit::kData, path.string(),
+          ": is compressed; unpack it: unzstd");
+  const std::string name = "file" + std::to_string(number);
+  if (starts("\x89MCAP0\r\n")) return read_mcap(path, builder);
+  if (starts("#ROSBAG V")) return read_bag(path, builder);
+  if (starts("SQLite format 3")) return read_db3(path, builder);
+  if (starts("\x93NUMPY")) return read_npy(path, name, builder);
+  if (starts("PK\x03\x04")) return read_npz(path, builder);
+  if (starts("MATLAB ") || starts("\x89HDF\r\n")) return read_mat(path, builder);
+  read_text_log(path, name, builder);
+}
+
+}  // namespace
+
+ForeignLog read_log(const std::vector<fs::path>& paths, const ReadLogOptions& options) {
+  ForeignLog log;
+  LogBuilder builder(log, options);
+  std::size_t number = 0;
+  std::string formats;
+  for (const fs::path& path : paths) {
+    for (const fs::path& file : files_of(path)) {
+      log.file = file.string();
+      read_one(file, ++number, builder);
+      if (formats.find(log.format) == std::string::npos) {
+        formats += (formats.empty() ? "" : "; ") + log.format;
+      }
+    }
+  }
+  log.format = formats;
+  if (paths.size() > 1) log.file = paths.front().string() + " and others";
+  return log;
+}
+
+std::string known_formats() {
+  return "text of any dialect, ROS 1 bags, rosbag2 (.mcap, .db3 or its folder), NumPy (.npy, "
+         ".npz), "
+         "MATLAB (.mat)";
+}
+
+}  // namespace dcnn

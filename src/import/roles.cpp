@@ -1,0 +1,191 @@
+#include "import/roles.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "import/units.h"
+
+namespace dcnn {
+namespace {
+
+using Words = std::vector<std::string>;
+
+bool is_one_of(const std::string& word, std::initializer_list<const char*> list) {
+  return std::any_of(list.begin(), list.end(), [&](const char* other) { return word == other; });
+}
+
+bool has_word(const Words& words, std::initializer_list<const char*> list) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return is_one_of(word, list); });
+}
+
+/// 0, 1, 2 of x, y, z or of an index; -1 for another word.
+int axis_of(const std::string& word) {
+  constexpr std::array<const char*, 6> kAxes = {"x", "y", "z", "0", "1", "2"};
+  const auto found = std::find(kAxes.begin(), kAxes.end(), word);
+  return found == kAxes.end() ? -1 : static_cast<int>(found - kAxes.begin()) % 3;
+}
+
+std::string with_axis(const char* stem, int axis) { return stem + std::string(1, "xyz"[axis]); }
+
+/// Names that are a column in one word.
+std::string single_word(const std::string& word) {
+  constexpr std::array kColumns = {"x",  "y",  "z",  "alpha", "beta", "gamma", "qw",
+                                   "qx", "qy", "qz", "fx",    "fy",   "fz",    "tx",
+                                   "ty", "tz", "vx", "vy",    "vz",   "wx",    "wy",
+                                   "wz", "ax", "ay", "az",    "dwx",  "dwy",   "dwz"};
+  if (std::find(kColumns.begin(), kColumns.end(), word) != kColumns.end()) return word;
+  if (word.size() == 2 && word[0] == 'm' && axis_of(word.substr(1)) >= 0)
+    return "t" + word.substr(1);
+  if (word.size() == 2 && word[0] == 'p' && axis_of(word.substr(1)) >= 0) return word.substr(1);
+  if (is_one_of(word, {"yaw"})) return "alpha";
+  if (is_one_of(word, {"pitch"})) return "beta";
+  if (is_one_of(word, {"roll"})) return "gamma";
+  if (is_one_of(word, {"temperature", "temp"})) return "temperature";
+  const bool matrix = word.size() == 3 && word[0] == 'r' && word[1] >= '1' && word[1] <= '3' &&
+                      word[2] >= '1' && word[2] <= '3';
+  return matrix ? word : "";
+}
+
+/// q1, dq1, qd1, tau1 and the like of an arm's joints.
+std::string joint_word(const std::string& word) {
+  const std::size_t digit = word.find_first_of("0123456789");
+  if (digit == std::string::npos ||
+      word.find_first_not_of("0123456789", digit) != std::string::npos) {
+    return "";
+  }
+  const std::string stem = word.substr(0, digit), number = word.substr(digit);
+  if (is_one_of(stem, {"q", "joint", "theta", "pos"})) return "q:" + number;
+  if (is_one_of(stem, {"dq", "qd", "qdot", "vel"})) return "qd:" + number;
+  if (is_one_of(stem, {"tau", "torque", "effort"})) return "tau:" + number;
+  return "";
+}
+
+/// The rotation of a 4x4 or 3x3 matrix whose elements are counted: libfranka's O_T_EE goes by
+/// columns.
+std::string matrix_element(const Words& words, int index) {
+  if (!has_word(words, {"ee"}) || !has_word(words, {"t"})) return "";
+  const int row = index % 4, column = index / 4;
+  if (row > 2) return "";
+  if (column == 3) return with_axis("", row);
+  return "r" + std::to_string(row + 1) + std::to_string(column + 1);
+}
+
+/// Quantity and component in several words: {wrench, force, x}, {actual, tcp, force, 3}.
+std::string by_words(const Words& words) {
+  const std::string& last = words.back();
+  const bool number = !last.empty() && last.find_first_not_of("0123456789") == std::string::npos;
+  const int index = number && last.size() < 3 ? std::stoi(last) : -1;
+  const int axis = axis_of(last);
+  if (has_word(words, {"covariance", "target", "desired", "setpoint", "cmd", "command", "bias",
+                       "std", "raw_counts", "gravity"})) {
+    return "";
+  }
+  if (has_word(words, {"tcp"}) && has_word(words, {"pose"}) && index >= 0 && index < 6) {
+    return with_axis(index < 3 ? "" : "rv", index % 3);
+  }
+  if (has_word(words, {"tcp", "wrench"}) && has_word(words, {"force", "wrench"}) && index >= 0 &&
+      index < 6) {
+    return with_axis(index < 3 ? "f" : "t", index % 3);
+  }
+  if (index >= 0) {
+    if (const std::string element = matrix_element(words, index); !element.empty()) return element;
+  }
+  const bool turn = has_word(words, {"orientation", "quaternion", "quat", "rotation", "q"});
+  if (turn && (last == "w" || (axis >= 0 && !number))) return "q" + last;
+  if (turn && index >= 0 && index < 4 && words.size() > 1 && !has_word(words, {"q"})) {
+    return "quat" + std::to_string(index);
+  }
+  if (has_word(words, {"rpy", "euler"}) && axis >= 0) return "rot" + std::to_string(axis + 1);
+  if (axis < 0) return "";
+  if (has_word(words, {"force", "forces", "f"})) return with_axis("f", axis);
+  if (has_word(words, {"torque", "torques", "moment", "moments"})) return with_axis("t", axis);
+  if (has_word(words, {"twist", "linear", "angular", "velocity", "acceleration"})) return "";
+  if (has_word(words, {"position", "pos", "translation", "trans"})) return with_axis("", axis);
+  return "";
+}
+
+/// sensor_msgs/JointState: position[elbow].
+std::string joint_state(const std::string& channel) {
+  const std::size_t open = channel.find('[');
+  if (open == std::string::npos || channel.back() != ']') return "";
+  const std::string field = channel.substr(0, open);
+  const std::string joint = channel.substr(open + 1, channel.size() - open - 2);
+  if (field == "position") return "q:" + joint;
+  if (field == "velocity") return "qd:" + joint;
+  return field == "effort" ? "tau:" + joint : "";
+}
+
+}  // namespace
+
+Words words_of_name(const std::string& name) {
+  const std::string text = name_without_unit(name);
+  Words words;
+  std::string word;
+  const auto close = [&] {
+    if (!word.empty()) words.push_back(std::exchange(word, ""));
+  };
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const auto c = static_cast<unsigned char>(text[k]);
+    if (std::isalnum(c) == 0) {
+      close();
+      continue;
+    }
+    const bool hump =
+        k > 0 && std::isupper(c) != 0 && std::islower(static_cast<unsigned char>(text[k - 1])) != 0;
+    if (hump) close();
+    word += static_cast<char>(std::tolower(c));
+  }
+  close();
+  return words;
+}
+
+std::string role_of(const LogStream& stream, const std::string& full_name) {
+  // "Fx#2" is the second column called Fx (text_layout.cpp), and as good as the first.
+  const std::size_t mark = full_name.rfind('#');
+  const bool copy = mark != std::string::npos && mark > 0 && mark + 1 < full_name.size() &&
+                    full_name.find_first_not_of("0123456789", mark + 1) == std::string::npos;
+  const std::string channel = copy ? full_name.substr(0, mark) : full_name;
+  if (stream.type.ends_with("JointState")) return joint_state(channel);
+  if (stream.type.ends_with("/Imu") || stream.type.find("Twist") != std::string::npos) return "";
+  const Words words = words_of_name(channel);
+  if (words.empty()) return "";
+  if (words.size() == 2 && words[1] == "sim" && words[0].size() == 2) {
+    return single_word(words[0]).empty() ? "" : single_word(words[0]) + "_sim";
+  }
+  if (words.size() == 1) {
+    const std::string column = single_word(words[0]);
+    return column.empty() ? joint_word(words[0]) : column;
+  }
+  if (const std::string role = by_words(words); !role.empty()) return role;
+  const bool indexed =
+      words.size() == 2 && words[1].find_first_not_of("0123456789") == std::string::npos;
+  if (indexed) return joint_word(words[0] + words[1]);  // tau[3]
+  // "sensor.fx", "/ft/Fx", "tool_roll": the last word alone, where it is one of a vector's names.
+  const std::string last = words.back().size() > 1 ? single_word(words.back()) : "";
+  const bool other = has_word(words, {"target", "desired", "cmd", "command", "bias", "sim"});
+  return other ? "" : last;
+}
+
+int clock_rank(const std::string& channel) {
+  const Words words = words_of_name(channel);
+  if (words.empty()) return 0;
+  if (has_word(words, {"header"}) && words.back() == "stamp") return 3;
+  if (words.size() <= 2 && is_one_of(words.back(), {"time", "timestamp", "stamp", "clock"}))
+    return 2;
+  if (words.size() == 2 && words[0] == "time") return 2;  // time_ms
+  return words.size() == 1 && words[0] == "t" ? 1 : 0;
+}
+
+int stamp_part(const std::string& channel) {
+  const std::size_t at = channel.find_last_of("._/ ");
+  std::string tail = at == std::string::npos ? channel : channel.substr(at + 1);
+  std::transform(tail.begin(), tail.end(), tail.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (is_one_of(tail, {"secs", "sec", "seconds"})) return 1;
+  return is_one_of(tail, {"nsecs", "nsec", "nanosec", "nanoseconds", "nanosecs"}) ? 2 : 0;
+}
+
+}  // namespace dcnn

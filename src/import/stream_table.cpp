@@ -1,0 +1,147 @@
+#include "import/stream_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "data/text.h"
+#include "dcnn/core/error.h"
+#include "dcnn/core/excerpt.h"
+#include "import/clocks.h"
+#include "import/units.h"
+
+namespace dcnn {
+namespace {
+
+/// Adds what a register lost whenever it began anew: steps beyond half its range.
+void unwrap_register(double range, std::vector<double>* values) {
+  double turns = 0.0, last = std::numeric_limits<double>::quiet_NaN();
+  for (double& value : *values) {
+    if (std::isnan(value)) continue;
+    const double raw = value;
+    if (raw - last > 0.5 * range) turns -= range;
+    if (raw - last < -0.5 * range) turns += range;
+    last = raw;
+    value += turns;
+  }
+}
+
+std::vector<double> column_values(const ForeignLog& log, const LogStream& stream, const ColumnRule& rule) {
+  const Index at = stream.find(rule.channel);
+  require(at >= 0, Exit::kData, log.file, ": ", shown(stream.name), " has no channel ",
+          shown(rule.channel), ", which is to be ", rule.to, "; see dcnn-import --dry-run");
+  std::vector<double> values = stream.channels[static_cast<std::size_t>(at)].values;
+  require(static_cast<Index>(values.size()) == stream.rows, Exit::kData, log.file, ": channel ",
+          shown(rule.channel), " was not kept");
+  if (rule.wrap > 0.0) unwrap_register(rule.wrap, &values);
+  const auto unit = rule.unit.empty() ? LogUnit() : find_unit(rule.unit);
+  require(unit.has_value(), Exit::kData, log.file, ": ", shown(rule.unit), " of column ", rule.to,
+          " is no unit that is known here");
+  for (double& value : values) {
+    value = (value - rule.offset) * rule.gain * unit->factor + unit->origin;
+  }
+  return values;
+}
+
+const LogStream& stream_of(const ForeignLog& log, const std::string& name) {
+  for (const LogStream& stream : log.streams) {
+    if (stream.name == name) return stream;
+  }
+  std::string all;
+  for (const LogStream& stream : log.streams) all += (all.empty() ? "" : ", ") + stream.name;
+  fail(Exit::kData, log.file, ": has no stream ", shown(name), "; it has ", excerpt(all, 200));
+}
+
+/// Rows in the order in which they are used: numbers everywhere, times increasing.
+std::vector<std::size_t> usable_rows(const ForeignLog& log, const LogStream& stream,
+                                     const std::vector<double>& times,
+                                     const std::vector<std::vector<double>>& columns,
+                                     std::vector<std::string>* notes) {
+  std::vector<std::size_t> rows;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(stream.rows); ++k) {
+    const bool missing = std::any_of(columns.begin(), columns.end(),
+                                     [&](const auto& column) { return !std::isfinite(column[k]); });
+    if (!missing && (times.empty() || std::isfinite(times[k]))) rows.push_back(k);
+  }
+  if (const std::size_t lost = static_cast<std::size_t>(stream.rows) - rows.size(); lost > 0) {
+    notes->push_back(stream.name + ": " + std::to_string(lost) + " of " +
+                     std::to_string(stream.rows) +
+                     " rows have no number in a used channel: left out");
+  }
+  require(!rows.empty(), Exit::kData, log.file, ": ", shown(stream.name),
+          " has no row with a number in every used channel");
+  if (times.empty()) return rows;
+  const bool message = !stream.received.empty();
+  if (message) {
+    std::stable_sort(rows.begin(), rows.end(),
+                     [&](std::size_t a, std::size_t b) { return times[a] < times[b]; });
+    const std::size_t before = rows.size();
+    rows.erase(std::unique(rows.begin(), rows.end(),
+                           [&](std::size_t a, std::size_t b) { return times[a] == times[b]; }),
+               rows.end());
+    if (rows.size() < before) {
+      notes->push_back(stream.name + ": " + std::to_string(before - rows.size()) +
+                       " messages repeat a stamp: left out");
+    }
+  }
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    require(times[rows[k]] > times[rows[k - 1]], Exit::kData, log.file, ": ", shown(stream.name),
+            ": the clock goes from ", times[rows[k - 1]], " to ", times[rows[k]], " s in row ",
+            rows[k] + 1, "; cut the log there, or give --rate for a clock with too few digits");
+  }
+  return rows;
+}
+
+}  // namespace
+
+Index StreamTable::find(const std::string& column) const {
+  const auto found = std::find(columns.begin(), columns.end(), column);
+  return found == columns.end() ? -1 : found - columns.begin();
+}
+
+void StreamTable::drop(const std::string& column) {
+  const Index at = find(column);
+  if (at < 0) return;
+  columns.erase(columns.begin() + at);
+  Eigen::MatrixXd rest(values.rows(), values.cols() - 1);
+  rest.leftCols(at) = values.leftCols(at);
+  rest.rightCols(rest.cols() - at) = values.rightCols(values.cols() - at - 1);
+  values = std::move(rest);
+}
+
+void StreamTable::set(const std::string& column, const Eigen::VectorXd& numbers) {
+  Index at = find(column);
+  if (at < 0) {
+    at = static_cast<Index>(columns.size());
+    columns.push_back(column);
+    values.conservativeResize(numbers.size(), at + 1);
+  }
+  values.col(at) = numbers;
+}
+
+StreamTable make_stream_table(const ForeignLog& log, const Recipe& recipe, const ClockRule& clock,
+                              std::vector<std::string>* notes) {
+  const LogStream& stream = stream_of(log, clock.stream);
+  StreamTable table;
+  table.stream = stream.name;
+  std::vector<std::vector<double>> columns;
+  for (const ColumnRule& rule : recipe.columns) {
+    if (rule.stream != stream.name) continue;
+    table.columns.push_back(rule.to);
+    columns.push_back(column_values(log, stream, rule));
+  }
+  const std::vector<double> times = clock_times(stream, clock, log.file);
+  const auto rows = usable_rows(log, stream, times, columns, notes);
+  table.values.resize(static_cast<Index>(rows.size()), static_cast<Index>(columns.size()));
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      table.values(static_cast<Index>(k), static_cast<Index>(c)) = columns[c][rows[k]];
+    }
+  }
+  for (const std::size_t row : rows) {
+    if (!times.empty()) table.t.push_back(times[row]);
+  }
+  return table;
+}
+
+}  // namespace dcnn

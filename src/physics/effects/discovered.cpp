@@ -1,0 +1,73 @@
+#include "dcnn/physics/law.h"
+#include "physics/effect_law.h"
+
+namespace dcnn::effects::discovered {
+namespace {
+
+law::Law law_of(const EffectSpec& spec, Options& parameters) {
+  Options structure(spec.law, "law", Exit::kData);
+  return law::parse_law(law::parse_structure(structure), parameters);
+}
+
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
+           Options& parameters) {
+  const law::Law of = law_of(spec, parameters);
+  const Index rows = motion.samples();
+  require(motion.v_B.rows() == rows, Exit::kData, motion.recording,
+          ": a discovered law needs columns x,y,z or vx,vy,vz");
+  require(!law::needs_position(of.structure) || motion.p_B.rows() == rows, Exit::kData,
+          motion.recording, ": the discovered law needs columns x,y,z");
+  Eigen::MatrixXd& on = of.structure.on_torque ? wrench.torque : wrench.force;
+  law::LawRun run(of);
+  const bool placed = motion.p_B.rows() == rows;
+  for (Index k = 0; k < rows; ++k) {
+    const law::Sample now{motion.R_BS[static_cast<std::size_t>(k)],
+                          motion.euler.row(k),
+                          placed ? Eigen::Vector3d(motion.p_B.row(k)) : Eigen::Vector3d::Zero(),
+                          motion.v_B.row(k),
+                          motion.a_B.row(k),
+                          motion.w_S.row(k),
+                          motion.dw_S.row(k),
+                          wrench.force.row(k),
+                          motion.t(k)};
+    const auto force = run.step(now, k > 0 ? step(motion, k) : motion.dt, k == 0);
+    if (on.rows() > 0) on.row(k) += force.transpose();
+  }
+}
+
+EffectStream stream(const EffectSpec& spec, Options& parameters) {
+  const law::Law of = law_of(spec, parameters);
+  return [run = law::LawRun(of), torque = of.structure.on_torque](InstantWrench& wrench,
+                                                                  const Instant& now) mutable {
+    const auto force = run.step(
+        {now.R_BS, now.euler, now.p_B, now.v_B, now.a_B, now.w_S, now.dw_S, wrench.force, 0.0},
+        now.dt, now.first);
+    (torque ? wrench.torque : wrench.force) += force;
+  };
+}
+
+bool online(const EffectSpec& spec) {
+  Options structure(spec.law, "law", Exit::kData);
+  return !law::needs_clock(law::parse_structure(structure));
+}
+
+}  // namespace
+
+const EffectKind effect{
+    .name = "discovered",
+    .stage = Stage::kForce,
+    .kind = "structural",
+    .meaning = "a law found in recordings that no other effect explains",
+    .equation = "amplitude f1(q1) f2(q2) … n",
+    .example = R"({"amplitude_n": -0.4, "scale_1_mps": 0.1, "power_1": 1.5, "memory_2_s": 0.3,
+                   "centre_2_rad": 0.1, "scale_2_rad": 0.7, "gain_2": 0.5})",
+    .example_law = R"({"axis": "tool_z", "factors": [
+                       {"shape": "power", "of": "v_tool_z"},
+                       {"shape": "wavy", "of": "beta", "memory": "lag", "centred": true}]})",
+    .needs_time = TimeNeed::kMotion,
+    .apply = apply,
+    .stream = stream,
+    .online = online,
+};
+
+}  // namespace dcnn::effects::discovered

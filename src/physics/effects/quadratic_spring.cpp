@@ -1,0 +1,32 @@
+#include "physics/effect_law.h"
+
+namespace dcnn::effects::quadratic_spring {
+namespace {
+
+auto law(Options& parameters) {
+  const double k2 = parameter(parameters, "k2_nprad2"), rest = parameter(parameters, "rest_rad");
+  return [=](double q) { return -k2 * (q - rest) * (q - rest); };
+}
+
+}  // namespace
+
+// A rest elsewhere adds a line and a constant, which a spring and an offset beside it say.
+const EffectKind effect{
+    .name = "quadratic_spring",
+    .stage = Stage::kForce,
+    .kind = "structural",
+    .meaning = "spring that pulls one way with the square of a position q",
+    .equation = "-k2 (q - rest)^2 n",
+    .example = R"({"k2_nprad2": 0.5, "rest_rad": 0.1})",
+    .axis = AxisRule::kAngle,
+    .machines_only = true,
+    .apply = pushed<law>,
+    .stream = pushing<law>,
+    .fits = {{.amplitudes = 1,
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return Json{{"k2_nprad2", a(0)}, {"rest_rad", 0.0}};
+                  }}},
+};
+
+}  // namespace dcnn::effects::quadratic_spring

@@ -1,0 +1,32 @@
+// The force of a law, sample by sample.
+#include "dcnn/physics/law.h"
+
+namespace dcnn::law {
+
+LawRun::LawRun(const Law& law) : structure_(law.structure) {
+  const double* next = law.numbers.data();
+  amplitude_ = *next++;
+  if (*directions()[structure_.direction].unit) scale_ = *next++;
+  if (structure_.direction_lagged) direction_tau_ = *next++;
+  if (structure_.lagged) tau_ = *next++;
+  for (const Factor& factor : structure_.factors) {
+    factors_.emplace_back(factor, next);
+    next += (factor.memory != Memory::kNone) + factor.centred + 1 +
+            (*shapes()[factor.shape].extra != 0);
+  }
+}
+
+Vector3d LawRun::step(const Sample& now, double h, bool first) {
+  Vector3d direction = direction_at(structure_.direction, now) / scale_;
+  if (structure_.direction_lagged) {
+    direction = direction_lag_.step(direction, direction_tau_, h, first);
+  }
+  double strength = amplitude_;
+  for (std::size_t k = 0; k < factors_.size(); ++k) {
+    strength *= factors_[k].step(coordinate_at(structure_.factors[k].coordinate, now), h, first);
+  }
+  if (structure_.lagged) strength = lag_.step(strength, tau_, h, first);
+  return strength * direction;
+}
+
+}  // namespace dcnn::law

@@ -1,0 +1,147 @@
+// The shapes that factors of a law have, and the states that a coordinate drives.
+#include <algorithm>
+#include <cmath>
+
+#include "core/elementary.h"
+#include "dcnn/physics/law.h"
+
+namespace dcnn::law {
+namespace {
+
+constexpr double kLeastBase = 1e-6;  // of a power, where its exponent is negative
+constexpr double kMostExponent = 50.0;
+
+double power_of(double size, double p) {
+  if (size == 0.0 && p >= 0.0) return 0.0;
+  return elementary::pow(std::max(size, kLeastBase), p);
+}
+
+double linear(double u, double) { return u; }
+double power(double u, double p) { return std::copysign(power_of(std::abs(u), p), u); }
+double even_power(double u, double p) { return power_of(std::abs(u), p); }
+double one_sided(double u, double p) { return u > 0.0 ? power_of(u, p) : 0.0; }
+double asymmetric(double u, double p) { return u > 0.0 ? u : p * u; }
+double saturating(double u, double) { return elementary::tanh(u); }
+double peaked(double u, double) { return u / (1.0 + u * u); }
+double fading(double u, double) {
+  return u * elementary::exp(-std::min(std::abs(u), kMostExponent));
+}
+double dead_band(double u, double) { return std::copysign(std::max(0.0, std::abs(u) - 1.0), u); }
+double logarithmic(double u, double) { return std::copysign(elementary::log1p(std::abs(u)), u); }
+double bump(double u, double) { return elementary::exp(-std::min(0.5 * u * u, kMostExponent)); }
+double sine(double u, double) { return elementary::sin(u); }
+double exponential(double u, double) {
+  return elementary::exp(std::clamp(-u, -kMostExponent, kMostExponent));
+}
+double affine(double u, double p) { return 1.0 + p * u; }
+double wavy(double u, double p) { return 1.0 + p * elementary::sin(u); }
+double falling(double u, double p) {  // Stribeck's: 1 + p at rest, 1 far from it
+  return 1.0 + p * elementary::exp(-std::min(u * u, kMostExponent));
+}
+
+/// ds = (dx - abs(dx) s)/width over dx, exactly: towards the sign of dx, exponential in the path.
+double dahl(double s, double dx, double width) {
+  const double end = dx < 0.0 ? -1.0 : 1.0;
+  return end + (s - end) * elementary::exp(-std::abs(dx) / width);
+}
+
+/// s' = 1 - speed s/length over h at constant speed.
+double dwell(double s, double path, double h, double length) {
+  const double turns = path / length;
+  if (turns < 1e-9) return s + h;
+  const double settled = h / turns;
+  return settled + (s - settled) * elementary::exp(-turns);
+}
+
+}  // namespace
+
+const std::vector<Shape>& shapes() {
+  // name, f(u), p, bounds of p, scale fitted, centre fitted, sign of the scale matters
+  static const std::vector<Shape> list{
+      {"linear", "u", "\\left(@\\right)", "", 0.0, 0.0, false, true, false, linear},
+      {"power", "sgn(u) |u|^p", "\\operatorname{sgn}(@)\\left|@\\right|^{#}", "power", 0.05, 8.0,
+       false, true, false, power},
+      {"even_power", "|u|^p", "\\left|@\\right|^{#}", "power", 0.05, 8.0, false, true, false,
+       even_power},
+      {"one_sided", "max(0, u)^p", "\\max\\left(0, @\\right)^{#}", "power", 0.05, 8.0, false, true,
+       true, one_sided},
+      {"asymmetric", "max(0, u) + p min(0, u)", "\\left(\\max(0, @) + #\\min(0, @)\\right)",
+       "ratio", -1e3, 1e3, false, true, false, asymmetric},
+      {"tanh", "tanh(u)", "\\tanh\\left(@\\right)", "", 0.0, 0.0, true, true, false, saturating},
+      {"peaked", "u/(1 + u^2)", "\\frac{@}{1 + \\left(@\\right)^2}", "", 0.0, 0.0, true, true,
+       false, peaked},
+      {"fading", "u exp(-|u|)", "@\\, e^{-\\left|@\\right|}", "", 0.0, 0.0, true, true, false,
+       fading},
+      {"dead_band", "sgn(u) max(0, |u| - 1)",
+       "\\operatorname{sgn}(@)\\max\\left(0, \\left|@\\right| - 1\\right)", "", 0.0, 0.0, true,
+       true, false, dead_band},
+      {"log", "sgn(u) log(1 + |u|)",
+       "\\operatorname{sgn}(@)\\ln\\left(1 + \\left|@\\right|\\right)", "", 0.0, 0.0, true, true,
+       false, logarithmic},
+      {"gaussian", "exp(-u^2/2)", "e^{-\\frac{1}{2}\\left(@\\right)^2}", "", 0.0, 0.0, true, true,
+       false, bump},
+      {"sine", "sin(u)", "\\sin\\left(@\\right)", "", 0.0, 0.0, true, true, false, sine},
+      {"exponential", "exp(-u)", "e^{-@}", "", 0.0, 0.0, true, false, true, exponential},
+      {"affine", "1 + p u", "\\left(1 + #\\,@\\right)", "gain", -1e6, 1e6, false, false, false,
+       affine},
+      {"wavy", "1 + p sin(u)", "\\left(1 + #\\sin\\left(@\\right)\\right)", "gain", -1e6, 1e6, true,
+       true, false, wavy},
+      {"falling", "1 + p exp(-u^2)", "\\left(1 + #\\,e^{-\\left(@\\right)^2}\\right)", "gain", -1e6,
+       1e6, true, true, false, falling}};
+  return list;
+}
+
+FactorRun::FactorRun(const Factor& factor, const double* numbers)
+    : shape_(&shapes()[factor.shape]),
+      memory_(factor.memory),
+      is_rate_(coordinates()[factor.coordinate].is_rate) {
+  if (memory_ != Memory::kNone) size_ = *numbers++;
+  if (factor.centred) centre_ = *numbers++;
+  scale_ = *numbers++;
+  if (*shape_->extra) extra_ = *numbers;
+}
+
+double FactorRun::state(double q, double h, bool first) {
+  const double moved = is_rate_ ? 0.5 * h * (q + before_) : q - before_;
+  switch (memory_) {
+    case Memory::kNone:
+      return q;
+    case Memory::kLag:
+      return lag_.step(q, size_, h, first);
+    case Memory::kHighPass:
+      return q - lag_.step(q, size_, h, first);
+    case Memory::kPlay:
+      s_ = first ? q : std::clamp(s_, q - size_, q + size_);
+      return s_;
+    case Memory::kDahl:
+      s_ = first ? 0.0 : dahl(s_, moved, size_);
+      return s_;
+    default:
+      s_ = first ? 0.0 : dwell(s_, std::abs(moved), h, size_);
+      return s_;
+  }
+}
+
+double FactorRun::step(double q, double h, bool first) {
+  const double s = state(q, h, first);
+  before_ = q;
+  return shape_->value((s - centre_) / scale_, extra_);
+}
+
+template <class Value>
+Value LagRun<Value>::step(const Value& q, double tau, double h, bool first) {
+  if (std::abs(h - h_) > 1e-9 * h) {  // steps of a regular clock differ in their last digits
+    // Exact for the line from the value before to q (Franklin, Powell and Workman 1998, 6.3.2).
+    const double z = h / tau, fallen = -elementary::expm1(-z);
+    h_ = h;
+    decay_ = 1.0 - fallen;
+    ramp_ = z < 1e-6 ? 0.5 * z : 1.0 - fallen / z;
+  }
+  s_ = first ? q : Value(decay_ * s_ + (1.0 - decay_ - ramp_) * before_ + ramp_ * q);
+  before_ = q;
+  return s_;
+}
+template double LagRun<double>::step(const double&, double, double, bool);
+template Vector3d LagRun<Vector3d>::step(const Vector3d&, double, double, bool);
+
+}  // namespace dcnn::law

@@ -1,0 +1,194 @@
+// A law in files: its structure, its numbers, and their names and units.
+#include <algorithm>
+#include <cmath>
+
+#include "dcnn/physics/law.h"
+#include "physics/effect_law.h"
+
+namespace dcnn::law {
+namespace {
+
+const std::vector<std::string> kMemories{"none", "lag", "high_pass", "play", "dahl", "dwell"};
+constexpr std::size_t kMostFactors = 4;
+const std::vector<std::string> kToldAgain{"expression", "latex", "words", "coordinates", "states"};
+
+template <class List>
+std::vector<std::string> names_in(const List& list) {
+  std::vector<std::string> names;
+  for (const auto& entry : list) names.emplace_back(entry.name);
+  return names;
+}
+
+/// Place of a word that must be in the list.
+template <class List>
+std::size_t place_in(Options& options, const std::string& key, const List& list) {
+  const auto names = names_in(list);
+  const auto word = options.get<std::string>(key);
+  const auto found = std::find(names.begin(), names.end(), word);
+  if (found == names.end()) {
+    const auto near = nearest_word(word, names);
+    options.reject(key, "'", word, "' is unknown",
+                   near.empty() ? "; docs/use/diagnose.md lists the words of laws"
+                                : "; did you mean '" + near + "'?");
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+Factor parse_factor(Options options) {
+  Factor factor;
+  factor.shape = place_in(options, "shape", shapes());
+  factor.coordinate = place_in(options, "of", coordinates());
+  const auto memory = options.choice("memory", kMemories[0], kMemories);
+  factor.memory = static_cast<Memory>(std::find(kMemories.begin(), kMemories.end(), memory) -
+                                      kMemories.begin());
+  factor.centred = options.get<bool>("centred", false);
+  options.finish();
+  return factor;
+}
+
+/// "_mps" of "m/s": how a unit ends a parameter's name.
+std::string suffix_of(const std::string& unit) {
+  if (unit == "m/s") return "_mps";
+  if (unit == "rad/s") return "_radps";
+  if (unit == "m/s^2") return "_mps2";
+  if (unit == "rad/s^2") return "_radps2";
+  if (unit == "m^2/s^2") return "_m2ps2";
+  if (unit == "N") return "_n";
+  return unit.empty() ? "" : "_" + unit;
+}
+
+/// Unit of the path that a coordinate's displacements make.
+std::string path_unit(const Coordinate& q) {
+  const std::string unit = q.unit;
+  return q.is_rate ? unit.substr(0, unit.find('/')) : unit;
+}
+
+std::string memory_unit(const Factor& factor) {
+  const Coordinate& q = coordinates()[factor.coordinate];
+  if (factor.memory == Memory::kPlay) return q.unit;
+  if (factor.memory == Memory::kDahl || factor.memory == Memory::kDwell) return path_unit(q);
+  return "s";
+}
+
+/// Unit of what the shape is taken of.
+std::string state_unit(const Factor& factor) {
+  if (factor.memory == Memory::kDahl) return "";
+  if (factor.memory == Memory::kDwell) return "s";
+  return coordinates()[factor.coordinate].unit;
+}
+
+void add_numbers(const Factor& factor, const std::string& index, std::vector<Number>& list) {
+  const Shape& shape = shapes()[factor.shape];
+  const auto add = [&](const std::string& stem, const std::string& unit, bool reference, double low,
+                       double high) {
+    list.push_back({stem + index + suffix_of(unit), unit, reference, low, high});
+  };
+  if (factor.memory != Memory::kNone) add("memory_", memory_unit(factor), false, 1e-9, 1e9);
+  const std::string unit = state_unit(factor);
+  if (factor.centred) add("centre_", unit, !shape.free_centre, -1e9, 1e9);
+  add("scale_", unit, !shape.free_scale, shape.signed_scale ? -1e9 : 1e-9, 1e9);
+  if (*shape.extra) add(std::string(shape.extra) + "_", "", false, shape.least, shape.most);
+}
+
+Json factor_json(const Factor& factor) {
+  Json json{{"shape", shapes()[factor.shape].name}, {"of", coordinates()[factor.coordinate].name}};
+  if (factor.memory != Memory::kNone) {
+    json["memory"] = kMemories[static_cast<std::size_t>(factor.memory)];
+  }
+  if (factor.centred) json["centred"] = true;
+  return json;
+}
+
+}  // namespace
+
+Structure parse_structure(Options& options) {
+  Structure structure;
+  structure.direction = place_in(options, "axis", directions());
+  structure.direction_lagged = options.get<bool>("direction_lagged", false);
+  structure.lagged = options.get<bool>("lagged", false);
+  structure.on_torque = options.get<bool>("on_torque", false);
+  const Json factors = options.raw("factors");
+  if (!factors.is_array() || factors.size() > kMostFactors) {
+    options.reject("factors", "must be a list of at most ", kMostFactors, " factors, not ",
+                   factors.dump());
+  }
+  for (std::size_t k = 0; k < factors.size(); ++k) {
+    structure.factors.push_back(
+        parse_factor(Options(factors[k], "law: factor " + std::to_string(k + 1), Exit::kData)));
+  }
+  if (structure.factors.empty() && is_axis(structure.direction)) {
+    options.reject("factors", "must not be empty: a constant force is the effect bias or contact");
+  }
+  for (const auto& key : kToldAgain) options.raw(key);
+  options.raw("established");
+  options.raw("rivals");
+  options.finish();
+  return structure;
+}
+
+std::vector<Number> numbers_of(const Structure& structure) {
+  std::vector<Number> list;
+  const std::string unit = structure.on_torque ? "N*m" : "N";
+  list.push_back({structure.on_torque ? "amplitude_nm" : "amplitude_n", unit, false, -1e9, 1e9});
+  const std::string vector = directions()[structure.direction].unit;
+  if (!vector.empty()) {
+    list.push_back({"vector_scale" + suffix_of(vector), vector, true, 1e-9, 1e9});
+  }
+  if (structure.direction_lagged) list.push_back({"vector_lag_s", "s", false, 1e-4, 1e5});
+  if (structure.lagged) list.push_back({"lag_s", "s", false, 1e-4, 1e5});
+  for (std::size_t k = 0; k < structure.factors.size(); ++k) {
+    add_numbers(structure.factors[k], std::to_string(k + 1), list);
+  }
+  return list;
+}
+
+Law parse_law(const Structure& structure, Options& parameters) {
+  const auto list = numbers_of(structure);
+  Law law{structure, Eigen::VectorXd(static_cast<Eigen::Index>(list.size()))};
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const double value = parameter(parameters, list[k].name, list[k].low, list[k].high);
+    if (list[k].name.starts_with("scale_") && value == 0.0) {
+      parameters.reject(list[k].name, "must not be 0");
+    }
+    law.numbers(static_cast<Eigen::Index>(k)) = value;
+  }
+  return law;
+}
+
+Json parameters_json(const Law& law) {
+  const auto list = numbers_of(law.structure);
+  Json json = Json::object();
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    json[list[k].name] = law.numbers(static_cast<Eigen::Index>(k));
+  }
+  return json;
+}
+
+Json to_json(const Law& law) {
+  const Structure& structure = law.structure;
+  Json json{{"axis", directions()[structure.direction].name}};
+  if (structure.direction_lagged) json["direction_lagged"] = true;
+  if (structure.lagged) json["lagged"] = true;
+  if (structure.on_torque) json["on_torque"] = true;
+  Json factors = Json::array(), used = Json::array(), states = Json::array();
+  for (std::size_t k = 0; k < structure.factors.size(); ++k) {
+    const Factor& factor = structure.factors[k];
+    const Coordinate& q = coordinates()[factor.coordinate];
+    factors.push_back(factor_json(factor));
+    used.push_back(Json{{"name", q.name}, {"frame", q.frame}, {"unit", q.unit}});
+    if (factor.memory == Memory::kNone) continue;
+    states.push_back(Json{{"name", "s_" + std::to_string(k + 1)},
+                          {"kind", kMemories[static_cast<std::size_t>(factor.memory)]},
+                          {"of", q.name},
+                          {"unit", state_unit(factor)}});
+  }
+  json["factors"] = factors;
+  json["expression"] = expression(law);
+  json["latex"] = latex(law);
+  json["words"] = words(law);
+  json["coordinates"] = used;
+  json["states"] = states;
+  return json;
+}
+
+}  // namespace dcnn::law

@@ -1,0 +1,101 @@
+// Every fault of the generator is the first that the check names; clean logs stop nothing.
+#include <gtest/gtest.h>
+
+#include "dcnn/check/check.h"
+#include "dcnn/conceal/faulty.h"
+
+namespace dcnn {
+namespace {
+
+check::Log log_of(const std::string& kind, std::uint64_t seed, bool with_simulator = true) {
+  const conceal::FaultyLog made = conceal::make_faulty(kind, seed);
+  check::Declared declared;
+  if (with_simulator && !made.simulator.is_null()) {
+    declared.model = parse_tool_model(made.simulator, "sim.json", Exit::kData);
+  }
+  return check::make_log(kind + ".csv", made.table, declared);
+}
+
+class FaultyLogs : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(FaultyLogs, AreNamedFirst) {
+  const std::string wanted = conceal::make_faulty(GetParam(), 1).fault;
+  const check::Report report = check::check(log_of(GetParam(), 1));
+  if (wanted.empty()) {
+    EXPECT_EQ(report.stopping({}), nullptr) << check::to_text(report);
+    for (const check::Fault& fault : report.faults) EXPECT_LT(fault.probability, check::kLikely) << fault.words;
+    return;
+  }
+  ASSERT_FALSE(report.faults.empty());
+  EXPECT_EQ(report.faults[0].id, wanted) << check::to_text(report);
+  EXPECT_GE(report.faults[0].probability, check::kLikely);
+  EXPECT_FALSE(report.faults[0].remedy.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, FaultyLogs, ::testing::ValuesIn(conceal::faulty_kinds()),
+                         [](const auto& kind) { return kind.param; });
+
+TEST(CheckedLogs, WithoutASimulatorSignsAxesAndFramesAreFoundToo) {
+  for (const char* kind : {"reaction", "sign_fx", "swap_xy", "base_frame", "angle_deg", "position_mm", "quaternion_xyzw"}) {
+    const check::Report report = check::check(log_of(kind, 2, false));
+    ASSERT_FALSE(report.faults.empty()) << kind;
+    EXPECT_EQ(report.faults[0].id, conceal::make_faulty(kind, 2).fault) << check::to_text(report);
+  }
+}
+
+TEST(CheckedLogs, AMountingThatNobodyDeclaredStopsNothing) {
+  const check::Report report = check::check(log_of("turned_90", 1, false));
+  ASSERT_FALSE(report.faults.empty());
+  EXPECT_EQ(report.faults[0].id, "force_axes");
+  EXPECT_EQ(report.stopping({}), nullptr);
+}
+
+TEST(CheckedLogs, TwoFaultsOfUnitsAreFoundTogether) {
+  conceal::FaultyLog made = conceal::make_faulty("angle_deg", 3);
+  made.table = conceal::with_fault("position_mm", made.table, 3);
+  const check::Report report = check::check(check::make_log("both.csv", made.table, {}));
+  const auto has = [&](const std::string& id) {
+    return std::any_of(report.faults.begin(), report.faults.end(),
+                       [&](const check::Fault& fault) { return fault.id == id && fault.probability > check::kLikely; });
+  };
+  EXPECT_TRUE(has("angle_unit")) << check::to_text(report);
+  EXPECT_TRUE(has("position_unit")) << check::to_text(report);
+}
+
+TEST(CheckedLogs, WhatIsDeclaredIsNoFault) {
+  check::Declared declared;
+  declared.read.position_unit = 1e-3;
+  const auto made = conceal::make_faulty("position_mm", 4);
+  const check::Report report = check::check(check::make_log("mm.csv", made.table, declared));
+  EXPECT_EQ(report.stopping({}), nullptr) << check::to_text(report);
+  EXPECT_NE(check::check(check::make_log("mm.csv", made.table, {})).stopping({}), nullptr);
+}
+
+TEST(CheckedLogs, AnAcceptedFaultStopsNothing) {
+  const check::Report report = check::check(log_of("reaction", 1));
+  ASSERT_NE(report.stopping({}), nullptr);
+  EXPECT_EQ(report.stopping({"reaction"}), nullptr);
+}
+
+TEST(CheckedLogs, TheirReportIsTheDocumentedJson) {
+  const Json json = check::to_json(check::check(log_of("dropouts", 1)));
+  const Json& fault = json["faults"][0];
+  EXPECT_EQ(fault["fault"], "dropouts");
+  EXPECT_TRUE(fault["probability"].is_number());
+  EXPECT_EQ(fault["interval_s"].size(), 2U);
+  EXPECT_TRUE(fault["words"].is_string() && fault["remedy"].is_string());
+  EXPECT_TRUE(json["identifiable"]["mass"].is_boolean());
+}
+
+TEST(CheckedLogs, TinyOrConstantTablesAreNoTrouble) {
+  for (const Eigen::Index rows : {1, 2, 3, 10, 60}) {
+    Table table{{"t", "x", "y", "z", "alpha", "beta", "gamma", "fx", "fy", "fz"}, Eigen::MatrixXd::Zero(rows, 10)};
+    table.values.col(0) = Eigen::VectorXd::LinSpaced(rows, 0.0, 0.004 * static_cast<double>(rows - 1));
+    for (const check::Fault& fault : check::check(check::make_log("zeros.csv", table, {})).faults) {
+      EXPECT_TRUE(fault.probability >= 0.0 && fault.probability <= 1.0) << fault.id << " " << fault.probability;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dcnn

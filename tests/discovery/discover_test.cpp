@@ -1,0 +1,111 @@
+// Laws that no catalogue has are found in residuals, and none in noise.
+#include <gtest/gtest.h>
+
+#include "discovery/support.h"
+
+namespace dcnn::discovery {
+namespace {
+
+constexpr double kDeviation = 0.01;  // N, of a block's noise
+
+/// The hold-out error over that of the true law, on another motion.
+double held_out_ratio(const std::vector<Discovered>& laws, const Truth& truth) {
+  const Scene other = scene(77, 2000);
+  const MatrixXd error = prediction(other, laws) - force_of(other, truth);
+  return std::sqrt(1.0 + error.squaredNorm() / static_cast<double>(error.size()) /
+                             (kDeviation * kDeviation));
+}
+
+std::vector<Discovered> discovered(const Truth& truth, std::uint64_t seed) {
+  static const Scene at = scene(3, 2000);
+  const MatrixXd residual = force_of(at, truth) + white(at.motion.samples(), kDeviation, seed);
+  return discover(problem_of(at, residual, kDeviation));
+}
+
+double along_tool(const Motion& motion, Index k) {
+  return motion.R_BS[static_cast<std::size_t>(k)].col(2).dot(motion.v_B.row(k));
+}
+
+void expect_found(const Truth& truth, const std::string& coordinate, std::uint64_t seed) {
+  const auto laws = discovered(truth, seed);
+  ASSERT_FALSE(laws.empty());
+  EXPECT_NE(law::expression(laws[0].law).find(coordinate), std::string::npos);
+  EXPECT_TRUE(laws[0].established);
+  EXPECT_LE(held_out_ratio(laws, truth), 1.05) << law::expression(laws[0].law);
+}
+
+TEST(Discover, PowerOfTheSpeedAlongTheTool) {
+  expect_found(
+      [](const Motion& m, const MatrixXd&, Index k) {
+        const double v = along_tool(m, k);
+        return Eigen::Vector3d(Eigen::Vector3d::UnitZ() *
+                               (-0.05 * std::copysign(std::pow(std::abs(v) / 0.1, 1.5), v)));
+      },
+      "v_tool_z", 11);
+}
+
+TEST(Discover, EddyBrakeAlongTheBase) {
+  expect_found(
+      [](const Motion& m, const MatrixXd&, Index k) {
+        const double u = m.v_B(k, 1) / 0.08;
+        const Eigen::Vector3d n = m.R_BS[static_cast<std::size_t>(k)].row(1);
+        return Eigen::Vector3d(n * (-0.12 * u / (1.0 + u * u)));
+      },
+      "v_base_y", 12);
+}
+
+TEST(Discover, FrictionModulatedByAnAngle) {
+  expect_found(
+      [](const Motion& m, const MatrixXd&, Index k) {
+        const double v = m.v_B(k, 0);
+        const Eigen::Vector3d n = m.R_BS[static_cast<std::size_t>(k)].row(0);
+        return Eigen::Vector3d(
+            n * (-0.06 * std::tanh(v / 0.02) * (1.0 + 0.6 * std::sin(2.0 * m.euler(k, 2)))));
+      },
+      "gamma", 13);
+}
+
+TEST(Discover, ForceBehindALag) {
+  // A polymer pad: 4 % of the load follows with 0.8 s.
+  const auto lagged = [](const Scene& at) {
+    MatrixXd s = at.load;
+    for (Index k = 1; k < s.rows(); ++k) {
+      s.row(k) = s.row(k - 1) + (1.0 - std::exp(-0.02 / 0.8)) *
+                                    (0.5 * (at.load.row(k) + at.load.row(k - 1)) - s.row(k - 1));
+    }
+    return MatrixXd(0.02 * s);
+  };
+  const Scene at = scene(3, 2000), other = scene(77, 2000);
+  const auto laws = discover(problem_of(at, lagged(at) + white(2000, kDeviation, 14), kDeviation));
+  ASSERT_FALSE(laws.empty());
+  const MatrixXd error = prediction(other, laws) - lagged(other);
+  EXPECT_LE(std::sqrt(error.squaredNorm() / static_cast<double>(error.size())), 0.32 * kDeviation);
+  EXPECT_NE(law::expression(laws[0].law).find("lag(load"), std::string::npos);
+}
+
+TEST(Discover, NothingInNoiseOfAnyColour) {
+  const Scene at = scene(3, 2000);
+  for (const double rho : {0.0, 0.95}) {
+    MatrixXd noise = white(at.motion.samples(), kDeviation, 21);
+    for (Index k = 1; k < noise.rows(); ++k) {
+      noise.row(k) = rho * noise.row(k - 1) + std::sqrt(1.0 - rho * rho) * noise.row(k);
+    }
+    const auto laws = discover(problem_of(at, noise, kDeviation));
+    EXPECT_TRUE(laws.empty()) << rho << " " << law::expression(laws[0].law) << " " << laws[0].gain
+                              << " " << laws[0].inflation;
+  }
+}
+
+TEST(Discover, TheSameTwice) {
+  const Truth truth = [](const Motion& m, const MatrixXd&, Index k) {
+    return Eigen::Vector3d(Eigen::Vector3d::UnitX() * (0.05 * m.w_S(k, 1) * m.v_B(k, 2)));
+  };
+  const auto once = discovered(truth, 15), again = discovered(truth, 15);
+  ASSERT_EQ(once.size(), again.size());
+  ASSERT_FALSE(once.empty());
+  EXPECT_EQ(once[0].law.numbers, again[0].law.numbers);
+  EXPECT_LE(held_out_ratio(once, truth), 1.05) << law::expression(once[0].law);
+}
+
+}  // namespace
+}  // namespace dcnn::discovery

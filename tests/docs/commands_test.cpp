@@ -1,0 +1,153 @@
+// Every command of docs/use and of the README runs as it stands there, or has its reason here.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "support/process.h"
+#include "support/sanitizer.h"
+
+namespace dcnn {
+namespace {
+
+struct NotRun {
+  const char* command;  ///< how it begins
+  const char* why;
+};
+
+/// The one list of commands that the tests do not run.
+const std::vector<NotRun> kNotRun{
+    {"tools/demo", "builds everything"},
+    {"tools/test", "runs this"},
+    {"export PATH=", "names the folder of a build; the test has its own"},
+    {"cmake ", "configures, builds or installs; tests/consumer.cmake does"},
+    {"build/examples/robot_loop", "tests/consumer.cmake builds it, it needs a robot's other end"},
+    {"tools/teleop-live", "90 seconds of real time"},
+    {"tools/hybrid", "minutes"},
+    {"dcnn-run --model m.dcnn --fallback data/sample/sim.json --listen",
+     "waits for packets until it is ended; tests/cli/run_test.cpp"},
+    {"dcnn-calibrate --static static_24_poses.csv", "recordings of others (docs/results/real.md)"},
+    {"dcnn-diagnose --system configs/systems/emps.json",
+     "recordings of others (docs/results/real.md)"},
+    {"dcnn diagnose --sim data/sample", "the command of docs/use/first-log.md by its other name"},
+    {"dcnn-identify a.csv", "logs of the reader's own arm; tests/cli/identify_test.cpp"},
+    {"dcnn-teleop --model", "a minute; tests/cli/teleop_test.cpp runs it with less"},
+};
+
+/// Without what a reader is told beside it.
+std::string without_comment(const std::string& command) {
+  const std::string text = command.substr(0, command.find(" #"));
+  return text.substr(0, text.find_last_not_of(' ') + 1);
+}
+
+/// Commands of a page: indented lines of a block, those that end in a backslash joined.
+std::vector<std::string> commands_of(const std::filesystem::path& page) {
+  static const std::set<std::string> kPrograms{"cc", "cmake", "export", "echo"};
+  std::ifstream file(page);
+  std::vector<std::string> commands;
+  bool goes_on = false, list = false;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.empty() && line[0] != ' ') list = line.starts_with("- ") || line.starts_with("1.");
+    if (goes_on) {
+      commands.back() += "\n" + line;
+    } else if (line.starts_with("    ") && !list) {
+      const std::string text = line.substr(4), word = text.substr(0, text.find(' '));
+      const bool ours = word == "dcnn" || word.starts_with("dcnn-") || word.starts_with("tools/") ||
+                        word.starts_with("./") || word.starts_with("build/");
+      if (!ours && !kPrograms.contains(word)) continue;
+      commands.push_back(text);
+    } else {
+      continue;
+    }
+    goes_on = line.ends_with("\\");
+  }
+  return commands;
+}
+
+const NotRun* reason_of(const std::string& command) {
+  const auto found = std::find_if(kNotRun.begin(), kNotRun.end(), [&](const NotRun& entry) {
+    return command.starts_with(entry.command);
+  });
+  return found == kNotRun.end() ? nullptr : &*found;
+}
+
+/// A folder like a clone: what commands read is there, what they write goes with it.
+class Clone {
+ public:
+  Clone() {
+    // Copies: what a command writes to one of these folders must not reach the source.
+    const std::filesystem::path source = DCNN_SOURCE_DIR;
+    for (const char* name : {"data/sample", "configs", "examples"}) {
+      std::filesystem::create_directories((folder_ / name).parent_path());
+      std::filesystem::copy(source / name, folder_ / name, std::filesystem::copy_options::recursive);
+    }
+  }
+
+  testing::AssertionResult run(const std::string& command) const {
+    std::ofstream(folder_ / "command") << command << "\n";
+    const std::string line =
+        "cd '" + folder_.path().string() +
+        "' && env OMP_WAIT_POLICY=passive PATH=" DCNN_BIN_DIR ":$PATH CPATH=" DCNN_SOURCE_DIR
+        "/include LIBRARY_PATH=" DCNN_BINARY_DIR "/lib LD_LIBRARY_PATH=" DCNN_BINARY_DIR
+        "/lib timeout 120 bash command > printed 2>&1";
+    if (std::system(line.c_str()) == 0) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << test::slurp(folder_ / "printed");
+  }
+  bool has(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+
+ private:
+  test::TemporaryFolder folder_;
+};
+
+/// Pages in the order in which a reader comes to them: later ones use what earlier ones wrote.
+const std::vector<const char*> kPages{
+    "first-log.md", "import.md", "check.md",     "identify.md", "diagnose.md", "train.md",
+    "export.md",    "outputs.md", "calibrate.md", "run.md",      "teleop.md"};
+
+TEST(DocumentedCommands, OfEveryPageRunOrSayWhyNot) {
+  if (test::kSanitized) GTEST_SKIP() << "as any program under sanitizers, by tests of its own";
+  const Clone clone;
+  std::set<std::string> done;
+  for (const char* page : kPages) {
+    for (const std::string& command :
+         commands_of(std::string(DCNN_SOURCE_DIR "/docs/use/") + page)) {
+      if (reason_of(command) || !done.insert(without_comment(command)).second) continue;
+      EXPECT_TRUE(clone.run(command)) << page << ": " << command;
+    }
+  }
+  EXPECT_GE(done.size(), 18U);
+  for (const char* written : {"report/report.html", "evaluation/report.html", "mlp.onnx",
+                              "calibration.html", "external.csv", "teleop/report.html"}) {
+    EXPECT_TRUE(clone.has(written)) << written;
+  }
+}
+
+TEST(DocumentedCommands, OfTheReadmeRunOrSayWhyNot) {
+  if (test::kSanitized) GTEST_SKIP() << "as any program under sanitizers, by tests of its own";
+  const Clone clone;
+  for (const std::string& command : commands_of(DCNN_SOURCE_DIR "/README.md")) {
+    if (reason_of(command)) continue;
+    EXPECT_TRUE(clone.run(command)) << command;
+  }
+}
+
+TEST(DocumentedCommands, AreOfKnownPagesAndTheListIsNotStale) {
+  std::string all;
+  std::set<std::string> pages;
+  for (const auto& entry : std::filesystem::directory_iterator(DCNN_SOURCE_DIR "/docs/use")) {
+    pages.insert(entry.path().filename());
+    for (const auto& command : commands_of(entry.path())) all += "\n" + command;
+  }
+  for (const auto& command : commands_of(DCNN_SOURCE_DIR "/README.md")) all += "\n" + command;
+  for (const auto& page : pages) {
+    if (commands_of(std::string(DCNN_SOURCE_DIR "/docs/use/") + page).empty()) continue;
+    EXPECT_TRUE(std::find(kPages.begin(), kPages.end(), page) != kPages.end())
+        << page << " has commands and is not in the list of pages";
+  }
+  for (const NotRun& entry : kNotRun) {
+    EXPECT_NE(all.find(std::string("\n") + entry.command), all.npos) << entry.command;
+  }
+}
+
+}  // namespace
+}  // namespace dcnn

@@ -1,0 +1,206 @@
+// Texts of every dialect of the table in docs/use/import.md become the same recording.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "import/logs.h"
+#include "import/text_cells.h"
+#include "import/units.h"
+
+namespace dcnn {
+namespace {
+
+using test::cell;
+using test::data_error;
+using test::import_text;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+struct Dialect {
+  const char* name;
+  const char* text;
+};
+
+class EveryDialect : public ::testing::TestWithParam<Dialect> {};
+
+TEST_P(EveryDialect, GivesTheSameRecording) {
+  const Imported imported = import_text(GetParam().text);
+  ASSERT_EQ(imported.table.values.rows(), 3);
+  for (Index row = 0; row < 3; ++row) {
+    const auto k = static_cast<double>(row);
+    EXPECT_NEAR(cell(imported, "t", row) - cell(imported, "t", 0), 0.01 * k, 1e-6);
+    EXPECT_EQ(cell(imported, "fx", row), 1.5 + k);
+    EXPECT_EQ(cell(imported, "fy", row), -0.25);
+    EXPECT_EQ(cell(imported, "fz", row), 1000.0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Text, EveryDialect,
+    ::testing::Values(
+        Dialect{"plain", "t,fx,fy,fz\n0,1.5,-0.25,1e3\n0.01,2.5,-0.25,1e3\n0.02,3.5,-.25,+1000\n"},
+        Dialect{"bom_crlf",
+                "\xEF\xBB\xBFt,fx,fy,fz\r\n0,1.5,-0.25,1e3\r\n0.01,2.5,-0.25,1e3\r\n"
+                "0.02,3.5,-0.25,1000\r\n"},
+        Dialect{"semicolons_and_commas",
+                "Time [s];Fx [N];Fy [N];Fz [N]\n0,00;1,5;-0,25;1000\n0,01;2,5;-0,25;1000\n"
+                "0,02;3,5;-0,25;1000\n"},
+        Dialect{"tabs_and_commas",
+                "Time\tForceX\tForceY\tForceZ\n0,00\t1,5\t-0,25\t1000\n0,01\t2,5\t-0,25\t1000\n"
+                "0,02\t3,5\t-0,25\t1000\n"},
+        Dialect{"spaces",
+                "  t   fx  fy   fz\n 0.00  1.5 -0.25 1000 \n 0.01  2.5  -0.25 1000\n"
+                " 0.02  3.5 -0.25 1000\n"},
+        Dialect{"percent_header",
+                "% made by a robot\n% t fx fy fz\n0 1.5 -0.25 1000\n"
+                "0.01 2.5 -0.25 1000\n0.02 3.5 -0.25 1000\n"},
+        Dialect{"hash_between",
+                "# robot 7\nt,fx,fy,fz\n# start\n0,1.5,-0.25,1000\n"
+                "0.01,2.5,-0.25,1000\n# a remark\n0.02,3.5,-0.25,1000\n\n"},
+        Dialect{"quotes",
+                "\"t\",\"fx\",\"fy\",\"fz\"\n\"0\",\"1.5\",\"-0.25\",\"1000\"\n"
+                "\"0.01\",\"2.5\",\"-0.25\",\"1000\"\n\"0.02\",\"3.5\",\"-0.25\",\"1000\"\n"},
+        Dialect{"trailing_commas",
+                "t,fx,fy,fz,\n0,1.5,-0.25,1000,\n0.01,2.5,-0.25,1000,\n"
+                "0.02,3.5,-0.25,1000,\n"},
+        Dialect{"trailing_commas_of_rows_alone",
+                "t,fx,fy,fz\n0,1.5,-0.25,1000,\n0.01,2.5,-0.25,1000,\n0.02,3.5,-0.25,1000,\n"},
+        Dialect{"line_of_units",
+                "Zeit;t;Fx;Fy;Fz\n;ms;mN;mN;kN\na;0;1500;-250;1\nb;10;2500;-250;1\n"
+                "c;20;3500;-250;1\n"},
+        Dialect{"units_in_names",
+                "time_ms,fx (mN),fy/mN,fz [kN]\n0,1500,-250,1\n10,2500,-250,1\n"
+                "20,3500,-250,1\n"},
+        Dialect{"rostopic",
+                "%time,field.header.seq,field.header.stamp,field.wrench.force.x,"
+                "field.wrench.force.y,field.wrench.force.z\n"
+                "1600000000500000000,1,1600000000000000000,1.5,-0.25,1000\n"
+                "1600000000510000000,2,1600000000010000000,2.5,-0.25,1000\n"
+                "1600000000520000000,3,1600000000020000000,3.5,-0.25,1000\n"},
+        Dialect{
+            "secs_and_nsecs",
+            "header.stamp.secs,header.stamp.nsecs,wrench.force.x,wrench.force.y,wrench.force.z\n"
+            "1600000000,990000000,1.5,-0.25,1000\n1600000001,0,2.5,-0.25,1000\n"
+            "1600000001,10000000,3.5,-0.25,1000\n"},
+        Dialect{"epoch_ms",
+                "timestamp,/ft/force/x,/ft/force/y,/ft/force/z\n"
+                "1600000000000,1.5,-0.25,1000\n1600000000010,2.5,-0.25,1000\n"
+                "1600000000020,3.5,-0.25,1000\n"},
+        Dialect{"iso_dates",
+                "time;fx;fy;fz\n2024-02-29T23:59:59.990Z;1.5;-0.25;1000\n"
+                "2024-03-01T00:00:00.000Z;2.5;-0.25;1000\n"
+                "2024-03-01 00:00:00.010;3.5;-0.25;1000\n"},
+        Dialect{"nan_in_a_column_that_nobody_uses",
+                "t,fx,fy,fz,spare\n0,1.5,-0.25,1000,nan\n0.01,2.5,-0.25,1000,\n"
+                "0.02,3.5,-0.25,1000,#N/A\n"},
+        Dialect{"cut_off",
+                "t,fx,fy,fz\n0,1.5,-0.25,1000\n0.01,2.5,-0.25,1000\n"
+                "0.02,3.5,-0.25,1000\n0.03,4."}),
+    [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST(TextImport, WithoutAHeaderColumnsAreNamedByTheUser) {
+  ReadLogOptions read;
+  read.text.columns = {"t", "fx", "fy", "fz"};
+  const Imported imported = import_text("0 1 2 3\n0.01 4 5 6\n", {}, read);
+  EXPECT_EQ(cell(imported, "fz", 1), 6.0);
+  const std::string words = data_error([] { import_text("0 1 2 3\n0.01 4 5 6\n"); });
+  EXPECT_NE(words.find("--map"), std::string::npos) << words;
+}
+
+TEST(TextImport, CommasThatMayBeDecimalsAreAsked) {
+  const std::string words = data_error([] { import_text("fx\n20,66\n20,67\n20,68\n"); });
+  EXPECT_NE(words.find("--decimal"), std::string::npos) << words;
+}
+
+TEST(TextImport, FaultsNameTheirPlace) {
+  EXPECT_NE(data_error([] {
+              import_text("t,fx,fy,fz\n0,1,2,3\n1,1,2,3\n2,abc,2,3\n3,1,1,1\n4,1,1,1\n");
+            }).find("log.txt:4: column 'fx' is not a number: 'abc'"),
+            std::string::npos);
+  EXPECT_NE(data_error([] {
+              import_text("t,fx,fy,fz\n0,1,2,3\n1,1,2\n2,1,2,3\n3,1,2,3\n");
+            }).find("log.txt:3: 3 cells"),
+            std::string::npos);
+  EXPECT_NE(data_error([] { import_text(std::string("\0\1\2\3", 4)); }).find("NUL"),
+            std::string::npos);
+  EXPECT_NE(data_error([] {
+              import_text("t,fx,fy,fz\n0,1,2,3\n0.02,1,2,3\n0.01,1,2,3\n");
+            }).find("goes from 0.02 to 0.01"),
+            std::string::npos);
+  data_error([] { import_text(""); });
+  data_error([] { import_text("\n\n\n"); });
+  data_error([] { import_text("only words\nand more\n"); });
+}
+
+TEST(TextImport, WhatOnlySizeTellsIsAsked) {
+  const std::string rows = "0,1,2,3,181\n2,1,2,3,182\n4,1,2,3,183\n";
+  std::string words = data_error([&] { import_text("t,fx,fy,fz,yaw\n" + rows); });
+  EXPECT_NE(words.find("--clock-unit ms"), std::string::npos) << words;
+  const std::string angles = "t,fx,fy,fz,yaw,pitch,roll\n0,1,2,3,181,0,0\n0.1,1,2,3,182,0,90\n";
+  words = data_error([&] { import_text(angles); });
+  EXPECT_NE(words.find("deg by their size"), std::string::npos) << words;
+  ImportWishes wishes;
+  wishes.units = {{"alpha", "deg"}, {"beta", "deg"}, {"gamma", "deg"}};
+  const Imported imported = import_text(angles, wishes);
+  EXPECT_NEAR(cell(imported, "gamma", 1), 90.0 * kDegree, 1e-12);
+  words = data_error([] { import_text("t,fx,fy,fz\n0,30000,4,5\n0.1,-29000,4,5\n"); });
+  EXPECT_NE(words.find("counts"), std::string::npos) << words;
+}
+
+TEST(TextImport, RegistersThatWrapGainsAndOffsets) {
+  ImportWishes wishes;
+  wishes.map = {{"fx", "ch0"}};
+  wishes.wraps = {{"fx", 65536.0}};
+  wishes.offsets = {{"fx", 65000.0}};
+  wishes.gains = {{"fx", -0.5}};
+  wishes.units = {{"fx", "mN"}};
+  const Imported imported =
+      import_text("t,ch0\n0,65000\n0.01,65535\n0.02,64\n0.03,65530\n", wishes);
+  EXPECT_DOUBLE_EQ(cell(imported, "fx", 1), -535.0 * 0.5e-3);
+  EXPECT_DOUBLE_EQ(cell(imported, "fx", 2), -600.0 * 0.5e-3);
+  EXPECT_DOUBLE_EQ(cell(imported, "fx", 3), -530.0 * 0.5e-3);
+}
+
+TEST(TextImport, TwoColumnsOfOneNameAreAsked) {
+  const std::string words =
+      data_error([] { import_text("t,Fx,Fx,fy,fz\n0,1,2,3,4\n0.1,1,2,3,4\n"); });
+  EXPECT_NE(words.find("--map fx"), std::string::npos) << words;
+}
+
+TEST(TextImport, RowsWithoutANumberAreLeftOutAndSaid) {
+  const Imported imported = import_text("t,fx,fy,fz\n0,1,2,3\n0.1,,2,3\n0.2,nan,2,3\n0.3,1,2,3\n");
+  EXPECT_EQ(imported.table.values.rows(), 2);
+  EXPECT_NE(imported.notes.at(0).find("2 of 4 rows"), std::string::npos);
+}
+
+TEST(TextImport, PosesWithoutAClockStayAList) {
+  const Imported imported = import_text("fx fy fz qx qy qz qw\n1 2 3 0 0 0 1\n4 5 6 0.6 0 0 0.8\n");
+  EXPECT_FALSE(test::has_column(imported, "t"));
+  EXPECT_EQ(cell(imported, "qw", 1), 0.8);
+}
+
+TEST(TextImport, ATrajectoryOfTumIsAPose) {
+  const Imported imported = import_text(
+      "# timestamp tx ty tz qx qy qz qw\n1600000000.5 1 2 3 0 0 0 1\n"
+      "1600000000.6 1 2 3 0 0 0 1\n");
+  EXPECT_EQ(cell(imported, "z", 0), 3.0);
+  EXPECT_FALSE(test::has_column(imported, "tz"));
+}
+
+TEST(TextImport, CellsAreReadExactly) {
+  double value = 0.0;
+  EXPECT_EQ(read_cell(" \"1,25\" ", ',', &value), CellKind::kNumber);
+  EXPECT_EQ(value, 1.25);
+  EXPECT_EQ(read_cell("1.234,5", ',', &value), CellKind::kText);  // thousands are not guessed
+  EXPECT_EQ(read_cell("1,2,3", ',', &value), CellKind::kText);
+  EXPECT_EQ(read_cell("0x10", '.', &value), CellKind::kText);
+  EXPECT_EQ(read_cell("-inf", '.', &value), CellKind::kMissing);
+  EXPECT_EQ(*iso_seconds("1970-01-02T00:00:00.5+01:00"), 86400.5 - 3600.0);
+  EXPECT_FALSE(iso_seconds("2024-13-01T00:00:00").has_value());
+  EXPECT_EQ(unit_of_name("position[3]"), "");
+  EXPECT_EQ(unit_of_name("tau [N\xC2\xB7m]"), "N\xC2\xB7m");
+  EXPECT_EQ(find_unit("N.m")->quantity, "torque");
+}
+
+}  // namespace
+}  // namespace dcnn

@@ -1,0 +1,196 @@
+// Laws as data: closed forms, files, units and words.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dcnn/physics/law.h"
+#include "dcnn/physics/streaming_simulator.h"
+#include "physics/support.h"
+#include "support/no_allocation.h"
+
+namespace dcnn {
+namespace {
+
+EffectSpec discovered(const char* law, const Json& parameters) {
+  return make_effect("discovered", "", parameters, nullptr, law);
+}
+
+std::string refusal_of(const char* law, const Json& parameters) {
+  try {
+    discovered(law, parameters);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+law::Law law_of(const EffectSpec& spec) {
+  Options structure(spec.law, "test", Exit::kUsage),
+      parameters(spec.parameters, "test", Exit::kUsage);
+  return law::parse_law(law::parse_structure(structure), parameters);
+}
+
+/// Moves along base x with this velocity; S = B.
+Motion moving(const Eigen::VectorXd& v, double dt) {
+  Motion motion = still_motion(v.size(), dt);
+  motion.v_B.col(0) = v;
+  return motion;
+}
+
+TEST(DiscoveredLaw, ProductOfAPowerAndAModulationIsItsClosedForm) {
+  const Motion motion = example_motion(400);
+  const auto effect = discovered(
+      R"({"axis": "base_y", "factors": [{"shape": "power", "of": "v_base_x"},
+          {"shape": "affine", "of": "gamma", "centred": true}]})",
+      {{"amplitude_n", -3.1},
+       {"scale_1_mps", 0.1},
+       {"power_1", 1.5},
+       {"centre_2_rad", 0.2},
+       {"scale_2_rad", 1.0},
+       {"gain_2", 0.7}});
+  const Wrench wrench = applied(effect, motion, no_wrench(400));
+  for (Index k = 0; k < 400; ++k) {
+    const double u = motion.v_B(k, 0) / 0.1;
+    const double size = -3.1 * std::copysign(std::pow(std::abs(u), 1.5), u) *
+                        (1.0 + 0.7 * (motion.euler(k, 2) - 0.2));
+    const Eigen::Vector3d n = motion.R_BS[static_cast<std::size_t>(k)].row(1);
+    ASSERT_LT((wrench.force.row(k).transpose() - size * n).norm(), 1e-12);
+  }
+}
+
+TEST(DiscoveredLaw, DahlStateIsExponentialInThePath) {
+  const double v = 0.02, width = 3e-3;
+  const auto effect = discovered(R"({"axis": "base_x",
+                     "factors": [{"shape": "linear", "of": "v_base_x", "memory": "dahl"}]})",
+                                 {{"amplitude_n", -0.5}, {"memory_1_m", width}, {"scale_1", 1.0}});
+  const Wrench wrench =
+      applied(effect, moving(Eigen::VectorXd::Constant(200, v), 0.002), no_wrench(200));
+  for (Index k = 0; k < 200; ++k) {
+    const double path = v * 0.002 * static_cast<double>(k);
+    ASSERT_NEAR(wrench.force(k, 0), -0.5 * (1.0 - std::exp(-path / width)), 1e-12);
+  }
+}
+
+TEST(DiscoveredLaw, OutputLagIsTheStepResponseOfAFirstOrderLag) {
+  Eigen::VectorXd v = Eigen::VectorXd::Ones(500);
+  v(0) = 0.0;
+  const auto effect = discovered(R"({"axis": "base_x", "lagged": true,
+                     "factors": [{"shape": "linear", "of": "v_base_x"}]})",
+                                 {{"amplitude_n", 2.0}, {"lag_s", 0.25}, {"scale_1_mps", 1.0}});
+  const Wrench wrench = applied(effect, moving(v, 0.002), no_wrench(500));
+  EXPECT_NEAR(wrench.force(499, 0), 2.0 * (1.0 - std::exp(-0.997 / 0.25)), 1e-4);
+}
+
+TEST(DiscoveredLaw, PlayLeavesADeadZoneAtEveryTurn) {
+  Motion motion = still_motion(300);
+  motion.euler.col(1) = Eigen::ArrayXd::LinSpaced(300, 0.0, 12.0).sin();
+  const auto effect = discovered(
+      R"({"axis": "tool_z", "factors": [{"shape": "linear", "of": "beta", "memory": "play"}]})",
+      {{"amplitude_n", 1.0}, {"memory_1_rad", 0.1}, {"scale_1_rad", 1.0}});
+  const Wrench wrench = applied(effect, motion, no_wrench(300));
+  EXPECT_NEAR(wrench.force.col(2).maxCoeff(), 0.9, 1e-3);
+  EXPECT_NEAR(wrench.force.col(2).minCoeff(), -0.9, 1e-3);
+}
+
+TEST(DiscoveredLaw, LoadIsTheForceThatItIsAddedTo) {
+  const Motion motion = example_motion(100);
+  const auto effect = discovered(R"({"axis": "load", "factors": []})",
+                                 {{"amplitude_n", 0.5}, {"vector_scale_n", 10.0}});
+  const Wrench before = rigid_wrench(example_tool(), motion);
+  EXPECT_LT((applied(effect, motion, before).force - 1.05 * before.force).norm(), 1e-9);
+}
+
+TEST(DiscoveredLaw, StreamsWithoutAllocating) {
+  const EffectSpec effect = example_effect(*find_effect("discovered"));
+  if (!test::HeapCounter::works()) GTEST_SKIP() << "heap calls are not seen here";
+  StreamingSimulator simulator({example_tool(), {effect}}, causal_derivative(), 0.002, "test",
+                               Exit::kUsage);
+  for (int k = 0; k < 200; ++k) simulator.push({0.01 * k, 0.0, 0.0}, Eigen::Vector3d(0, 0, 0));
+  const test::HeapCounter counter;
+  for (int k = 200; k < 400; ++k) simulator.push({0.01 * k, 0.0, 0.0}, Eigen::Vector3d(0, 0, 0));
+  EXPECT_EQ(test::HeapCounter::allocations(), 0);
+}
+
+TEST(DiscoveredLaw, OnTheClockItDoesNotRunOnline) {
+  const auto effect =
+      discovered(R"({"axis": "base_x", "factors": [{"shape": "exponential", "of": "t"}]})",
+                 {{"amplitude_n", 1.0}, {"scale_1_s", 20.0}});
+  std::vector<std::string> left_out;
+  EXPECT_TRUE(online_part({example_tool(), {effect}}, left_out).effects.empty());
+  EXPECT_EQ(left_out, std::vector<std::string>{"discovered"});
+}
+
+TEST(DiscoveredLaw, FilesGiveItBackAndTellItAgain) {
+  const EffectSpec effect = example_effect(*find_effect("discovered"));
+  const law::Law law = law_of(effect);
+  EffectSpec told = effect;
+  told.law = law::to_json(law);
+  told.parameters = law::parameters_json(law);
+  const Json json = to_json(std::vector<EffectSpec>{told})[0];
+  const law::Law again =
+      law_of(parse_effects(Json::array({json}), "model.json", Exit::kModel).front());
+  EXPECT_EQ(again.structure, law.structure);
+  EXPECT_EQ(again.numbers, law.numbers);
+  EXPECT_EQ(json["law"]["coordinates"][0]["frame"].get<std::string>(), "tool");
+  EXPECT_EQ(json["law"]["states"][0]["kind"].get<std::string>(), "lag");
+}
+
+TEST(DiscoveredLaw, IsToldInWordsTextAndLatex) {
+  const auto law =
+      law_of(discovered(R"({"axis": "tool_z", "factors": [{"shape": "power", "of": "v_tool_z"}]})",
+                        {{"amplitude_n", -3.1}, {"scale_1_mps", 0.1}, {"power_1", 1.5}}));
+  EXPECT_EQ(law::words(law),
+            "a force against the motion along the tool, growing as the 1.5th power of the velocity "
+            "along the tool: 3.1 N at 0.1 m/s of the velocity along the tool");
+  EXPECT_EQ(law::expression(law),
+            "-3.1 N * [sgn (v_tool_z/(0.1 m/s)) |(v_tool_z/(0.1 m/s))|^1.5] along tool_z");
+  EXPECT_NE(
+      law::latex(law).find("\\left|\\tfrac{v_{\\text{tool z}}}{0.1\\,\\mathrm{m/s}}\\right|^{1.5}"),
+      std::string::npos)
+      << law::latex(law);
+}
+
+TEST(DiscoveredLaw, RefusesUnknownWordsAndUnitsThatItsStructureDoesNotHave) {
+  const Json numbers{{"amplitude_n", 1.0}, {"scale_1_mps", 0.1}};
+  EXPECT_EQ(refusal_of(R"({"axis": "base_x", "factors": [{"shape": "tanh", "of": "v_base_x"}]})",
+                       numbers),
+            "");
+  EXPECT_NE(
+      refusal_of(R"({"axis": "base_x", "factors": [{"shape": "tahn", "of": "v_base_x"}]})", numbers)
+          .find("did you mean 'tanh'"),
+      std::string::npos);
+  EXPECT_NE(refusal_of(R"({"axis": "base_x", "factors": [{"shape": "tanh", "of": "x"}]})", numbers)
+                .find("scale_1_m"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(R"({"axis": "base_x", "factors": []})", {{"amplitude_n", 1.0}}), "");
+  EXPECT_NE(refusal_of(R"({"axis": "base_x", "factors": [{"shape": "tanh", "of": "v_base_x"}]})",
+                       {{"amplitude_n", 1.0}, {"scale_1_mps", 0.0}}),
+            "");
+}
+
+TEST(DiscoveredLaw, EveryShapeAndMemoryIsFiniteAndTold) {
+  const Motion motion = example_motion(200);
+  for (std::size_t shape = 0; shape < law::shapes().size(); ++shape) {
+    for (int memory = 0; memory <= static_cast<int>(law::Memory::kDwell); ++memory) {
+      law::Law law{{2, false, false, false, {{shape, 5, static_cast<law::Memory>(memory), true}}},
+                   {}};
+      const auto list = law::numbers_of(law.structure);
+      law.numbers = Eigen::VectorXd::Constant(static_cast<Index>(list.size()), 0.5);
+      law::LawRun run(law);
+      for (Index k = 0; k < motion.samples(); ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        const auto force = run.step({motion.R_BS[i], motion.euler.row(k), motion.p_B.row(k),
+                                     motion.v_B.row(k), motion.a_B.row(k), motion.w_S.row(k),
+                                     motion.dw_S.row(k), Eigen::Vector3d::Ones(), motion.t(k)},
+                                    0.002, k == 0);
+        ASSERT_TRUE(force.allFinite());
+      }
+      const Json told = law::to_json(law);
+      EXPECT_FALSE(told["words"].get<std::string>().empty());
+      EXPECT_EQ(told["latex"].get<std::string>().find_first_of("@#"), std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dcnn

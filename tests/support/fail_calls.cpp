@@ -1,0 +1,108 @@
+// Preloaded into a program: the FAIL_AT-th call of FAIL_CALL (open, read, write, fsync, rename,
+// mmap, flock, ftruncate) fails with the number FAIL_ERRNO, or, where that is 0, does one byte of
+// what it was asked (read, write). The file FAIL_MARK is made when it has. Calls of the C library
+// within itself do not come here.
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdarg>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+template <class Function>
+Function next_of(const char* name) {
+  return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+}
+
+enum class Way { kPass, kFail, kShort };
+
+/// What becomes of this call.
+Way way_of(const char* call) {
+  static const char* const wanted = std::getenv("FAIL_CALL");
+  static const long place = wanted ? std::atol(std::getenv("FAIL_AT")) : 0;
+  static long count = 0;
+  if (!wanted || std::strcmp(call, wanted) != 0 ||
+      __atomic_add_fetch(&count, 1, __ATOMIC_RELAXED) != place) {
+    return Way::kPass;
+  }
+  const long mark =
+      ::syscall(SYS_openat, AT_FDCWD, std::getenv("FAIL_MARK"), O_CREAT | O_WRONLY, 0600);
+  if (mark >= 0) ::syscall(SYS_close, mark);
+  errno = std::atoi(std::getenv("FAIL_ERRNO"));
+  return errno == 0 ? Way::kShort : Way::kFail;
+}
+
+template <class Result, class Call>
+Result passed(const char* name, Result failed, const Call& call) {
+  return way_of(name) == Way::kFail ? failed : call();
+}
+
+int opened(const char* name, int folder, const char* path, int flags, mode_t mode) {
+  return passed<int>(
+      name, -1, [&] { return static_cast<int>(::syscall(SYS_openat, folder, path, flags, mode)); });
+}
+
+mode_t mode_of(int flags, va_list list) {
+  return (flags & O_CREAT) != 0 ? va_arg(list, mode_t) : 0;
+}
+
+}  // namespace
+
+extern "C" {
+
+int open(const char* path, int flags, ...) {
+  va_list list;
+  va_start(list, flags);
+  const mode_t mode = mode_of(flags, list);
+  va_end(list);
+  return opened("open", AT_FDCWD, path, flags, mode);
+}
+int open64(const char* path, int flags, ...) {
+  va_list list;
+  va_start(list, flags);
+  const mode_t mode = mode_of(flags, list);
+  va_end(list);
+  return opened("open", AT_FDCWD, path, flags, mode);
+}
+ssize_t read(int file, void* buffer, size_t size) {
+  const Way way = way_of("read");
+  return way == Way::kFail
+             ? -1
+             : ::syscall(SYS_read, file, buffer, way == Way::kShort && size > 1 ? 1 : size);
+}
+ssize_t write(int file, const void* buffer, size_t size) {
+  const Way way = way_of("write");
+  return way == Way::kFail
+             ? -1
+             : ::syscall(SYS_write, file, buffer, way == Way::kShort && size > 1 ? 1 : size);
+}
+int fsync(int file) {
+  return passed<int>("fsync", -1, [&] { return static_cast<int>(::syscall(SYS_fsync, file)); });
+}
+int flock(int file, int operation) {
+  return passed<int>("flock", -1,
+                     [&] { return static_cast<int>(::syscall(SYS_flock, file, operation)); });
+}
+int ftruncate(int file, off_t size) noexcept {
+  return passed<int>("ftruncate", -1,
+                     [&] { return static_cast<int>(::syscall(SYS_ftruncate, file, size)); });
+}
+int rename(const char* from, const char* to) noexcept {
+  return passed<int>("rename", -1, [&] {
+    return static_cast<int>(::syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to));
+  });
+}
+void* mmap(void* address, size_t size, int protection, int flags, int file, off_t place) noexcept {
+  static const auto next = next_of<void* (*)(void*, size_t, int, int, int, off_t)>("mmap");
+  return passed<void*>("mmap", MAP_FAILED,
+                       [&] { return next(address, size, protection, flags, file, place); });
+}
+
+}  // extern "C"

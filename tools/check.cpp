@@ -1,0 +1,65 @@
+#include <iostream>
+
+#include "dcnn/experiment/check_report.h"
+#include "support/doctor.h"
+#include "support/tool.h"
+
+namespace {
+
+using namespace dcnn;
+
+constexpr const char* kExamples =
+    "  dcnn-check log.csv                            # what is wrong with it, and what mends it\n"
+    "  dcnn-check log.csv --sim sim.json --out check # with the nominal mass and mounting; a page\n"
+    "  dcnn-check a.csv b.csv --system arm.json --json\n"
+    "\n"
+    "A log is read in every way that people write logs by mistake (units, signs, axes, frames,\n"
+    "orders), and a rigid tool is fitted to each; clocks, channels and rows have statistics of their\n"
+    "own. Probabilities are posteriors with the priors of docs/use/check.md.\n\n";
+
+std::string examples() {
+  std::string text = kExamples;
+  text += "Faults:";
+  std::size_t width = 7;
+  for (const std::string& name : check::fault_names()) {
+    if (width + name.size() + 1 > 90) text += "\n       ", width = 7;
+    text += " " + name;
+    width += name.size() + 1;
+  }
+  return text;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("dcnn-check", "Says what is wrong with a recording before anything is learned from it.",
+            examples());
+  CheckRequest request;
+  std::filesystem::path out;
+  tool.option("logs", request.logs, "recordings (CSV)").required();
+  const Option sim =
+      tool.option("--sim", request.simulator, "simulator of the tool (JSON): nominal mass, mounting");
+  tool.option("--system", request.system, "system description of another machine (JSON)").excludes(sim);
+  const Output folder =
+      tool.output("--out", out, "folder for check.json and check.html", {"check.json", "check.html"});
+  const ReadFlags read(tool);
+
+  return tool.run(argc, argv, [&] {
+    request.read = read.options();
+    for (const auto& log : request.logs) {
+      require(std::filesystem::is_regular_file(log), Exit::kData, log.string(),
+              ": is no file; give a recording (CSV)");
+    }
+    const auto reports = check_logs(request);
+    if (folder.given()) {
+      write_check(out, reports);
+      tool.note("report      " + (out / "check.html").string());
+    }
+    if (tool.common().json) {
+      Tool::print(check_json(reports));
+    } else {
+      for (const auto& report : reports) std::cout << check::to_text(report);
+    }
+    return Exit::kDone;
+  });
+}

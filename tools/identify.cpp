@@ -1,0 +1,177 @@
+#include <iostream>
+
+#include "dcnn/core/file.h"
+#include "dcnn/identification/arm.h"
+#include "dcnn/identification/identify.h"
+#include "dcnn/identification/payload.h"
+#include "dcnn/physics/simulator.h"
+#include "support/tool.h"
+
+namespace {
+
+using namespace dcnn;
+using Path = std::filesystem::path;
+
+constexpr const char* kExamples =
+    "  dcnn-identify log.csv --out sim.json                      # moving, force (and torque)\n"
+    "  dcnn-identify poses.csv --out sim.json                    # poses at rest, with or without t\n"
+    "  dcnn-identify a.csv b.csv --out sim.json --report report --mounting 0 0 -0.52\n"
+    "  dcnn-identify log.csv --out sim.json --export urdf franka --export-to payload\n"
+    "  dcnn-identify --from sim.json --export ur --export-to payload\n"
+    "  dcnn-identify a.csv b.csv --system arm.json --holdout c.csv --out found.json   # a whole arm\n"
+    "  dcnn-identify empty.csv --loaded with_tool.csv --system arm.json --urdf robot.urdf --out o.json\n"
+    "\n"
+    "Finds mass, centre of mass, inertia (where torques are logged), the sensor's offset and its\n"
+    "mounting, with 95 % intervals, and says which motion would show what these logs do not.\n"
+    "sim.json is the simulator that dcnn-diagnose compares with recordings. With --system it finds\n"
+    "the links, the friction and the payload of an arm from joint torques or currents.";
+
+struct Command {
+  IdentifyRequest request;
+  ArmRequest arm;
+  std::vector<double> mounting;
+  Path from, out, report, export_to;
+  std::vector<std::string> formats;
+};
+
+void export_payload(const Command& command, const ToolModel& model, const Tool& tool) {
+  const Payload payload = payload_of(model);
+  for (const std::string& format : command.formats) {
+    const Path file = command.export_to / payload_file(format);
+    write_file(file, payload_text(format, payload));
+    tool.note("payload     " + file.string());
+  }
+}
+
+/// What a shell takes as one word.
+std::string quoted(const std::string& word) {
+  if (word.find_first_of(" '\"$\\`*?&;()<>|") == std::string::npos) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+std::string next_command(const Command& command) {
+  std::string text = "dcnn-diagnose --sim " + quoted(command.out.string()) + " --fit";
+  for (const Path& log : command.request.logs) text += " " + quoted(log.string());
+  return text + " --out report";
+}
+
+void write_report(const Command& command, const ToolIdentification& result) {
+  std::filesystem::create_directories(command.report);
+  write_file(command.report / "identify.json", to_json(result).dump(2) + "\n");
+  write_file(command.report / "identify.txt", to_text(result));
+}
+
+Exit identify(Command& command, const Tool& tool) {
+  if (!command.mounting.empty()) {
+    command.request.mounting_rpy =
+        Eigen::Vector3d(command.mounting[0], command.mounting[1], command.mounting[2]);
+  }
+  const ToolIdentification result = identify_tool(command.request);
+  write_file(command.out, to_json(Simulator{result.model, {}}).dump(2) + "\n");
+  if (!command.report.empty()) write_report(command, result);
+  if (!command.formats.empty()) export_payload(command, result.model, tool);
+  for (const auto& note : result.notes) tool.note(note);
+  const std::string next = next_command(command);
+  if (tool.common().json) {
+    Json json = to_json(result);
+    json["next"] = next;
+    Tool::print(json);
+  } else {
+    std::cout << to_text(result) << "Next: " << next << "\n";
+  }
+  return Exit::kDone;
+}
+
+Exit identify_joints(Command& command, const Tool& tool) {
+  command.arm.logs = command.request.logs;
+  const ArmIdentification result = identify_arm(command.arm);
+  const Json json = to_json(result);
+  write_file(command.out, json.dump(2) + "\n");
+  for (const auto& note : result.notes) tool.note(note);
+  if (tool.common().json) {
+    Tool::print(json);
+    return Exit::kDone;
+  }
+  std::cout << to_text(result);
+  if (command.arm.urdf.empty()) {
+    std::cout << "Next: dcnn-diagnose --system " << quoted(command.arm.system.string()) << " --fit";
+    for (const Path& log : command.arm.logs) std::cout << " " << quoted(log.string());
+    std::cout << " --out report\n";
+  }
+  return Exit::kDone;
+}
+
+/// The options of an arm; they have no meaning for a tool.
+void add_arm_options(Tool& tool, Command& command, const Option& system) {
+  tool.option("--urdf", command.arm.urdf, "the arm's URDF instead of a DH table; its inertias are "
+              "the prior")
+      .needs(system)
+      .group("Arms");
+  tool.option("--tip", command.arm.tip, "last link of the arm in the URDF (else its end)")
+      .needs(system)
+      .group("Arms");
+  tool.option("--loaded", command.arm.loaded, "recordings with a payload at the flange")
+      .needs(system)
+      .group("Arms");
+  tool.option("--holdout", command.arm.holdout, "recordings that decide nothing: the error on them")
+      .needs(system)
+      .group("Arms");
+  tool.flag("--drive-gains", command.arm.drive_gains,
+            "the torques have an unknown gain in each joint (needs --urdf)")
+      .needs(system)
+      .group("Arms");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("dcnn-identify",
+            "Finds a tool's mass, centre of mass, inertia, sensor offset and mounting from "
+            "recordings, without a simulator.",
+            kExamples);
+  Command command;
+  bool rigid_alone = false;
+  const auto logs = tool.option("logs", command.request.logs,
+                                "recordings: poses with fx,fy,fz (and tx,ty,tz), moving or at rest");
+  const auto from = tool.option("--from", command.from,
+                                "export the tool of this sim.json; nothing is identified");
+  const auto out = tool.output("--out", command.out, "sim.json to write");
+  tool.output("--report", command.report, "folder for all numbers with their intervals",
+              {"identify.json", "identify.txt"});
+  tool.option("--mounting", command.mounting,
+              "how the sensor is turned against the pose frame: rx ry rz [rad] (else estimated)")
+      .values(3);
+  tool.flag("--rigid-alone", rigid_alone,
+            "fit no friction, lag, cable or sensor fault beside the tool");
+  tool.option("--export", command.formats, "write the payload for others")
+      .one_of(payload_formats());
+  std::vector<std::string> files;
+  for (const auto& format : payload_formats()) files.push_back(payload_file(format));
+  tool.output("--export-to", command.export_to, "folder for what --export writes", files);
+  const auto system = tool.option("--system", command.arm.system,
+                                  "a whole arm: joints' columns and DH table (JSON, \"kind\": "
+                                  "\"axes\")")
+                          .group("Arms");
+  add_arm_options(tool, command, system);
+  const ReadFlags read(tool);
+
+  return tool.run(argc, argv, [&] {
+    require(command.formats.empty() == command.export_to.empty(), Exit::kUsage,
+            "--export and --export-to belong together");
+    if (!command.formats.empty()) std::filesystem::create_directories(command.export_to);
+    if (from.given()) {
+      require(!logs.given() && !out.given() && !command.formats.empty(), Exit::kUsage,
+              "--from takes --export and --export-to, and no recordings");
+      export_payload(command, read_simulator(command.from).model, tool);
+      return Exit::kDone;
+    }
+    require(logs.given() && out.given(), Exit::kUsage,
+            "give recordings and --out sim.json; see dcnn-identify --help");
+    if (system.given()) return identify_joints(command, tool);
+    command.request.read = read.options();
+    command.request.laws = !rigid_alone;
+    return identify(command, tool);
+  });
+}

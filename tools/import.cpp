@@ -1,0 +1,193 @@
+#include <algorithm>
+#include <iostream>
+
+#include "dcnn/core/file.h"
+#include "dcnn/import/assemble.h"
+#include "dcnn/import/summary.h"
+#include "support/import_flags.h"
+#include "support/tool.h"
+
+namespace {
+
+using namespace dcnn;
+using Path = std::filesystem::path;
+
+constexpr const char* kExamples =
+    "  dcnn-import log.bag --dry-run                   # what is in it, and what it would become\n"
+    "  dcnn-import log.mcap --out run1                 # run1/log.csv and run1/import.json\n"
+    "  dcnn-import next.mcap --recipe run1/import.json --out run2\n"
+    "  dcnn-import forces.txt poses.txt --join --out run3    # one file per topic\n"
+    "  dcnn-import odd.txt --columns t,fx,fy,fz,A,B,C --unit t=ms --out run4\n"
+    "\n"
+    "What is found is printed as a table. Units that only the size of the numbers tells, and\n"
+    "choices between topics, are asked for (exit 3) with the option that answers.";
+
+struct Request {
+  std::vector<Path> logs;
+  std::optional<Path> out, recipe;
+  bool dry_run = false, join = false, assume = false;
+  double resample_hz = 0.0;
+  std::optional<Option> resample;
+};
+
+/// The logs of one recording each.
+std::vector<std::vector<Path>> recordings_of(const Request& request) {
+  if (request.join) return {request.logs};
+  std::vector<std::vector<Path>> recordings;
+  for (const Path& log : request.logs) recordings.push_back(split_paths(log));
+  return recordings;
+}
+
+void demand_answers(const Proposal& proposal, bool assume, const std::string& file) {
+  std::vector<std::string> open = proposal.questions;
+  if (!assume) open.insert(open.end(), proposal.guesses.begin(), proposal.guesses.end());
+  if (open.empty()) return;
+  std::string words = open[0];
+  for (std::size_t k = 1; k < open.size(); ++k) words += "; " + open[k];
+  fail(Exit::kData, file, ": ", words,
+       proposal.questions.empty() ? " (--assume takes what is guessed)" : "");
+}
+
+/// What the tools would say of the recording that was written.
+void check_written(const Tool& tool, const Path& path, const System& system) {
+  try {
+    ReadOptions options;
+    options.static_list = true;
+    options.motion_only = true;
+    for (const auto& note : read_recording(path, options, system).notes) tool.note("  " + note);
+  } catch (const Error& error) {
+    const std::string words = error.what();
+    const bool clock = words.find("irregular clock") != std::string::npos;
+    tool.note("note: the other tools would refuse it: " + words +
+              (clock ? " (here: --resample)" : ""));
+  }
+}
+
+class Importer {
+ public:
+  Importer(const Tool& tool, const Request& request, const ImportFlags& flags)
+      : tool_(tool), request_(request), flags_(flags) {}
+
+  Exit run() {
+    for (const Path& log : request_.logs) {
+      require(log != "-", Exit::kUsage,
+              "a log is read twice: write standard input to a file first");
+    }
+    require(!request_.logs.empty(), Exit::kUsage, "name a log; see dcnn-import --help");
+    const auto recordings = recordings_of(request_);
+    require(request_.dry_run || request_.out, Exit::kUsage,
+            "say where recordings are written: --out DIR, or --dry-run");
+    if (request_.recipe) {
+      proposal_.recipe = read_recipe(*request_.recipe);
+    } else {
+      propose_for(recordings[0]);
+    }
+    if (!request_.dry_run) {
+      for (const auto& recording : recordings) write(recording);
+      write_file(*request_.out / "import.json", to_json(proposal_.recipe).dump(2) + "\n");
+      if (!picture_.empty()) write_file(*request_.out / "clock-offset.svg", picture_);
+    } else if (request_.recipe) {
+      std::cout << describe(read_log(recordings[0], flags_.read()), proposal_.recipe);
+    }
+    if (tool_.common().json) Tool::print(json_);
+    return Exit::kDone;
+  }
+
+ private:
+  void propose_for(const std::vector<Path>& paths) {
+    const ImportWishes wishes = flags_.wishes();
+    ReadLogOptions read = flags_.read();
+    read.wanted = worth_keeping(wishes);
+    const ForeignLog log = read_log(paths, read);
+    proposal_ = propose(log, wishes);
+    proposal_.recipe.files = static_cast<int>(paths.size());
+    proposal_.recipe.text = flags_.read().text;
+    if (request_.resample->given()) {
+      proposal_.recipe.resample_hz = request_.resample_hz > 0.0 ? request_.resample_hz : -1.0;
+    }
+    json_ = describe_json(log, proposal_);
+    if (!tool_.common().json) std::cout << describe(log, proposal_.recipe) << std::flush;
+    for (const auto& note : log.notes) tool_.note("  note: " + note);
+    for (const auto& note : proposal_.notes) tool_.note("  note: " + note);
+    if (!request_.dry_run) {
+      demand_answers(proposal_, request_.assume, log.file);
+      return show_offset(log);
+    }
+    for (const auto& ask : proposal_.questions) tool_.note("  to be said: " + ask);
+    for (const auto& ask : proposal_.guesses) tool_.note("  guessed: " + ask);
+    if (proposal_.questions.empty() && proposal_.guesses.empty()) show_offset(log);
+  }
+
+  /// Two streams, two clocks: says by how much they are off, applies it where that is asked for.
+  void show_offset(const ForeignLog& log) {
+    constexpr double kMostOffset = 0.5;  // s: beyond it the user says it
+    const StreamOffset found = estimate_offset(log, proposal_.recipe, kMostOffset);
+    if (found.stream.empty()) return;
+    picture_ = picture_of(found);
+    json_["clock_offset"] = {{"stream", found.stream},
+                             {"seconds", found.offset.seconds},
+                             {"sd_s", found.offset.sd},
+                             {"certain", found.offset.certain}};
+    const auto asked = flags_.estimated_offsets();
+    if (std::find(asked.begin(), asked.end(), found.stream) == asked.end()) {
+      return tool_.note("  " + words_of(found));
+    }
+    require(found.offset.certain, Exit::kData, log.file, ": ", words_of(found),
+            "; say --clock-offset ", found.stream, "=SECONDS");
+    for (ClockRule& rule : proposal_.recipe.clocks) {
+      if (rule.stream == found.stream) rule.offset += found.offset.seconds;
+    }
+    tool_.note("  clock of " + found.stream + " moved by " + std::to_string(found.offset.seconds) +
+               " s, sd " + std::to_string(found.offset.sd) + " s");
+  }
+
+  void write(const std::vector<Path>& paths) {
+    std::string whole;
+    for (const Path& path : paths) whole += (whole.empty() ? "" : "+") + path.string();
+    const Imported imported = import_recording(whole, proposal_.recipe, flags_.read());
+    Path stem = paths[0].filename();
+    if (stem.empty()) stem = paths[0].parent_path().filename();
+    const Path file = *request_.out / stem.replace_extension(".csv");
+    for (const Path& other : written_) {
+      require(other != file, Exit::kUsage, file.string(),
+              ": two logs have this name; import them into two folders");
+    }
+    written_.push_back(file);
+    write_csv(file, imported.table);
+    const Json axes = axes_of(imported.table);
+    if (!axes.is_null()) write_file(*request_.out / "system.json", axes.dump(2) + "\n");
+    tool_.note(file.string() + ": " + std::to_string(imported.table.values.rows()) + " rows, " +
+               std::to_string(imported.table.columns.size()) + " columns");
+    for (const auto& note : imported.notes) tool_.note("  " + note);
+    check_written(tool_, file, axes.is_null() ? System() : parse_system(axes, "system.json"));
+  }
+
+  const Tool& tool_;
+  const Request& request_;
+  const ImportFlags& flags_;
+  Proposal proposal_;
+  Json json_ = Json::object();
+  std::string picture_;
+  std::vector<Path> written_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("dcnn-import", "Makes recordings of logs in other formats.", kExamples);
+  Request request;
+  tool.option("logs", request.logs, "logs: " + known_formats());
+  tool.flag("--dry-run", request.dry_run, "print what is found and write nothing");
+  tool.option("--recipe", request.recipe, "import.json of an earlier log of the same robot");
+  tool.flag("--join", request.join, "all logs are parts of one recording");
+  tool.flag("--assume", request.assume, "take units and clocks as guessed by size");
+  request.resample = tool.option("--resample", request.resample_hz,
+                                 "put rows on a regular clock [Hz; default: the log's rate]")
+                         .value_optional()
+                         .not_negative();
+  tool.output("--out", request.out, "folder for recordings and import.json",
+              {"*.csv", "import.json", "system.json", "clock-offset.svg"});
+  const ImportFlags flags(tool);
+
+  return tool.run(argc, argv, [&] { return Importer(tool, request, flags).run(); });
+}

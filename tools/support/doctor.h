@@ -1,0 +1,37 @@
+// The check that tools which learn from recordings run first.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dcnn/check/check.h"
+#include "support/tool.h"
+
+namespace dcnn {
+
+/// Logs and what the command line declares about them.
+struct CheckRequest {
+  std::vector<std::filesystem::path> logs;
+  ReadOptions read;
+  std::filesystem::path simulator, system;  ///< empty for none
+};
+
+/// Reports in the order of the logs; streams (`-`) are left out, for they can be read once only.
+std::vector<check::Report> check_logs(const CheckRequest& request);
+
+/// --accept.
+class Doctor {
+ public:
+  explicit Doctor(Tool& tool);
+  /// Error(kData) with the remedy where a fault is certain and not accepted; a line on stderr for
+  /// each that is likely. Gives these lines, for the report. Faults in `own` are the command's own
+  /// business and are passed over.
+  std::vector<std::string> examine(const Tool& tool, const CheckRequest& request,
+                                   const std::vector<std::string>& own = {}) const;
+
+ private:
+  std::vector<std::string> accepted_;
+};
+
+}  // namespace dcnn

@@ -1,0 +1,34 @@
+// What a user says about a log of somebody else.
+#pragma once
+
+#include "dcnn/import/recipe.h"
+#include "support/tool.h"
+
+namespace dcnn {
+
+class ImportFlags {
+ public:
+  explicit ImportFlags(Tool& tool);
+  ReadLogOptions read() const;
+  ImportWishes wishes() const;
+  /// Streams of --clock-offset STREAM=auto.
+  std::vector<std::string> estimated_offsets() const;
+
+ private:
+  void add_text(Tool& tool);
+  void add_channels(Tool& tool);
+  void add_clocks(Tool& tool);
+  void add_frames(Tool& tool);
+
+  std::string separator_, decimal_;
+  std::vector<std::string> columns_, use_, map_, units_, gains_, offsets_, wraps_, also_;
+  std::vector<std::string> clock_offsets_;
+  std::string clock_, clock_unit_, stamps_ = "header";
+  double rate_hz_ = 0.0;
+  std::string quaternion_order_, euler_order_, wrench_frame_ = "sensor";
+  bool inverse_ = false, truncated_ = false;
+  std::vector<double> turn_, origin_;
+  std::string urdf_, link_, base_link_;
+};
+
+}  // namespace dcnn
