@@ -11,7 +11,6 @@
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/axis_case.h"
 #include "diagnosis/holdout.h"
-#include "diagnosis/median.h"
 
 namespace dcnn {
 namespace {
@@ -69,7 +68,8 @@ JointRows rows_of(const Case& study, const std::vector<Span>& held) {
       if (is_held(held, k, t)) continue;
       kept.push_back(i);
       const auto piece = static_cast<Index>(kSharedPieces * (t - first) / span);
-      all.piece.push_back(static_cast<Index>(k) * kSharedPieces + std::min(kSharedPieces - 1, piece));
+      all.piece.push_back(static_cast<Index>(k) * kSharedPieces +
+                          std::min(kSharedPieces - 1, piece));
     }
     const Index before = all.arm.rows(), more = static_cast<Index>(kept.size());
     all.arm.conservativeResize(before + more, arm.cols());
@@ -157,12 +157,19 @@ class ArmSums {
     }
   }
 
-  /// Misfit of a joint on pieces that were left out, with the parameters of all joints or its own.
-  double left_out(std::size_t joint, bool shared) const {
-    double sum = 0.0;
+  /// Misfit of each joint on pieces that were left out, with the parameters of all joints …
+  std::vector<double> left_out_of_shared() const {
+    std::vector<double> sums(sums_.size(), 0.0);
     for (Index p = 0; p < pieces_; ++p) {
-      sum += misfit(sums_[joint], p, shared ? fit(p)(places(joint)).eval() : own_fit(joint, p));
+      const Eigen::VectorXd c = fit(p);
+      for (std::size_t j = 0; j < sums.size(); ++j) sums[j] += misfit(sums_[j], p, c(places(j)));
     }
+    return sums;
+  }
+  /// … and of one joint with parameters of its own.
+  double left_out_of_own(std::size_t joint) const {
+    double sum = 0.0;
+    for (Index p = 0; p < pieces_; ++p) sum += misfit(sums_[joint], p, own_fit(joint, p));
     return sum;
   }
 
@@ -234,8 +241,9 @@ void share_base(std::vector<LoadedCase>& cases) {
   arm.reweight();
   const Eigen::VectorXd all = arm.fit(-1);
   const Eigen::VectorXd parameters = all.head(static_cast<Index>(arm.columns().size()));
+  const std::vector<double> shared = arm.left_out_of_shared();
   for (std::size_t j = 0; j < cases.size(); ++j) {
-    if (arm.left_out(j, true) > arm.left_out(j, false)) continue;
+    if (shared[j] > arm.left_out_of_own(j)) continue;
     give_base(cases[j].fit, arm.columns(), parameters);
     give_base(cases[j].holdout, arm.columns(), parameters);
   }
