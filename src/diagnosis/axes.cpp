@@ -118,7 +118,8 @@ Json merged(const std::vector<Json>& reports, const System& system) {
     report["posteriors"].back()["axis"] = system.axes[k].name;
     report["posteriors"].back()["structures"] = reports[k]["structures"];
   }
-  for (const char* key : {"targets", "units", "findings", "not_detected", "not_testable"}) {
+  for (const char* key :
+       {"targets", "units", "findings", "refuted", "not_detected", "not_testable"}) {
     report[key] = Json::array();
     for (const Json& one : reports) append(report[key], one[key]);
   }
@@ -136,7 +137,7 @@ Json merged(const std::vector<Json>& reports, const System& system) {
 void translate(Diagnosis& diagnosis, const AxisPlan& plan) {
   const Axis& axis = plan.axis();
   for (Json& finding : diagnosis.report["findings"]) finding = outer_finding(finding, plan);
-  for (const char* key : {"not_detected", "not_testable"}) {
+  for (const char* key : {"refuted", "not_detected", "not_testable"}) {
     for (Json& entry : diagnosis.report[key]) entry["axis"] = axis.name;
   }
   for (HeldOut& record : diagnosis.holdout) {

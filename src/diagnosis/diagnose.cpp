@@ -8,6 +8,7 @@
 #include "diagnosis/axes.h"
 #include "diagnosis/budget.h"
 #include "diagnosis/candidates.h"
+#include "diagnosis/confidence.h"
 #include "diagnosis/discovered.h"
 #include "diagnosis/dead_channels.h"
 #include "diagnosis/evidence/posterior_json.h"
@@ -114,6 +115,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   search.run();
   if (progress) progress("judging by what was held out");
   const HoldOut holdout(search.study(), loaded.holdout);
+  const Json refuted_names = leave_refuted(search, holdout);
   const Case& study = search.study();
   const JointFit &fit = search.fit(), given = joint_fit(search.setting(), {});
 
@@ -126,6 +128,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   const std::vector<std::string> without = study.without.names();
   if (!without.empty()) report["without"] = without;
   report["findings"] = findings_json(search, holdout);
+  report["refuted"] = refuted_names;
   // What a loose load's impacts are is not predicted.
   std::optional<HoldOut::Excess> refuted;
   if (!search.knocking()) refuted = holdout.excess(search);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagnosis/candidates.h"
+#include "diagnosis/confidence.h"
 #include "diagnosis/plain_findings.h"
 #include "diagnosis/words.h"
 
@@ -43,7 +44,7 @@ class Writer {
       if (member.fixed) others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
       entry["confidence"] = entry["p_value"] = nullptr;
       if (!member.fixed) {
-        entry["confidence"] = search_.posterior().inclusion(member);
+        entry["confidence"] = confidence(search_, holdout_, m);
         entry["p_value"] = flip_p_value(search_.setting(), fit, m);
       }
       entry["alternatives"] = alternatives[m];

@@ -28,6 +28,10 @@ class HoldOut {
     double ratio;  ///< error over noise
   };
   std::optional<Excess> excess(const Search& search) const;
+  /// ln of the factor by which the held-out data change the odds of `with` against `without`, two
+  /// fits of the same case (diagnosis/evidence/support.h; blocks of 1 s, of poses at rest each).
+  double log_support(const JointFit& with, const JointFit& without,
+                     const std::vector<Floor>& floors) const;
   std::vector<HeldOut> records(const JointFit& before, const JointFit& after) const;
   /// The same recordings without the low-pass.
   HoldOut unfiltered() const;

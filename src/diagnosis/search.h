@@ -40,6 +40,8 @@ class Search {
   /// For each member, other effects that the recordings cannot exclude in its place.
   std::vector<std::vector<std::string>> alternatives() const;
 
+  /// Takes back a member that other data refute, and judges what is left.
+  void leave_out(std::size_t member);
   /// Whitens again for what these members leave, and fits them.
   void settle(const std::vector<Member>& members);
   std::vector<Member> members_without(std::size_t member) const;
@@ -113,6 +115,8 @@ class Search {
   std::size_t weigh_once();
   /// Leaves the most probable of these.
   void weigh();
+  /// What the weighed structures say of something that no name explains.
+  void judge_rest();
   void say(const std::string& text) const;
 
   Case study_;

@@ -59,9 +59,18 @@ void Search::weigh() {
     best = weigh_once();
     smaller = true;
   }
-  if (!smaller && !study_.is_static()) return;  // poses at rest have no spectrum to be judged by
+  if (smaller || study_.is_static()) judge_rest();  // poses at rest have no spectrum
+}
+
+void Search::judge_rest() {
   bands_ = band_tests(*setting_, fit_.residual);
   remains_ = posterior_.named_and_unknown + posterior_.unknown > 0.5;
+}
+
+void Search::leave_out(std::size_t member) {
+  settle(members_without(member));
+  weigh_once();
+  if (!study_.axis) judge_rest();
 }
 
 }  // namespace dcnn

@@ -10,7 +10,7 @@
 namespace dcnn::evidence {
 
 double Posterior::inclusion(const Member& member) const {
-  double mass = 0.0;  // what lies elsewhere holds the name as often as not
+  double mass = 0.0;
   for (std::size_t k = 0; k < structures.size(); ++k) {
     const auto& members = structures[k].members;
     const bool holds = std::any_of(members.begin(), members.end(), [&](const Member& m) {
@@ -18,7 +18,13 @@ double Posterior::inclusion(const Member& member) const {
     });
     if (holds) mass += without_unknown[k] + with_unknown[k];
   }
+  // What lies elsewhere holds the name as often as not.
   return (1.0 - prior::kElsewhere) * mass + 0.5 * prior::kElsewhere;
+}
+
+double updated(double probability, double log_factor) {
+  const double against = (1.0 - probability) / probability * elementary::exp(-log_factor);
+  return std::clamp(1.0 / (1.0 + against), 0.5 * prior::kElsewhere, 1.0 - 0.5 * prior::kElsewhere);
 }
 
 std::size_t Posterior::most_probable() const {

@@ -18,6 +18,10 @@ struct Posterior {
   std::size_t most_probable() const;
 };
 
+/// A probability after data of likelihood ratio exp(log_factor); no nearer to 0 or 1 than half of
+/// prior::kElsewhere.
+double updated(double probability, double log_factor);
+
 /// Normalised over the structures at hand: log_named, improved by slow noise where that is
 /// likelier, against log_named and the unknown's factor; differences beside an unknown are tempered
 /// by 1/(1 + gain/kTempering), where its class keeps its whole mass.

@@ -1,0 +1,20 @@
+// What data that decided nothing say of two fitted models.
+#pragma once
+
+#include <vector>
+
+namespace dcnn::evidence {
+
+/// Of a block of data, in units of the noise: what chi-square falls by from the one model to the
+/// other, and the square of what the two predict apart.
+struct BlockChange {
+  double fall = 0.0, apart = 0.0;
+};
+
+/// ln of the likelihood ratio of the two models: half of what chi-square falls by in all, where the
+/// noise is white and of the stated size, which makes the fall's variance four times `apart`. Where
+/// it varies more over the blocks (coloured noise, an error that both models share), divided by as
+/// much. 0 for fewer than two blocks, and where both predict the same.
+double log_support(const std::vector<BlockChange>& blocks);
+
+}  // namespace dcnn::evidence

@@ -1,0 +1,74 @@
+// What held-out data say of two models, against the likelihood ratio and against simulation.
+#include "diagnosis/evidence/support.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dcnn/core/random.h"
+
+namespace dcnn::evidence {
+namespace {
+
+constexpr int kBlocks = 24, kRows = 50;
+
+/// Blocks of a model that adds `size` times a wave to one that adds nothing, in noise of unit
+/// variance and correlation rho from row to row; the wave acts `truth` times as large.
+std::vector<BlockChange> held_out(double size, double truth, double rho, Rng& rng) {
+  std::vector<BlockChange> blocks(kBlocks);
+  double noise = rng.normal();
+  for (int i = 0; i < kBlocks * kRows; ++i) {
+    noise = rho * noise + std::sqrt(1.0 - rho * rho) * rng.normal();
+    const double wave = size * std::sin(0.05 * i), y = truth * wave + noise;
+    BlockChange& block = blocks[static_cast<std::size_t>(i / kRows)];
+    block.fall += y * y - (y - wave) * (y - wave);
+    block.apart += wave * wave;
+  }
+  return blocks;
+}
+
+TEST(Support, InWhiteNoiseIsTheLogarithmOfTheLikelihoodRatio) {
+  Rng rng({1});
+  double got = 0.0, exact = 0.0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const auto blocks = held_out(0.2, 1.0, 0.0, rng);
+    for (const BlockChange& block : blocks) exact += 0.5 * block.fall;
+    got += log_support(blocks);
+  }
+  EXPECT_GT(got, 0.8 * exact);  // never above, below where chance makes the blocks differ more
+  EXPECT_LE(got, exact);
+}
+
+// P(likelihood ratio > a) <= 1/a where the added wave does not act, also in coloured noise.
+TEST(Support, SeldomSpeaksForWhatDoesNotAct) {
+  for (const double rho : {0.0, 0.6, 0.9}) {
+    Rng rng({2});
+    int loud = 0;
+    constexpr int kTrials = 1000;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      loud += log_support(held_out(0.15, 0.0, rho, rng)) > std::log(20.0);
+    }
+    EXPECT_LE(loud, kTrials / 20) << rho;
+  }
+}
+
+TEST(Support, SpeaksAgainstWhatActsTheOtherWay) {
+  Rng rng({3});
+  int for_it = 0, against = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    against += log_support(held_out(0.3, -1.0, 0.6, rng)) < -3.0;
+    for_it += log_support(held_out(0.3, 1.0, 0.6, rng)) > 3.0;
+  }
+  EXPECT_EQ(against, 200);
+  // Expected: half of 0.3^2/2 a row, less by (1 + 0.6)/(1 - 0.6): 6.8, deviation 3.7.
+  EXPECT_GE(for_it, 150);
+}
+
+TEST(Support, OfNothingIsNone) {
+  EXPECT_EQ(log_support({}), 0.0);
+  EXPECT_EQ(log_support({{5.0, 5.0}}), 0.0);
+  EXPECT_EQ(log_support({{0.0, 0.0}, {0.0, 0.0}}), 0.0);
+}
+
+}  // namespace
+}  // namespace dcnn::evidence
