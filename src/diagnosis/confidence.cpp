@@ -23,7 +23,7 @@ Json leave_refuted(Search& search, const HoldOut& holdout) {
     refuted.push_back({{"effect", member.name()},
                        {"axis", member.axis.empty() ? Json() : Json(member.axis)},
                        {"confidence", least}});
-    search.leave_out(*worst);
+    search.leave_out({*worst});
   }
 }
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "dcnn/discovery/discover.h"
+#include "discovery/priors.h"
 
 namespace dcnn {
 namespace {
@@ -13,6 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kLawInterval = 1.96;  // of a standard deviation: 95 %
+constexpr int kFewestNumbers = 2;      // of a law: its size, and a scale or a power
 constexpr double kStillGained = 0.5;   // of a law's gain, once all are fitted through the chain
 
 /// The force on the tool to which a law is added.
@@ -53,6 +56,35 @@ std::vector<MatrixXd> forces_of(const Case& study, const Signals& signals) {
   return forces;
 }
 
+/// What the effects behind the forces on the tool, up to the sensor's offsets, make of forces.
+class Passage {
+ public:
+  Passage(const Case& study, const std::vector<EffectSpec>& effects)
+      : study_(study), model_(changed_tool(study.simulator.model, effects)) {
+    for (const EffectSpec& effect : effects) {
+      const Stage stage = find_effect(effect.effect)->stage;
+      if (stage > Stage::kForce && stage < Stage::kOffset) behind_.push_back(effect);
+    }
+    model_.bias.setZero();
+    model_.bias_torque.setZero();
+  }
+  Signals operator()(const std::vector<MatrixXd>& forces) const {
+    if (behind_.empty()) return channels_of(study_, forces);
+    std::vector<MatrixXd> passed;
+    for (std::size_t k = 0; k < forces.size(); ++k) {
+      Wrench wrench{forces[k], MatrixXd::Zero(forces[k].rows(), 3)};
+      pass_on(behind_, Stage::kResonance, study_.logs[k].motion, model_, wrench);
+      passed.push_back(std::move(wrench.force));
+    }
+    return channels_of(study_, passed);
+  }
+
+ private:
+  const Case& study_;
+  ToolModel model_;
+  std::vector<EffectSpec> behind_;
+};
+
 /// The residual of a fit as a problem at the rate of `study`, whose rows `whitener` gives; both
 /// must outlive it.
 discovery::Problem problem_of(const Setting& setting, const JointFit& fit, const Case& study,
@@ -64,8 +96,9 @@ discovery::Problem problem_of(const Setting& setting, const JointFit& fit, const
     problem.records.push_back({&log.motion, load_of(setting.study.simulator, effects, log)});
     sizes.push_back(log.motion.samples());
   }
-  problem.whiten = [&study, &whitener, &setting](const std::vector<MatrixXd>& forces) {
-    return VectorXd(whitener(channels_of(study, forces)).cwiseProduct(setting.mask));
+  problem.whiten = [passage = Passage(study, effects), &whitener,
+                    &setting](const std::vector<MatrixXd>& forces) {
+    return VectorXd(whitener(passage(forces)).cwiseProduct(setting.mask));
   };
   problem.transposed = [&study, &whitener, &setting, sizes](const VectorXd& rows) {
     return forces_of(study, whitener.transposed(rows.cwiseProduct(setting.mask), sizes));
@@ -79,9 +112,8 @@ discovery::Problem problem_of(const Setting& setting, const JointFit& fit, const
   return problem;
 }
 
-bool can_hold_laws(const Search& search) {
-  const Case& study = search.study();
-  if (!search.remains() || study.is_static() || study.axis) return false;
+bool can_hold_laws(const Case& study) {
+  if (study.is_static() || study.axis) return false;
   return std::all_of(study.logs.begin(), study.logs.end(), [](const Log& log) {
     return log.motion.v_B.rows() == log.motion.samples() &&
            log.motion.a_B.rows() == log.motion.samples();
@@ -89,15 +121,13 @@ bool can_hold_laws(const Search& search) {
 }
 
 /// Looked for in block means, then fitted again at the log's rate.
-std::vector<Discovered> laws_in(const Search& search) {
-  const Setting& setting = search.setting();
+std::vector<Discovered> laws_in(const Setting& setting, const JointFit& fit) {
   const Index block = setting.whitener.block();
-  const Case thin = thinned(search.study(), block);
+  const Case thin = thinned(setting.study, block);
   const Whitener coarse = setting.whitener.at_stride(block);
-  const auto laws = discovery::discover(problem_of(setting, search.fit(), thin, coarse));
+  const auto laws = discovery::discover(problem_of(setting, fit, thin, coarse));
   if (laws.empty()) return laws;
-  return discovery::refitted(problem_of(setting, search.fit(), search.study(), setting.whitener),
-                             laws);
+  return discovery::refitted(problem_of(setting, fit, setting.study, setting.whitener), laws);
 }
 
 Member member_of(const law::Law& law, const Json& told) {
@@ -174,9 +204,40 @@ void move_numbers(const std::vector<Member>& members, Json& findings) {
 
 }  // namespace
 
-void add_discovered(const Search& search, const HoldOut& holdout, Diagnosis& diagnosis) {
-  if (!can_hold_laws(search)) return;
-  const auto laws = laws_in(search);
+void prefer_one_law(Search& search) {
+  const Setting& setting = search.setting();
+  if (!can_hold_laws(search.study())) return;
+  const JointFit& fit = search.fit();
+  std::map<std::string, std::vector<std::size_t>> along;  // names by axis
+  for (std::size_t m = 0; m < fit.members.size(); ++m) {
+    const Member& member = fit.members[m];
+    if (!member.fixed && !member.interval_s && member.kind->stage == Stage::kForce) {
+      along[member.axis].push_back(m);
+    }
+  }
+  for (const auto& [axis, names] : along) {
+    std::vector<Member> rest = fit.members;
+    int numbers = 0;
+    for (auto m = names.rbegin(); m != names.rend(); ++m) {
+      numbers += rest[*m].parameters();
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(*m));
+    }
+    if (numbers <= kFewestNumbers) continue;
+    const auto laws = laws_in(setting, joint_fit(setting, rest));
+    if (laws.size() != 1 || !laws.front().established) continue;
+    std::vector<Member> other = rest;
+    other.push_back(member_of(laws.front().law, law_json(laws.front())));
+    const auto own = static_cast<int>((laws.front().deviation.array() > 0.0).count());
+    const double better = fit.chi2 - joint_fit(setting, other).chi2 + setting.price * (numbers - own);
+    if (better < discovery::prior::kAccepted) continue;
+    search.leave_out(names);
+    return;
+  }
+}
+
+void add_discovered(Search& search, const HoldOut& holdout, Diagnosis& diagnosis) {
+  if (!search.remains() || !can_hold_laws(search.study())) return;
+  const auto laws = laws_in(search.setting(), search.fit());
   if (laws.empty()) return;
   std::vector<Member> members = search.fit().members;
   double promised = 0.0;
@@ -187,6 +248,11 @@ void add_discovered(const Search& search, const HoldOut& holdout, Diagnosis& dia
   const JointFit fit = joint_fit(search.setting(), members);
   if (search.fit().chi2 - fit.chi2 < kStillGained * promised) return;
   Json& report = diagnosis.report;
+  search.settle(fit.members);
+  report["fit"]["noise_floor"] = Json::array();
+  for (const Floor& floor : search.floors()) {
+    report["fit"]["noise_floor"].push_back(floor.deviation());
+  }
   move_numbers(fit.members, report["findings"]);
   const std::size_t named = fit.members.size() - laws.size();
   const auto error = holdout.rmse(fit.members, fit.base);

@@ -40,8 +40,8 @@ class Search {
   /// For each member, other effects that the recordings cannot exclude in its place.
   std::vector<std::vector<std::string>> alternatives() const;
 
-  /// Takes back a member that other data refute, and judges what is left.
-  void leave_out(std::size_t member);
+  /// Takes back members that other data or another law refute, and judges what is left.
+  void leave_out(const std::vector<std::size_t>& members);
   /// Whitens again for what these members leave, and fits them.
   void settle(const std::vector<Member>& members);
   std::vector<Member> members_without(std::size_t member) const;

@@ -67,8 +67,14 @@ void Search::judge_rest() {
   remains_ = posterior_.named_and_unknown + posterior_.unknown > 0.5;
 }
 
-void Search::leave_out(std::size_t member) {
-  settle(members_without(member));
+void Search::leave_out(const std::vector<std::size_t>& members) {
+  std::vector<Member> rest;
+  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+    if (std::find(members.begin(), members.end(), m) == members.end()) {
+      rest.push_back(fit_.members[m]);
+    }
+  }
+  settle(rest);
   weigh_once();
   if (!study_.axis) judge_rest();
 }
