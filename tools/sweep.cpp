@@ -32,7 +32,7 @@ Shard parse_shard(const std::string& text) {
   return shard;
 }
 
-Exit run(const CellRun& request, const Tool& tool) {
+Exit run(const CellRun& request, bool failures_allowed, const Tool& tool) {
   catch_interrupts();
   Progress bar(tool.common().quiet);
   CellRunObserver observer;
@@ -51,7 +51,7 @@ Exit run(const CellRun& request, const Tool& tool) {
               ", the same command goes on");
     return Exit::kInterrupted;
   }
-  return outcome.failed == 0 ? Exit::kDone : Exit::kFailure;
+  return outcome.failed == 0 || failures_allowed ? Exit::kDone : Exit::kFailure;
 }
 
 void print_status(const Json& status) {
@@ -71,19 +71,24 @@ void print_status(const Json& status) {
   }
 }
 
-/// Table and files of all cells; failure where one is missing, or failed and `failures` are none.
-Exit merge(const fs::path& folder, const fs::path& table, const fs::path& files, bool partial,
-           bool force) {
-  const MergedCells merged = merge_cells(folder);
+struct MergeRequest {
+  fs::path folder, table, files;
+  bool partial = false, failures_allowed = false, force = false;
+};
+
+/// Table and files of all cells; says which are missing or failed.
+Exit merge(const MergeRequest& request) {
+  const MergedCells merged = merge_cells(request.folder);
+  const auto& missing = merged.missing;
   for (const std::string& line : merged.warnings) std::cerr << line << "\n";
   for (const std::string& line : merged.failed) std::cerr << "failed: " << line << "\n";
-  require(partial || merged.missing.empty(), Exit::kFailure, folder.string(), ": ",
-          merged.missing.size(), " cells have not run, ",
-          merged.missing.empty() ? "" : merged.missing[0],
+  require(request.partial || missing.empty(), Exit::kFailure, request.folder.string(), ": ",
+          missing.size(), " cells have no result, ", missing.empty() ? "" : missing[0],
           " among them; run them, or merge what there is with --partial");
-  if (!table.empty()) write_file(table, merged.table);
-  if (!files.empty()) unpack_cells(folder, files, force);
-  return merged.failed.empty() && merged.missing.empty() ? Exit::kDone : Exit::kFailure;
+  if (!request.table.empty()) write_file(request.table, merged.table);
+  if (!request.files.empty()) unpack_cells(request.folder, request.files, request.force);
+  const bool whole = merged.failed.empty() || request.failures_allowed;
+  return whole && missing.empty() ? Exit::kDone : Exit::kFailure;
 }
 
 }  // namespace
@@ -94,11 +99,12 @@ int main(int argc, char** argv) {
       "Cuts long work into cells, runs them here or writes what Slurm or GNU parallel run, and "
       "merges their results to the same bytes whoever ran them.",
       kExamples);
-  fs::path description, folder, table, files;
+  fs::path description, folder;
+  MergeRequest merging;
   EngineRequest engine;
   CellRun work;
   std::string shard, emit;
-  bool status = false, partial = false;
+  bool status = false;
   tool.option("description", description,
               "settings, seeds, recordings, models and the commands (JSON)");
   tool.option("--plan", folder, "folder of the plan and its results").required().called("DIR");
@@ -107,11 +113,13 @@ int main(int argc, char** argv) {
   tool.option("--limit", work.limit, "run this many cells and no more").positive();
   tool.flag("--again", work.again, "run cells that failed again");
   tool.flag("--status", status, "what is done, running, failed, and the time left");
-  tool.output("--merge", table,
+  tool.output("--merge", merging.table,
               "the table of all results, one line of JSON each, in the order of keys")
       .replaces(is_merged_table);
-  tool.option("--unpack", files, "write every cell's files to DIR/NAME").called("DIR");
-  tool.flag("--partial", partial, "merge though cells are missing");
+  tool.option("--unpack", merging.files, "write every cell's files to DIR/NAME").called("DIR");
+  tool.flag("--partial", merging.partial, "merge though cells are missing");
+  tool.flag("--allow-failures", merging.failures_allowed,
+            "cells that failed are results: no exit code for them");
   tool.option("--emit", emit, "print what the engine runs").one_of({"slurm", "parallel"});
   tool.option("--hosts", engine.hosts, "ssh hosts for --emit parallel, to which files are copied")
       .separated_by_commas();
@@ -130,25 +138,24 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     engine.program = fs::canonical("/proc/self/exe");
     work.programs = engine.program.parent_path();
-    work.folder = engine.folder = folder;
+    work.folder = engine.folder = merging.folder = folder;
+    merging.force = tool.common().force;
     if (!description.empty()) {
       const fs::path root = work.root.empty() ? fs::current_path() : work.root;
-      const CellPlan plan = make_plan(read_json(description, Exit::kUsage), description.string(), root,
-                                  work.programs);
+      const CellPlan plan = make_plan(read_json(description, Exit::kUsage), description.string(),
+                                      root, work.programs);
       write_plan(plan, folder, tool.common().force);
       tool.note(std::to_string(plan.cells.size()) + " cells in " + folder.string());
     }
     Exit exit = Exit::kDone;
     if (jobs.given() || share.given()) {
       if (share.given()) work.shard = parse_shard(shard);
-      exit = run(work, tool);
+      exit = run(work, merging.failures_allowed, tool);
     }
     if (exit == Exit::kInterrupted) return exit;
     if (!emit.empty())
       std::cout << (emit == "slurm" ? slurm_script(engine) : parallel_script(engine));
-    if (!table.empty() || !files.empty()) {
-      exit = merge(folder, table, files, partial, tool.common().force);
-    }
+    if (!merging.table.empty() || !merging.files.empty()) exit = merge(merging);
     if (status) {
       const Json json = cells_status(folder);
       tool.common().json ? Tool::print(json) : print_status(json);
