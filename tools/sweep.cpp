@@ -136,6 +136,10 @@ int main(int argc, char** argv) {
       .with_default();
 
   return tool.run(argc, argv, [&] {
+    const bool runs = jobs.given() || share.given();
+    require(runs || status || !description.empty() || !emit.empty() || !merging.table.empty() ||
+                !merging.files.empty(),
+            Exit::kUsage, "give a description, --jobs, --shard, --status, --emit, --merge or --unpack");
     engine.program = fs::canonical("/proc/self/exe");
     work.programs = engine.program.parent_path();
     work.folder = engine.folder = merging.folder = folder;
@@ -148,7 +152,7 @@ int main(int argc, char** argv) {
       tool.note(std::to_string(plan.cells.size()) + " cells in " + folder.string());
     }
     Exit exit = Exit::kDone;
-    if (jobs.given() || share.given()) {
+    if (runs) {
       if (share.given()) work.shard = parse_shard(shard);
       exit = run(work, merging.failures_allowed, tool);
     }
