@@ -26,6 +26,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"diagnosis", {"core", "data", "physics", "discovery"}},
     {"conceal", {"core", "data"}},  // shares no physics with what it examines
     {"rivals", {"core", "data", "physics"}},
+    {"cells", {"core"}},  // commands and files, whatever they are about
     {"import", {"core", "data"}},  // makes recordings, knows nothing of what is done with them
     {"runtime", {"core", "nn", "data", "physics", "models", "calibration"}},
     {"experiment",
@@ -34,7 +35,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"check", {"core", "data", "physics"}},  // the nominal tool of sim.json
     {"tools",
      {"core", "nn", "data", "physics", "models", "diagnosis", "conceal", "rivals", "runtime",
-      "experiment", "calibration", "teleop", "check", "identification", "import"}}};
+      "experiment", "calibration", "teleop", "check", "identification", "import", "cells"}}};
 
 /// The includes in `text` that a file of `room` may not have.
 std::vector<std::string> wrong_includes(const std::string& room, const std::string& text) {

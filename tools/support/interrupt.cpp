@@ -23,6 +23,7 @@ void catch_interrupts() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGUSR1, &action, nullptr);  // schedulers announce the end of a task's time by it
 }
 
 bool interrupted() { return caught.load() != 0; }
