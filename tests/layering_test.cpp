@@ -24,6 +24,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"teleop", {"core", "data", "physics", "models", "calibration", "runtime"}},
     {"discovery", {"core", "data", "physics"}},  // laws for a residual, whoever left it
     {"diagnosis", {"core", "data", "physics", "discovery"}},
+    {"design", {"core", "data", "physics", "identification", "diagnosis"}},  // motions for what a report leaves open
     {"conceal", {"core", "data"}},  // shares no physics with what it examines
     {"rivals", {"core", "data", "physics"}},
     {"import", {"core", "data"}},  // makes recordings, knows nothing of what is done with them
@@ -34,7 +35,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"check", {"core", "data", "physics"}},  // the nominal tool of sim.json
     {"tools",
      {"core", "nn", "data", "physics", "models", "diagnosis", "conceal", "rivals", "runtime",
-      "experiment", "calibration", "teleop", "check", "identification", "import"}}};
+      "experiment", "calibration", "teleop", "check", "identification", "import", "design"}}};
 
 /// The includes in `text` that a file of `room` may not have.
 std::vector<std::string> wrong_includes(const std::string& room, const std::string& text) {
