@@ -24,6 +24,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"teleop", {"core", "data", "physics", "models", "calibration", "runtime"}},
     {"discovery", {"core", "data", "physics"}},  // laws for a residual, whoever left it
     {"diagnosis", {"core", "data", "physics", "discovery"}},
+    {"design", {"core", "data", "physics", "identification", "diagnosis"}},  // motions for what a report leaves open
     {"conceal", {"core", "data"}},  // shares no physics with what it examines
     {"rivals", {"core", "data", "physics"}},
     {"cells", {"core"}},  // commands and files, whatever they are about
@@ -35,7 +36,8 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"check", {"core", "data", "physics"}},  // the nominal tool of sim.json
     {"tools",
      {"core", "nn", "data", "physics", "models", "diagnosis", "conceal", "rivals", "runtime",
-      "experiment", "calibration", "teleop", "check", "identification", "import", "cells"}}};
+      "experiment", "calibration", "teleop", "check", "identification", "import", "cells",
+       "design"}}};
 
 /// The includes in `text` that a file of `room` may not have.
 std::vector<std::string> wrong_includes(const std::string& room, const std::string& text) {

@@ -1,18 +1,27 @@
 // Other names for the same numbers: what the recordings cannot exclude.
 #include <algorithm>
 
+#include "dcnn/diagnosis/decision.h"
+#include "diagnosis/evidence/structure.h"
 #include "diagnosis/search.h"
 
 namespace dcnn {
 
-std::vector<std::vector<std::string>> Search::alternatives() const {
-  constexpr double kAsLikely = 12.0;    // of chi-square
-  constexpr double kLeastOfMore = 0.5;  // of the price of a number
+std::vector<std::vector<Alternative>> Search::alternatives() const {
   constexpr double kAkaike = 0.2;       // the same for a faint effect (Akaike 1974)
   constexpr double kFaint = 15.0;       // prices
   constexpr double kBend = 0.06;        // of a gain: what another bend of a law is worth
   const double price = setting_->price, loud = rest_loudness();
-  std::vector<std::vector<std::string>> all(fit_.members.size());
+  std::optional<evidence::Grid> grid;  // made where there is an alternative
+  double log_own = 0.0;
+  const auto log_odds_of = [&](const JointFit& other) {
+    if (!grid) {
+      grid.emplace(*setting_);
+      log_own = evidence::log_named_of(*setting_, *grid, fit_);
+    }
+    return evidence::log_named_of(*setting_, *grid, other) - log_own;
+  };
+  std::vector<std::vector<Alternative>> all(fit_.members.size());
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     const Member& own = fit_.members[m];
     if (own.fixed) continue;
@@ -39,9 +48,11 @@ std::vector<std::vector<std::string>> Search::alternatives() const {
         least = std::min(least, kBend * own_gain - near);
       // Nor does noise stand in its place.
       const double noise = least_gain(*setting_, numbers, rest.members.empty()) - near;
-      if (fit_.chi2 - other.chi2 > least && rest.chi2 - other.chi2 > noise &&
-          std::find(all[m].begin(), all[m].end(), trial.member.name()) == all[m].end()) {
-        all[m].push_back(trial.member.name());
+      const bool listed = std::any_of(all[m].begin(), all[m].end(), [&](const Alternative& a) {
+        return a.name == trial.member.name();
+      });
+      if (fit_.chi2 - other.chi2 > least && rest.chi2 - other.chi2 > noise && !listed) {
+        all[m].push_back({trial.member.name(), other.members, log_odds_of(other), other.chi2 - fit_.chi2});
       }
     }
   }

@@ -69,16 +69,6 @@ Json unnamed_part(const Search& search, const std::optional<HoldOut::Excess>& re
   return part;
 }
 
-Json next_motion(const Json& findings) {
-  for (const Json& finding : findings) {
-    if (finding["alternatives"].empty()) continue;
-    const auto one = finding["effect"].get<std::string>();
-    const auto other = finding["alternatives"][0].get<std::string>();
-    return {{"separates", {one, other}}, {"words", separating_motion(one, other)}, {"seconds", 30}};
-  }
-  return nullptr;
-}
-
 std::vector<std::string> names_of(const Case& study) {
   std::vector<std::string> names;
   for (const Log& log : study.logs) names.push_back(log.recording.name);
@@ -128,8 +118,11 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
             {"holdout_recordings", names_of(loaded.holdout)}};
   const std::vector<std::string> without = study.without.names();
   if (!without.empty()) report["without"] = without;
-  report["findings"] = findings_json(search, holdout);
+  const auto alternatives = search.alternatives();
+  report["findings"] = findings_json(search, holdout, alternatives);
   report["refuted"] = refuted_names;
+  report["rivals"] = rivals_json(search, alternatives);
+  report["clock_end_s"] = study.shared_clock && study.has_clock() ? Json(study.end_of_clock) : Json();
   // What a loose load's impacts are is not predicted.
   std::optional<HoldOut::Excess> refuted;
   if (!search.knocking()) refuted = holdout.excess(search);
@@ -157,7 +150,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
     report["fit"]["unfiltered"] = errors_json(search, holdout.unfiltered(), given);
   }
   add_limits(search, holdout, report);
-  report["next_motion"] = next_motion(report["findings"]);
+  report["next_motion"] = nullptr;  // the design's, above this room
   report["smoother_hz"] = study.is_static() ? Json() : Json(study.derivative.cutoff_hz);
   diagnosis.corrected = study.simulator;
   if (!study.is_static()) diagnosis.corrected.derivative = study.derivative;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/elementary.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/confidence.h"
 #include "diagnosis/plain_findings.h"
@@ -29,8 +30,7 @@ class Writer {
  public:
   Writer(const Search& search, const HoldOut& holdout) : search_(search), holdout_(holdout) {}
 
-  Json findings() const {
-    const auto alternatives = search_.alternatives();
+  Json findings(const std::vector<std::vector<Alternative>>& alternatives) const {
     const JointFit& fit = search_.fit();
     const auto numbers = estimates(search_.setting(), fit);
     const bool held = !holdout_.empty();
@@ -47,7 +47,8 @@ class Writer {
         entry["confidence"] = confidence(search_, holdout_, m);
         entry["p_value"] = flip_p_value(search_.setting(), fit, m);
       }
-      entry["alternatives"] = alternatives[m];
+      entry["alternatives"] = Json::array();
+      for (const Alternative& other : alternatives[m]) entry["alternatives"].push_back(other.name);
       entry["holdout_gain"] = nullptr;
       if (held) {
         entry["holdout_gain"] =
@@ -150,8 +151,39 @@ class Writer {
 
 }  // namespace
 
-Json findings_json(const Search& search, const HoldOut& holdout) {
-  return Writer(search, holdout).findings();
+Json findings_json(const Search& search, const HoldOut& holdout,
+                   const std::vector<std::vector<Alternative>>& alternatives) {
+  return Writer(search, holdout).findings(alternatives);
+}
+
+Json rivals_json(const Search& search, const std::vector<std::vector<Alternative>>& alternatives) {
+  const auto numbers = [](const std::vector<Member>& members) {
+    int sum = 0;
+    for (const Member& m : members) sum += m.parameters();
+    return sum;
+  };
+  const std::vector<Member>& chosen = search.fit().members;
+  Json list = Json::array();
+  const auto add = [&](const std::vector<Member>& members, double log_odds, double chi2_above) {
+    list.push_back({{"effects", to_json(specs_of(members))},
+                    {"log_odds", log_odds},
+                    {"chi2_above", chi2_above},
+                    {"more_numbers", numbers(members) - numbers(chosen)}});
+  };
+  for (const auto& of_member : alternatives) {
+    for (const Alternative& other : of_member) add(other.members, other.log_odds, other.chi2_above);
+  }
+  const evidence::Posterior& p = search.posterior();
+  if (p.structures.empty()) return list;
+  const auto mass = [&](std::size_t k) { return p.without_unknown[k] + p.with_unknown[k]; };
+  const std::size_t best = p.most_probable();
+  for (std::size_t k = 0; k < p.structures.size(); ++k) {
+    const evidence::Structure& s = p.structures[k];
+    const double odds = mass(k) / mass(best);
+    if (k == best || s.members.size() == chosen.size() || !(odds > elementary::exp(-0.5 * kAsLikely))) continue;
+    add(s.members, elementary::log(odds), s.chi2 - p.structures[best].chi2);
+  }
+  return list;
 }
 
 void add_limits(const Search& search, const HoldOut& holdout, Json& report) {

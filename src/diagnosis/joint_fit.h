@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "dcnn/diagnosis/decision.h"
 #include "diagnosis/whitener.h"
 
 namespace dcnn {
@@ -16,7 +17,7 @@ struct Setting {
   Signals measured;
   Eigen::MatrixXd nuisance;  ///< whitened columns that are always fitted beside the members
   Eigen::VectorXd mask;      ///< 0 for rows that a knock disturbs, else 1
-  double price = 10.0;       ///< of chi-square, per fitted number, that an effect must gain
+  double price = kNumberPrice;       ///< of chi-square, per fitted number, that an effect must gain
 
   Eigen::VectorXd whitened(const Signals& signals) const;
 };

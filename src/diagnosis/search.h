@@ -18,6 +18,14 @@ struct Span {
   double begin, end;  ///< s
 };
 
+/// Another effect in the place of a member.
+struct Alternative {
+  std::string name;
+  std::vector<Member> members;  ///< the whole model with it, fitted
+  double log_odds = 0.0;        ///< ln of its evidence over that of the model that was chosen
+  double chi2_above = 0.0;      ///< its chi-square less that of the chosen
+};
+
 class Search {
  public:
   /// `progress` is told in words what is being done; it may be empty.
@@ -38,7 +46,7 @@ class Search {
   const std::vector<BandTest>& bands() const { return bands_; }
   const evidence::Posterior& posterior() const { return posterior_; }
   /// For each member, other effects that the recordings cannot exclude in its place.
-  std::vector<std::vector<std::string>> alternatives() const;
+  std::vector<std::vector<Alternative>> alternatives() const;
 
   /// Takes back members that other data or another law refute, and judges what is left.
   void leave_out(const std::vector<std::size_t>& members);

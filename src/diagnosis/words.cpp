@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
 
 namespace dcnn {
 namespace {
@@ -115,43 +114,6 @@ std::string in_words(const Member& member, const Estimates& n) {
     return "the reading comes in steps of " + milli(value_of(n, "step_n"), "mN");
   if (id == "hum") return "a hum at " + number("freq_hz") + " Hz";
   return std::string(member.kind->meaning) + where;
-}
-
-std::string separating_motion(const std::string& one, const std::string& other) {
-  static const std::map<std::string, std::string> kMotions{
-      {"mass",
-       "tilt the tool slowly through all directions and lift it quickly: weight and inertia scale "
-       "alike, a gain does not"},
-      {"com", "turn the tool quickly in place, about all three axes"},
-      {"gravity_tilt",
-       "hold still in poses all over the sphere of orientations, above all with the tool sideways"},
-      {"coulomb_friction", "move along the axis at three speeds over a decade, to and fro"},
-      {"viscous_friction", "move along the axis at three speeds over a decade, to and fro"},
-      {"stribeck_friction", "creep along the axis, from 0.5 to 50 mm/s"},
-      {"quadratic_drag", "make fast and slow strokes along the axis"},
-      {"lugre_friction", "reverse many times, with small and large strokes at one speed"},
-      {"load_friction", "move along the axis with the tool in several orientations, or loads"},
-      {"creep", "hold still for a minute after the load has changed"},
-      {"hysteresis", "turn to and fro in place over small and large angles"},
-      {"cable_spring", "turn slowly through the whole range of the angle and stop on the way"},
-      {"cogging", "turn through the whole range of the angle at two speeds"},
-      {"time_delay",
-       "shake the tool with content above 5 Hz: a delay keeps the amplitude, a low-pass does not"},
-      {"lowpass",
-       "shake the tool with content above 5 Hz: a delay keeps the amplitude, a low-pass does not"},
-      {"flexible_resonance", "tap the tool, or sweep from 1 to 20 Hz"},
-      {"bias", "turn the tool by 180 degrees: an offset stays, a weight or a spring turns"},
-      {"thermal_drift", "record three times as long, and again when warm"},
-      {"linear_drift", "record three times as long, and again when warm"},
-      {"hum", "hold still for a while"},
-      {"misalignment", "load one axis of the sensor after the other"},
-      {"crosstalk", "load one axis of the sensor after the other"},
-      {"gain", "hang a known weight on the tool in several orientations"}};
-  for (const auto& id : {one, other}) {
-    const auto found = kMotions.find(id);
-    if (found != kMotions.end()) return found->second;
-  }
-  return "record longer, with a richer motion";
 }
 
 }  // namespace dcnn

@@ -11,9 +11,6 @@ namespace dcnn {
 /// "dry friction of 0.42 N along the tool": what was found, with its leading number.
 std::string in_words(const Member& member, const std::vector<Estimate>& numbers);
 
-/// What the next recording should hold so that two effects can be told apart, in words.
-std::string separating_motion(const std::string& one, const std::string& other);
-
 /// A number with three digits that count.
 std::string brief(double value);
 

@@ -206,30 +206,45 @@ Unknown unknown_beside(const Grid& grid, const std::vector<Member>& members,
   return unknown;
 }
 
-}  // namespace
+/// ln p(recordings, members) and what it leaves as a background of fields.
+struct NamedEvidence {
+  double logarithm = 0.0;
+  Background background;
+};
 
-Structure structure_of(const Setting& setting, const Grid& grid, const JointFit& fit) {
-  Structure structure;
-  structure.members = fit.members;
+NamedEvidence named_evidence(const Setting& setting, const Grid& grid, const JointFit& fit) {
   const Eigen::VectorXd precision = precisions(setting, fit);
   // The residual with what the nuisance columns took off put back.
   const Eigen::VectorXd target =
       fit.residual + fit.tangent.rightCols(fit.nuisance.size()) * fit.nuisance;
-  structure.log_named =
-      log_evidence(linear_model(fit.tangent, target, precision)) - 0.5 * target.squaredNorm();
+  double sum = log_evidence(linear_model(fit.tangent, target, precision)) - 0.5 * target.squaredNorm();
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
-    if (!fit.members[m].fixed) structure.log_named += log_prior(setting, fit, m);
+    if (!fit.members[m].fixed) sum += log_prior(setting, fit, m);
   }
-  const Eigen::MatrixXd X = grid.pooled(fit.tangent), errors = model_errors(grid, fit.members);
-  const Eigen::VectorXd y = grid.pooled(target);
-  Background background(X, precision, y);
+  const Eigen::MatrixXd errors = model_errors(grid, fit.members);
+  Background background(grid.pooled(fit.tangent), precision, grid.pooled(target));
   if (errors.cols() > 0) {
     const double before = log_evidence(background.linear());
     background.extend(errors);
-    structure.log_named += std::max(0.0, log_evidence(background.linear()) - before);
+    sum += std::max(0.0, log_evidence(background.linear()) - before);
   }
+  return {sum, std::move(background)};
+}
+
+}  // namespace
+
+double log_named_of(const Setting& setting, const Grid& grid, const JointFit& fit) {
+  return named_evidence(setting, grid, fit).logarithm;
+}
+
+Structure structure_of(const Setting& setting, const Grid& grid, const JointFit& fit) {
+  NamedEvidence named = named_evidence(setting, grid, fit);
+  Structure structure;
+  structure.members = fit.members;
+  structure.chi2 = fit.chi2;
+  structure.log_named = named.logarithm;
   structure.noise = slow_noise(grid, grid.pooled(fit.residual));
-  structure.unknown = unknown_beside(grid, fit.members, std::move(background));
+  structure.unknown = unknown_beside(grid, fit.members, std::move(named.background));
   return structure;
 }
 

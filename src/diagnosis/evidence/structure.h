@@ -19,6 +19,7 @@ struct Unknown {
 
 struct Structure {
   std::vector<Member> members;
+  double chi2 = 0.0;
   double log_named = 0.0;  ///< ln p(recordings, members), up to a constant of the setting
   SlowNoise noise;         ///< beside them
   Unknown unknown;
@@ -28,5 +29,7 @@ struct Structure {
 /// whose direction is uniform, shapes uniform on the scale they are searched on (their bounds),
 /// ends of an interval uniform over the recordings, and the priors of priors.h for each name.
 Structure structure_of(const Setting& setting, const Grid& grid, const JointFit& fit);
+/// Structure::log_named alone: without an unknown, in a hundredth of the time.
+double log_named_of(const Setting& setting, const Grid& grid, const JointFit& fit);
 
 }  // namespace dcnn::evidence

@@ -1,0 +1,131 @@
+#include "design/words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+namespace dcnn::design {
+namespace {
+
+std::string three_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.0f %%", 100.0 * share);
+  return text;
+}
+
+/// Changes of direction of a coordinate that has moved by more than a hundredth of its range since the last.
+int reversals(const Eigen::VectorXd& x) {
+  constexpr double kPart = 0.01;
+  const double least = kPart * (x.maxCoeff() - x.minCoeff());
+  double low = x(0), high = x(0);
+  int direction = 0, count = 0;
+  for (const double now : x) {
+    low = std::min(low, now);
+    high = std::max(high, now);
+    const int turned = now > low + least && direction <= 0 ? 1 : now < high - least && direction >= 0 ? -1 : 0;
+    if (turned == 0) continue;
+    if (direction != 0) ++count;
+    direction = turned;
+    low = high = now;
+  }
+  return count;
+}
+
+/// "x over 0.2 m at up to 0.25 m/s with 24 reversals", the most moved first.
+std::vector<std::string> coordinate_words(const Played& played) {
+  const char* const names[] = {"x", "y", "z", "alpha", "beta", "gamma"};
+  std::vector<std::pair<double, std::string>> list;
+  const double dt = played.motion.dt;
+  double largest[2] = {0.0, 0.0};
+  for (Index k = 0; k < 6; ++k) {
+    const double range = played.pose.col(k).maxCoeff() - played.pose.col(k).minCoeff();
+    largest[k / 3] = std::max(largest[k / 3], range);
+  }
+  for (Index k = 0; k < 6; ++k) {
+    constexpr double kHardly = 0.05;  // of the most moved of the three
+    const Eigen::VectorXd x = played.pose.col(k);
+    const double range = x.maxCoeff() - x.minCoeff();
+    if (!(range > kHardly * largest[k / 3]) || range < 1e-6) continue;
+    const double speed = (x.tail(x.size() - 1) - x.head(x.size() - 1)).cwiseAbs().maxCoeff() / dt;
+    const std::string unit = k < 3 ? "m" : "rad";
+    std::ostringstream words;
+    words << names[k] << " over " << three_digits(range) << " " << unit << " at up to " << three_digits(speed) << " "
+          << unit << "/s with " << reversals(x) << " reversals";
+    list.emplace_back(-range / largest[k / 3], words.str());
+  }
+  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> words;
+  for (const auto& entry : list) words.push_back(entry.second);
+  return words;
+}
+
+}  // namespace
+
+std::string limit_words(const Usage& usage) { return usage.limit + " " + percent(usage.share); }
+
+std::string motion_words(const Played& played, const Question& question, const Design& design) {
+  std::ostringstream out;
+  out << "move ";
+  const auto parts = coordinate_words(played);
+  for (std::size_t k = 0; k < parts.size(); ++k) out << (k > 0 ? ", " : "") << parts[k];
+  if (parts.empty()) out << "nothing: the limits leave no room";
+  if (!design.verdicts.empty()) {
+    const Verdict& first = design.verdicts.front();
+    out << "; if " << first.one << " is right, " << first.other << " is then " << three_digits(first.separation)
+        << " deviations of the noise away";
+    if (design.probability) out << ", and with probability " << three_digits(*design.probability) << " one model is left";
+  }
+  if (question.unknown > 0.5) out << "; what no name describes is seen in all directions and speeds of these limits";
+  return out.str();
+}
+
+Json next_motion(const Design& design, double seconds) {
+  constexpr double kDecided = 0.95;  // of the mass on one structure
+  if (design.verdicts.empty() && design.unknown < 1.0 - kDecided) return nullptr;
+  Json separates = Json::array();
+  if (design.verdicts.empty()) {
+    separates = {"nothing", "unknown"};
+  } else {
+    separates = {design.verdicts[0].one, design.verdicts[0].other};
+  }
+  return {{"separates", separates},
+          {"words", design.words},
+          {"seconds", seconds},
+          {"probability", design.probability ? Json(*design.probability) : Json()}};
+}
+
+Json to_json(const Design& design, double seconds) {
+  Json pairs = Json::array();
+  for (const Verdict& v : design.verdicts) {
+    pairs.push_back({{"right", v.one}, {"rival", v.other}, {"separation", v.separation}, {"probability", v.probability}});
+  }
+  return {{"next_motion", next_motion(design, seconds)},
+          {"pairs", pairs},
+          {"unknown", {{"probability", design.unknown}, {"nats_per_state", design.information}}},
+          {"limits", design.limits},
+          {"greatest_use", design.greatest_use}};
+}
+
+std::string to_text(const Design& design) {
+  std::ostringstream out;
+  for (const Verdict& v : design.verdicts) {
+    out << "if          " << v.one << " is right, not " << v.other << ": " << three_digits(v.separation)
+        << " deviations apart, left alone with probability " << three_digits(v.probability) << "\n";
+  }
+  out << "unknown     probability " << three_digits(design.unknown) << ", " << three_digits(design.information)
+      << " nats for each state that a law may depend on\n";
+  out << "limits      ";
+  for (std::size_t k = 0; k < design.limits.size(); ++k) out << (k > 0 ? ", " : "") << design.limits[k];
+  out << "\nmotion      " << design.words << "\n";
+  if (design.probability) out << "decides     with probability " << three_digits(*design.probability) << "\n";
+  return out.str();
+}
+
+}  // namespace dcnn::design

@@ -1,0 +1,63 @@
+#include <iostream>
+
+#include "dcnn/core/file.h"
+#include "dcnn/design/design.h"
+#include "support/progress.h"
+#include "support/tool.h"
+
+namespace {
+
+using namespace dcnn;
+using design::Design;
+using design::DesignRequest;
+using Path = std::filesystem::path;
+
+constexpr const char* kExamples =
+    "  dcnn-design --report report --limits configs/limits/wrist.json --seconds 30 --out motion.csv\n"
+    "  dcnn-diagnose --sim sim.json --fit first.csv second.csv --out decided   # with what was recorded on it\n";
+
+/// The design beside what the report has.
+void write_next_motion(const Path& folder, Json report, const Json& next, const Path& motion) {
+  if (next.is_null()) return;
+  report["next_motion"] = next;
+  report["next_motion"]["design"] = motion.string();
+  write_file(folder / "report.json", report.dump(2) + "\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Tool tool("dcnn-design",
+            "Designs the motion, within a robot's limits, that best tells apart what a report of "
+            "dcnn-diagnose leaves open, and says what it will decide and with which probability.",
+            kExamples);
+  DesignRequest request;
+  Path report, limits, out;
+  tool.option("--report", report, "folder of dcnn-diagnose").required();
+  tool.option("--limits", limits, "what the robot may do (JSON)").required();
+  tool.option("--seconds", request.seconds, "length of the motion").with_default().positive();
+  tool.option("--evaluations", request.evaluations, "motions that are judged: time against a better one")
+      .with_default()
+      .between(1, 100000);
+  tool.output("--out", out, "motion.csv to write: t, joints where the limits are of joints, pose").required();
+  return tool.run(argc, argv, [&] {
+    const Path file = report / "report.json";
+    request.where = file.string();
+    request.report = read_json(file, Exit::kData);
+    request.model = read_json(report / "model.json", Exit::kData);
+    request.limits = design::read_limits(limits);
+    request.seed = tool.common().seed.value_or(1);
+    Progress bar(tool.common().quiet);
+    const Design made = design::make_design(request, [&](double share) { bar.update(share, "motions"); });
+    bar.clear();
+    write_csv(out, made.motion);
+    const Json next = design::next_motion(made, request.seconds);
+    write_next_motion(report, request.report, next, out);
+    if (tool.common().json) {
+      Tool::print(design::to_json(made, request.seconds));
+    } else {
+      std::cout << design::to_text(made);
+    }
+    return Exit::kDone;
+  });
+}
