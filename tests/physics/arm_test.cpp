@@ -1,4 +1,4 @@
-#include "dcnn/physics/arm.h"
+#include "dcnn/physics/chain.h"
 
 #include <gtest/gtest.h>
 
@@ -12,28 +12,25 @@ namespace {
 constexpr double kL1 = 0.4, kL2 = 0.3, kG = 9.81;  // m, m, m/s²
 
 /// Two links in a vertical plane: the first joint's axis is horizontal.
-Arm planar(bool modified) {
+JointChain planar(bool modified) {
   const Json dh = modified ? Json{{0.0, 0.0, 0.0, 0.0}, {kL1, 0.0, 0.0, 0.0}}
                            : Json{{kL1, 0.0, 0.0, 0.0}, {kL2, 0.0, 0.0, 0.0}};
-  Arm arm = parse_arm({{"convention", modified ? "modified" : "standard"},
-                       {"dh", dh},
-                       {"gravity_mps2", {0.0, -kG, 0.0}}},
-                      "test", Exit::kData);
-  return arm;
+  return parse_chain({{"convention", modified ? "modified" : "standard"},
+                      {"dh", dh},
+                      {"gravity_mps2", {0.0, -kG, 0.0}}},
+                     "test", Exit::kData);
 }
 
 struct Link {
   double m, c, izz;  // kg; m of the centre of mass from the joint; kg·m² about the joint
 };
 
-/// Inertial parameters in the link's frame, whose origin is its joint (modified) or its end.
-Eigen::VectorXd parameters(const Link& link, double length, bool modified) {
-  const double x = modified ? link.c : link.c - length;
-  const double izz = modified ? link.izz : link.izz - link.m * link.c * link.c + link.m * x * x;
+/// Inertial parameters in the link's frame, whose origin is its joint.
+Eigen::VectorXd parameters(const Link& link) {
   Eigen::VectorXd p = Eigen::VectorXd::Zero(10);
   p(0) = link.m;
-  p(1) = link.m * x;
-  p(9) = izz;
+  p(1) = link.m * link.c;
+  p(9) = link.izz;
   return p;
 }
 
@@ -54,12 +51,12 @@ TEST(Arm, IsTheTwoLinkArmOfTheTextbook) {
   const auto draw = [&] { return Eigen::Vector2d(rng.normal(), rng.normal()); };
   for (const bool modified : {true, false}) {
     Eigen::VectorXd p(20);
-    p << parameters(a, kL1, modified), parameters(b, kL2, modified);
+    p << parameters(a), parameters(b);
     for (int trial = 0; trial < 20; ++trial) {
       const Eigen::Vector2d q = draw(), v = draw(), dd = draw(), expected = closed_form(a, b, q, v, dd);
       for (std::size_t joint = 0; joint < 2; ++joint) {
         const Eigen::MatrixXd row =
-            arm_regressor(planar(modified), q.transpose(), v.transpose(), dd.transpose(), joint);
+            chain_regressor(planar(modified), q.transpose(), v.transpose(), dd.transpose(), joint);
         EXPECT_NEAR((row * p)(0), expected(static_cast<Eigen::Index>(joint)), 1e-12);
       }
     }
@@ -69,7 +66,7 @@ TEST(Arm, IsTheTwoLinkArmOfTheTextbook) {
 /// Power of the drives is the change of energy: any arm, both conventions, all parameters.
 TEST(Arm, DrivesOnlyPutInWhatTheEnergyGains) {
   for (const char* convention : {"modified", "standard"}) {
-    const Arm arm = parse_arm({{"convention", convention},
+    const JointChain arm = parse_chain({{"convention", convention},
                                {"dh",
                                 {{0.1, 0.4, 0.3, 0.2}, {0.2, -1.1, 0.15, -0.3}, {0.05, 1.3, 0.1, 1.0}}}},
                               "test", Exit::kData);
@@ -89,7 +86,7 @@ TEST(Arm, DrivesOnlyPutInWhatTheEnergyGains) {
       }
       for (std::size_t j = 0; j < 3; ++j) {
         const double power =
-            (arm_regressor(arm, q, v, a, j) * p)(0) * v(static_cast<Eigen::Index>(j));
+            (chain_regressor(arm, q, v, a, j) * p)(0) * v(static_cast<Eigen::Index>(j));
         work += power;
         size += std::abs(power);
       }
