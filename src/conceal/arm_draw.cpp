@@ -186,10 +186,10 @@ double rms_of(const std::vector<MatrixXd>& torques, Index joint) {
   return std::sqrt(square / rows);
 }
 
-/// White, or correlated over a tenth of a second.
+/// White, or an autoregression of first order as on tools.
 MatrixXd torque_noise(const ArmScenario& s, std::size_t joint, Index rows, Rng& rng) {
   MatrixXd noise = MatrixXd::Zero(rows, 3);
-  const double keep = s.noise == "white" ? 0.0 : elementary::exp(-kPerReading * kStep / 0.1);
+  const double keep = s.noise == "white" ? 0.0 : 0.8;
   double at = rng.normal();
   for (Index i = 0; i < rows; ++i) {
     at = keep * at + std::sqrt(1.0 - keep * keep) * rng.normal();

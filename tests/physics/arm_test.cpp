@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dcnn/core/random.h"
+#include "dcnn/physics/axis_machine.h"
 
 namespace dcnn {
 namespace {
@@ -93,6 +94,45 @@ TEST(Arm, DrivesOnlyPutInWhatTheEnergyGains) {
     }
     EXPECT_LT(std::abs(work), 1e-9 * size) << convention;
   }
+}
+
+/// A payload at the flange is the same as that body in the last link.
+TEST(Arm, APayloadIsPartOfTheLastLink) {
+  Json system{{"kind", "axes"}, {"axes", Json::array()}};
+  for (const char* k : {"1", "2"}) {
+    system["axes"].push_back({{"name", k}, {"measured", std::string("tau") + k}, {"unit", "N*m"},
+                              {"position", std::string("q") + k}, {"velocity", std::string("v") + k},
+                              {"acceleration", std::string("a") + k}});
+  }
+  const Json link{{"mass_kg", 2.0}, {"moment_kgm", {0.2, 0.0, 0.1}}, {"inertia_kgm2", {0.1, 0, 0, 0.2, 0, 0.2}}};
+  Json first{{"rpy_rad", {0.5, 0.0, 0.0}}, {"body", link}}, second{{"xyz_m", {0.4, 0.0, 0.0}}, {"body", link}};
+  system["arm"] = {{"joints", {first, second}}, {"flange", {{"xyz_m", {0.3, 0.1, 0.0}}, {"rpy_rad", {0.1, 0.2, 0.3}}}}};
+
+  AxisMachine machine{parse_system(system, "test"), {}};
+  const JointChain chain = chain_of(machine.system);
+  const Eigen::VectorXd bodies = *chain.bodies();
+  std::vector<Eigen::Index> all;
+  for (Eigen::Index k = 0; k < 20; ++k) all.push_back(k);
+  for (int k = 0; k < 2; ++k) machine.axes.push_back({all, bodies, {}, DerivativeSpec(), 1.0});
+  BodyVector payload;
+  payload << 1.5, 0.03, -0.06, 0.09, 0.02, 0.001, 0.0, 0.03, 0.002, 0.01;
+
+  Rng rng({6u});
+  Table table;
+  table.columns = {"t", "q1", "v1", "a1", "q2", "v2", "a2"};
+  table.values.resize(20, 7);
+  for (double& x : table.values.reshaped()) x = rng.normal();
+  for (Eigen::Index i = 0; i < 20; ++i) table.values(i, 0) = 0.01 * static_cast<double>(i);
+  const Recording recording = make_recording("log.csv", table, ReadOptions(), machine.system);
+
+  machine.payload = payload;
+  AxisMachine lumped = parse_axis_machine(to_json(machine), "model.json", Exit::kData);
+  ASSERT_TRUE(lumped.payload.has_value());
+  const Eigen::MatrixXd with = predict_axes(lumped, recording);
+  lumped.payload.reset();
+  for (CorrectedAxis& axis : lumped.axes) axis.coefficients.tail(10) += flange_to_link(chain) * payload;
+  EXPECT_LT((with - predict_axes(lumped, recording)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_GT(with.cwiseAbs().maxCoeff(), 1.0);
 }
 
 TEST(Arm, FindsTheColumnsThatSpanTheOthers) {
