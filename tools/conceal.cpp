@@ -1,5 +1,6 @@
 #include <iostream>
 
+#include "dcnn/conceal/arm.h"
 #include "dcnn/conceal/challenge.h"
 #include "dcnn/conceal/faulty.h"
 #include "dcnn/conceal/inject.h"
@@ -47,6 +48,21 @@ std::string write_faulty(const std::string& kind, const std::filesystem::path& m
   return conceal::write_seal({{"kind", kind}, {"fault", log.fault}, {"seed", seed}}, out, seal);
 }
 
+/// So many arms, or those of `ids` (with "arm+" before them).
+Exit print_arms(const Tool& tool, int arms, std::vector<std::string> ids, std::uint64_t seed,
+                const std::filesystem::path& out, const std::filesystem::path& seal) {
+  if (ids.empty()) ids = conceal::arm_plan(arms, seed);
+  for (std::string& id : ids) {
+    if (id.starts_with("arm+")) id = id.substr(4);
+  }
+  Progress bar(tool.common().quiet);
+  const std::string digest = conceal::conceal_arms(ids, seed, out, seal, [&](int done, int total) {
+    bar.update(static_cast<double>(done) / total, std::to_string(done) + " arms");
+  });
+  bar.clear();
+  return print(tool, ids.size(), seed, digest, seal);
+}
+
 /// Opens the seal: OUT/scores.json and OUT/report.html.
 Exit judge(const Tool& tool, const std::filesystem::path& out, const std::filesystem::path& seal) {
   const Json scores = conceal::score_challenge(out, seal);
@@ -67,7 +83,7 @@ int main(int argc, char** argv) {
             "nothing of them, and seals the answers: their SHA-256 is printed and stored before "
             "anybody looks. --score opens the seal.",
             kExamples);
-  int scenarios = 0, rounds = 0, laws = 0;
+  int scenarios = 0, rounds = 0, laws = 0, arms = 0;
   bool score = false, list = false;
   std::vector<std::string> ids;
   std::string family = "plain";
@@ -81,6 +97,9 @@ int main(int argc, char** argv) {
           "rounds of a table of rates: of each 75 nulls, every effect alone at 1, 0.3 and 0.1 or "
           "0.05 of the noise, and some of every other group (8: 1,600 scenarios)")
       .excludes(many);
+  const Option whole_arms =
+      tool.option("--arms", arms, "so many arms of 6 or 7 joints: payloads, effects in their joints")
+          .excludes(many);
   tool.option("--laws", laws,
               "so many laws that no catalogue has, in turn, at 1, 3 and 10 times the noise")
       .excludes(many);
@@ -137,6 +156,9 @@ int main(int argc, char** argv) {
               "--inject needs --sim, or --system of another machine");
       injection.read = read.options();
       return print(tool, 1, seed, conceal::inject(injection, seed, out, seal), seal);
+    }
+    if (whole_arms.given() || (!ids.empty() && ids.front().starts_with("arm+"))) {
+      return print_arms(tool, arms, ids, seed, out, seal);
     }
     require(scenarios > 0 || rounds > 0 || laws > 0 || !ids.empty(), Exit::kUsage,
             "give --scenarios, --rates, --laws, --scenario, --inject or --score");

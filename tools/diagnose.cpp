@@ -1,6 +1,7 @@
 #include <iostream>
 
 #include "dcnn/experiment/diagnosis_report.h"
+#include "dcnn/identification/urdf.h"
 #include "support/doctor.h"
 #include "dcnn/experiment/least_sizes.h"
 #include "support/file_kind.h"
@@ -18,6 +19,7 @@ constexpr const char* kExamples =
     "fx_sim,fy_sim,fz_sim\n"
     "  dcnn-diagnose --system arm.json --fit a.csv --holdout b.csv --out report   # another "
     "machine\n"
+    "  dcnn-diagnose --system arm.json --urdf robot.urdf --fit a.csv --out report     # an arm\n"
     "  dcnn-sim --sim report/model.json --motion c.csv --out corrected.csv\n";
 
 /// What the check of the recordings found, before everything else.
@@ -47,9 +49,17 @@ int main(int argc, char** argv) {
   const auto sim =
       tool.option("--sim", request.simulator,
                   "simulator of the tool (JSON); without it the recordings need columns *_sim");
-  tool.option("--system", request.system,
+  const auto system =
+      tool.option("--system", request.system,
               "system description of another machine (JSON, \"kind\": \"axes\"), instead of --sim")
       .excludes(sim);
+  std::filesystem::path urdf;
+  std::string tip;
+  const auto arm = tool.option("--urdf", urdf,
+                               "URDF of the arm whose joints --system lists, instead of a DH table; "
+                               "its inertias are the simulator at hand");
+  arm.needs(system).group("Arms");
+  tool.option("--tip", tip, "last link of the arm in the URDF (else its end)").needs(arm).group("Arms");
   tool.option("--fit", request.fit, "recordings to learn from").required();
   tool.option("--holdout", request.holdout,
               "recordings to judge by (default: every fifth block of 5 s of the others)");
@@ -74,6 +84,7 @@ int main(int argc, char** argv) {
   });
   return tool.run(argc, argv, [&] {
     request.read = read.options();
+    if (!urdf.empty()) request.arm = to_json(read_urdf_chain(urdf, tip));
     const std::vector<std::string> check = checked(tool, doctor, request);
     request.without = ablation_of(without);
     if (clock != "auto") request.shared_clock = clock == "shared";

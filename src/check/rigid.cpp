@@ -4,6 +4,7 @@
 #include "check/reading.h"
 #include "check/statistics.h"
 #include "core/elementary.h"
+#include "dcnn/data/rotation.h"
 
 namespace dcnn::check {
 namespace {
@@ -14,12 +15,6 @@ constexpr Index kStretches = 8;
 constexpr Index kFewestRows = 12;  // of a stretch
 constexpr double kChiSquareMedian = 2.366;  // of three degrees of freedom
 constexpr double kOwnScale = 3.0;  // Cauchy's weights halve at so many deviations
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d S;
-  S << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0;
-  return S;
-}
 
 constexpr double kFrictionSpeed = 0.02;     // m/s, over which dry friction changes its sign
 

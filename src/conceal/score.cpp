@@ -13,17 +13,20 @@ bool holds(const Json& list, const std::string& id) {
   return std::find(list.begin(), list.end(), id) != list.end();
 }
 
-/// For every hidden effect the finding that names it, or has it among the alternatives where no
+/// For every hidden effect the finding that names it (on its axis before others), or has it among the alternatives where no
 /// finding names it; each finding serves once.
 std::vector<const Json*> matched(const Json& hidden, const Json& findings) {
   std::vector<const Json*> match(hidden.size(), nullptr);
   std::vector<bool> used(findings.size(), false);
-  for (const bool by_name : {true, false}) {
+  enum class By { kNameAndAxis, kName, kAlternative };
+  for (const By by : {By::kNameAndAxis, By::kName, By::kAlternative}) {
     for (std::size_t h = 0; h < hidden.size(); ++h) {
       const std::string id = hidden[h]["effect"];
       for (std::size_t k = 0; k < findings.size() && match[h] == nullptr; ++k) {
         const Json& f = findings[k];
-        if (used[k] || !(by_name ? f["effect"] == id : holds(f["alternatives"], id))) continue;
+        const bool fits = by == By::kAlternative ? holds(f["alternatives"], id) : f["effect"] == id;
+        const bool there = by != By::kNameAndAxis || f["axis"] == hidden[h]["axis"];
+        if (used[k] || !fits || !there) continue;
         match[h] = &f;
         used[k] = true;
       }

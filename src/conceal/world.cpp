@@ -89,6 +89,7 @@ Eigen::MatrixXd force(const Path& path, const Tool& nominal, const std::vector<H
   const Eigen::MatrixXd field = felt_field(path, gravity);
   Eigen::MatrixXd F(path.samples(), 3);
   for (Index i = 0; i < F.rows(); ++i) F.row(i) = rigid(path, i, tool, gravity);
+  if (path.rigid.rows() > 0) F += path.rigid;
   const Eigen::MatrixXd carried = path.load.rows() > 0 ? path.load : F;
   for (const Hidden& h : hidden) add_force(path, h, field, carried, F);
   for (int s = 0; s <= 6; ++s) {

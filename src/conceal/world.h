@@ -24,6 +24,7 @@ struct Path {
   Eigen::MatrixXd velocity, acceleration;  // (T, 3), base
   Eigen::MatrixXd rate, rate_derivative;   // (T, 3), sensor
   Eigen::MatrixXd load;  // (T, 3) N, what an axis of a machine transmits; no rows: a tool
+  Eigen::MatrixXd rigid;  // (T, 3) N, reaction of an arm's rigid body; no rows: the tool's alone
   Eigen::Index samples() const { return pose.rows(); }
   double time(Eigen::Index i) const { return start + kStep * static_cast<double>(i); }
 };

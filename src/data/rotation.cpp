@@ -36,6 +36,19 @@ Eigen::Matrix3d rotation_from_quaternion(const Eigen::Vector4d& q) {
   return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
 }
 
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d S;
+  S << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return S;
+}
+
+Eigen::Matrix3d rotation_about(const Eigen::Vector3d& axis, double angle) {
+  const Eigen::Matrix3d S = cross_matrix(axis);
+  // 1 - cos(angle) without cancellation.
+  const double half = elementary::sin(0.5 * angle);
+  return Eigen::Matrix3d::Identity() + elementary::sin(angle) * S + 2.0 * half * half * (S * S);
+}
+
 double nearest_turn(double angle, double near) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   return angle - kTurn * std::round((angle - near) / kTurn);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dcnn/physics/axis_machine.h"
+#include "diagnosis/arm_words.h"
 #include "diagnosis/axis_words.h"
 
 namespace dcnn {
@@ -170,24 +171,42 @@ void join(std::vector<HeldOut>& records, const std::vector<HeldOut>& more) {
   }
 }
 
+/// A finding of the whole machine, before those of its axes.
+void add_first(const Json& finding, Json& report) {
+  Json findings = Json::array();
+  findings.push_back(finding);
+  append(findings, report["findings"]);
+  report["findings"] = findings;
+  const bool remains =
+      report["verdict"] == "unexplained" || report["verdict"] == "partly-explained";
+  report["verdict"] = remains ? "partly-explained" : "explained";
+}
+
 }  // namespace
 
 Diagnosis diagnose_axes(const DiagnosisRequest& request,
                         const std::function<void(const std::string&)>& progress) {
-  auto cases = load_axes(request);
+  auto [cases, finding] = load_axes(request);
   const System system = cases.front().fit.axis->system;
   AxisMachine machine{system, {}};
+  machine.payload = cases.front().fit.axis->payload;
   std::vector<Json> reports;
+  double uncorrected = 0.0, corrected = 0.0;
   Diagnosis all;
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const auto plan = cases[k].fit.axis;
-    auto [diagnosis, base] = diagnose_case(std::move(cases[k]), [&](const std::string& text) {
+    auto [diagnosis, base, given] = diagnose_case(std::move(cases[k]), [&](const std::string& text) {
       if (progress) progress(plan->axis().name + ": " + text);
     });
     machine.axes.push_back({plan->columns, base, diagnosis.corrected.effects,
                             *diagnosis.corrected.derivative, plan->sense});
     translate(diagnosis, *plan);
     reports.push_back(diagnosis.report);
+    for (const double error : given) uncorrected += error;
+    const Json& after = diagnosis.report["fit"]["holdout_rmse_after"];
+    for (const Json& error : after.is_null() ? Json::array() : after) {
+      corrected += error.get<double>();
+    }
     if (k == 0) {
       all.holdout = std::move(diagnosis.holdout);
     } else {
@@ -196,6 +215,12 @@ Diagnosis diagnose_axes(const DiagnosisRequest& request,
     for (Portrait& p : diagnosis.portraits) all.portraits.push_back(std::move(p));
   }
   all.report = merged(reports, system);
+  all.report["joints"] = joints_json(reports, system);
+  if (!finding.is_null()) {
+    if (uncorrected > 0.0) finding["holdout_gain"] = 1.0 - corrected / uncorrected;
+    add_first(finding, all.report);
+  }
+  if (!system.arm.is_null()) all.report["arm"] = arm_json(all.report, system);
   all.model = to_json(machine);
   return all;
 }

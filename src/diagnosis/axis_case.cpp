@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "dcnn/data/filter.h"
-#include "dcnn/physics/arm.h"
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/median.h"
 #include "diagnosis/periodograms.h"
@@ -35,6 +34,13 @@ Log make_log(const Recording& recording, const Case& study) {
     log.unfiltered = sign * measured(recording, target, system, false);
   }
   return log;
+}
+
+/// The description, with the arm that was given beside it.
+System system_of(const DiagnosisRequest& request) {
+  Json json = read_json(*request.system, Exit::kData);
+  if (!request.arm.is_null() && json.is_object()) json["arm"] = request.arm;
+  return parse_system(json, request.system->string());
 }
 
 /// The columns of the base simulator that the fitted recordings tell apart.
@@ -136,11 +142,16 @@ void set_axis_motion(Case& study) {
     if (plan.base_is_known) {
       log.base.force.col(0) =
           -plan.sense * (columns(Eigen::all, plan.columns) * study.base_coefficients);
-      continue;
     }
-    for (const Index k : plan.columns) log.regressors.emplace_back(-plan.sense * columns.col(k));
+    for (const Index k : plan.columns) {
+      if (!plan.base_is_known) log.regressors.emplace_back(-plan.sense * columns.col(k));
+    }
     const std::string& simulated = plan.axis().simulated;
     if (!simulated.empty()) log.base.force.col(0) = -plan.sense * log.recording.column(simulated);
+    if (!plan.payload) continue;
+    // A reaction to the drive, whose torque is the columns'.
+    log.base.force.col(0) -=
+        payload_columns(log.recording, plan.system, plan.index, study.derivative) * *plan.payload;
   }
   if (!plan.columns.empty()) set_base(study, study.base_coefficients);
 }
@@ -164,8 +175,18 @@ Signals unfiltered_left(const Case& study, const std::vector<Member>& members) {
   return left;
 }
 
-std::vector<LoadedCase> load_axes(const DiagnosisRequest& request) {
-  const System system = read_system(*request.system);
+Case as_given(Case study) {
+  AxisPlan plan = *study.axis;
+  if (!plan.payload && plan.given.size() == 0) return study;
+  plan.payload.reset();
+  if (plan.given.size() > 0) study.base_coefficients = plan.sense * plan.given;
+  study.axis = std::make_shared<const AxisPlan>(std::move(plan));
+  set_axis_motion(study);
+  return study;
+}
+
+LoadedAxes load_axes(const DiagnosisRequest& request) {
+  const System system = system_of(request);
   require(system.kind == System::Kind::kAxes, Exit::kData, request.system->string(),
           ": describes a wrist tool; give --sim instead, or \"kind\": \"axes\"");
   const auto fit = read_all(request.fit, request.read, system);
@@ -175,7 +196,9 @@ std::vector<LoadedCase> load_axes(const DiagnosisRequest& request) {
   check_rates(all);
   std::vector<LoadedCase> cases;
   for (std::size_t k = 0; k < system.axes.size(); ++k) {
-    AxisPlan plan{system, k, {}, 1.0};
+    AxisPlan plan;
+    plan.system = system;
+    plan.index = k;
     const Case draft = axis_case(std::make_shared<const AxisPlan>(plan));
     plan.columns = used_columns(fit, system, k, draft.derivative);
     plan.sense = sense_of(fit, system, system.axes[k], draft.derivative);
@@ -193,8 +216,8 @@ std::vector<LoadedCase> load_axes(const DiagnosisRequest& request) {
     set_axis_motion(loaded.holdout);
     cases.push_back(std::move(loaded));
   }
-  share_base(cases);
-  return cases;
+  Json finding = share_base(cases);
+  return {std::move(cases), std::move(finding)};
 }
 
 }  // namespace dcnn

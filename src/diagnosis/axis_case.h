@@ -6,8 +6,16 @@
 
 namespace dcnn {
 
-/// One case per axis of the system description. Error(kData) for what cannot be used.
-std::vector<LoadedCase> load_axes(const DiagnosisRequest& request);
+/// One case per axis of the system description, and what concerns all of them.
+struct LoadedAxes {
+  std::vector<LoadedCase> cases;
+  Json finding;  ///< of a whole arm; null: none
+};
+/// Error(kData) for what cannot be used.
+LoadedAxes load_axes(const DiagnosisRequest& request);
+
+/// The case with the simulator that was given, without what was found for the whole arm.
+Case as_given(Case study);
 
 /// Motion and base simulator of all logs by the case's estimator.
 void set_axis_motion(Case& study);

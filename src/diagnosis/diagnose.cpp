@@ -6,6 +6,7 @@
 #include "core/elementary.h"
 #include "dcnn/core/blocking.h"
 #include "diagnosis/axes.h"
+#include "diagnosis/axis_case.h"
 #include "diagnosis/budget.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/confidence.h"
@@ -75,15 +76,16 @@ std::vector<std::string> names_of(const Case& study) {
   return names;
 }
 
-/// RMSE on what was held out, before, with own numbers refitted, and after.
-Json errors_json(const Search& search, const HoldOut& holdout, const JointFit& given) {
+/// RMSE on what was held out, before (of the simulator as it was given), with own numbers refitted, and after.
+Json errors_json(const Search& search, const HoldOut& simulator, const HoldOut& holdout,
+                 const JointFit& given) {
   const Case& study = search.study();
   const JointFit& fit = search.fit();
   Json json{{"holdout_rmse_before", nullptr},
             {"holdout_rmse_parameters", nullptr},
             {"holdout_rmse_after", nullptr}};
   if (holdout.empty()) return json;
-  json["holdout_rmse_before"] = holdout.rmse({}, given.base);
+  json["holdout_rmse_before"] = simulator.rmse({}, given.base);
   json["holdout_rmse_after"] = holdout.rmse(fit.members, fit.base);
   if (study.own_tool || study.axis) {
     const auto own =
@@ -128,9 +130,10 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   if (!search.knocking()) refuted = holdout.excess(search);
   report["verdict"] =
       verdict_of(!report["findings"].empty(), search.remains() || refuted.has_value());
-  Case as_given = study;
-  if (given.base.size() > 0) set_base(as_given, given.base);
-  const Signals before = difference(study, predict(as_given, {}));
+  Case simulator = study.axis ? as_given(study) : study;
+  if (given.base.size() > 0) set_base(simulator, given.base);
+  const Signals before = difference(study, predict(simulator, {}));
+  const HoldOut first(simulator, study.axis ? as_given(loaded.holdout) : loaded.holdout);
   report["where"] = locate(study, before, search.floors());
   report["where"]["budget"] =
       budget(search.setting(), before, own_parameters(study), report["where"]["segments"]);
@@ -142,12 +145,12 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   }
   report["posterior"] = evidence::posterior_json(search.posterior());
   report["structures"] = evidence::structures_json(search.posterior());
-  report["fit"] = errors_json(search, holdout, given);
+  report["fit"] = errors_json(search, first, holdout, given);
   report["fit"]["noise_floor"] = floors;
   report["fit"]["noise_floor_source"] = sources;
   report["fit"]["oracle"] = nullptr;
   if (study.lowpass_hz > 0.0) {
-    report["fit"]["unfiltered"] = errors_json(search, holdout.unfiltered(), given);
+    report["fit"]["unfiltered"] = errors_json(search, first.unfiltered(), holdout.unfiltered(), given);
   }
   add_limits(search, holdout, report);
   report["next_motion"] = nullptr;  // the design's, above this room
@@ -157,9 +160,16 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   for (const auto& effect : specs_of(fit.members)) diagnosis.corrected.effects.push_back(effect);
   diagnosis.model = to_json(diagnosis.corrected);
   diagnosis.holdout = holdout.records(given, fit);
+  const std::vector<HeldOut> given_records = first.records(given, given);
+  for (std::size_t k = 0; k < given_records.size(); ++k) {
+    diagnosis.holdout[k].before = given_records[k].before;
+  }
   diagnosis.portraits = portraits(search);
   add_discovered(search, holdout, diagnosis);
-  return {std::move(diagnosis), fit.base.size() > 0 ? fit.base : study.base_coefficients};
+  CaseDiagnosis result{std::move(diagnosis),
+                       fit.base.size() > 0 ? fit.base : study.base_coefficients, {}};
+  if (!first.empty()) result.uncorrected = first.rmse(fit.members, fit.base);
+  return result;
 }
 
 Diagnosis diagnose(const DiagnosisRequest& request,

@@ -1,15 +1,18 @@
-// The rigid body of an arm, fitted to all its joints at once.
+// The rigid body of an arm, for all its joints at once.
 #pragma once
 
 #include "diagnosis/load.h"
 
 namespace dcnn {
 
-/// Gives the cases of an arm's joints one set of base parameters: least squares over all joints, each
+/// Of an arm whose simulator is given: adds to it a payload, or corrects its links, where that is missing
+/// (given_arm.h), and returns the finding of the whole arm, else null.
+///
+/// Else gives the cases of an arm's joints one set of base parameters: least squares over all joints, each
 /// weighted by what it leaves, beside an offset, dry and viscous friction of each joint (what else
 /// acts is found later). A joint that another set of its own predicts better on sixths of the
 /// recordings that were left out (its scale may be wrong) keeps parameters of its own, which stay
 /// free. Does nothing for machines without an arm.
-void share_base(std::vector<LoadedCase>& cases);
+Json share_base(std::vector<LoadedCase>& cases);
 
 }  // namespace dcnn

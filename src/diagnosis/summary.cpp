@@ -67,6 +67,7 @@ std::string capitalised(std::string text) {
 
 /// Findings and what has no name, in words.
 std::string what_is_missing(const Json& report) {
+  if (report.contains("arm")) return capitalised(report["arm"]["words"].get<std::string>());
   std::string text;
   for (const Json& finding : in_lines(report["findings"])) {
     text += (text.empty() ? "" : "; ") + finding["words"].get<std::string>();

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "dcnn/physics/arm.h"
+#include "dcnn/identification/urdf.h"
 #include "identification/arm_terms.h"
 
 namespace dcnn {
@@ -27,7 +27,7 @@ JointChain chain_for(const ArmRequest& request, const System& system) {
   } else {
     require(system.arm.is_object(), Exit::kData, request.system.string(),
             ": has no key 'arm' with the DH table; add it, or give --urdf robot.urdf");
-    chain = chain_of(parse_arm(system.arm, request.system.string() + ": arm", Exit::kData));
+    chain = parse_chain(system.arm, request.system.string() + ": arm", Exit::kData);
   }
   require(chain.joints.size() == system.axes.size(), Exit::kData, request.system.string(), ": ",
           system.axes.size(), " axes for an arm of ", chain.joints.size(),

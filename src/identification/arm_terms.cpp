@@ -58,14 +58,7 @@ MatrixXd drive_columns(const ArmLog& log, Index joint, const Drive& drive, const
 }
 
 MatrixXd payload_columns(const JointChain& chain, const ArmLog& log, std::size_t joint) {
-  // A body at the flange is one in the last link's frame: its parameters there are linear in those at
-  // the flange.
-  const Eigen::Matrix3d back = chain.flange_R.transpose();
-  MatrixXd to_link(10, 10);
-  for (Index k = 0; k < 10; ++k) {
-    to_link.col(k) = body_in_frame(BodyVector::Unit(k), back, -(back * chain.flange_p));
-  }
-  return log.rigid[joint].rightCols(10) * to_link;
+  return log.rigid[joint].rightCols(10) * flange_to_link(chain);
 }
 
 int told_combinations(const std::vector<ArmLog>& logs) {

@@ -1,5 +1,5 @@
 #include "dcnn/core/file.h"
-#include "dcnn/identification/chain.h"
+#include "dcnn/identification/urdf.h"
 
 #ifdef DCNN_WITH_URDFDOM
 #include <urdf_parser/urdf_parser.h>

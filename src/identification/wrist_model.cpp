@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "dcnn/data/rotation.h"
+
 namespace dcnn::identification {
 namespace {
 
@@ -41,12 +43,6 @@ SixColumns spin_at(const WristColumns& columns, Index k) {
 }
 
 }  // namespace
-
-Matrix3d cross_matrix(const Vector3d& v) {
-  Matrix3d S;
-  S << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return S;
-}
 
 Matrix3d rotation_of(const Vector3d& turn) {
   const double angle = turn.norm();

@@ -73,8 +73,6 @@ Eigen::MatrixXd predicted(const WristColumns& columns, const WristState& state);
 Eigen::MatrixXd jacobian(const WristColumns& columns, const WristState& state,
                          const Layout& layout);
 
-/// S(v): S(v) x = v x x.
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
 /// The rotation exp(S(turn)).
 Eigen::Matrix3d rotation_of(const Eigen::Vector3d& turn);
 /// xx yy zz xy xz yz.

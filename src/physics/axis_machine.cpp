@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "dcnn/data/filter.h"
-#include "dcnn/physics/arm.h"
 
 namespace dcnn {
 namespace {
@@ -55,16 +54,9 @@ VectorXd named_signal(const Recording& recording, const Axis& axis, const Rates&
   return recording.column(name);
 }
 
-Arm arm_of(const System& system) {
-  const Arm arm = parse_arm(system.arm, "system: arm", Exit::kData);
-  require(arm.rows.size() == system.axes.size(), Exit::kData, "system: arm: key 'dh' has ",
-          arm.rows.size(), " rows for ", system.axes.size(), " axes; give one row per axis");
-  return arm;
-}
-
-MatrixXd arm_columns(const Recording& recording, const System& system, std::size_t joint,
-                     const DerivativeSpec& spec) {
-  const Arm arm = arm_of(system);
+/// What each inertial parameter of the links adds to a joint's drive, (T, 10·joints).
+MatrixXd arm_columns(const JointChain& chain, const Recording& recording, const System& system,
+                     std::size_t joint, const DerivativeSpec& spec) {
   const auto n = static_cast<Index>(system.axes.size());
   MatrixXd q(recording.samples(), n), v = q, a = q;
   for (Index k = 0; k < n; ++k) {
@@ -76,7 +68,7 @@ MatrixXd arm_columns(const Recording& recording, const System& system, std::size
     v.col(k) = rates.v;
     a.col(k) = rates.a;
   }
-  return arm_regressor(arm, q, v, a, joint);
+  return chain_regressor(chain, q, v, a, joint);
 }
 
 /// The tool that an axis does not have.
@@ -87,6 +79,20 @@ Simulator without_tool() {
 }
 
 }  // namespace
+
+JointChain chain_of(const System& system) {
+  const JointChain chain = parse_chain(system.arm, "system: arm", Exit::kData);
+  require(chain.joints.size() == system.axes.size(), Exit::kData, "system: arm: has ",
+          chain.joints.size(), " joints for ", system.axes.size(),
+          " axes; give one row of 'dh', or one entry of 'joints', for each axis");
+  return chain;
+}
+
+MatrixXd payload_columns(const Recording& recording, const System& system, std::size_t axis,
+                         const DerivativeSpec& derivative) {
+  const JointChain chain = chain_of(system);
+  return arm_columns(chain, recording, system, axis, derivative).rightCols(10) * flange_to_link(chain);
+}
 
 Motion axis_motion(const Recording& recording, const Axis& axis, const DerivativeSpec& derivative) {
   require(recording.dt > 0.0, Exit::kData, recording.name,
@@ -125,7 +131,7 @@ MatrixXd base_columns(const Recording& recording, const System& system, std::siz
   const Axis& own = system.axes[axis];
   if (!own.simulated.empty()) return MatrixXd(recording.samples(), 0);
   if (!own.has_base && !system.arm.is_null()) {
-    return arm_columns(recording, system, axis, derivative);
+    return arm_columns(chain_of(system), recording, system, axis, derivative);
   }
   require(own.has_base, Exit::kData, "axis '", own.name,
           "': no simulator; give 'simulated', 'base', or 'arm' in the system description");
@@ -166,6 +172,10 @@ MatrixXd predict_axes(const AxisMachine& machine, const Recording& recording) {
       const MatrixXd columns = base_columns(recording, system, k, corrected.derivative);
       reaction.force.col(0) =
           -corrected.sense * (columns(Eigen::all, corrected.columns) * corrected.coefficients);
+    }
+    if (machine.payload) {
+      reaction.force.col(0) -=
+          payload_columns(recording, system, k, corrected.derivative) * *machine.payload;
     }
     pass_on(corrected.effects, Stage::kForce, motion, none.model, reaction);
     predicted.col(static_cast<Index>(k)) = -corrected.sense * reaction.force.col(0);

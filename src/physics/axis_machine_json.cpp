@@ -190,7 +190,9 @@ Json to_json(const AxisMachine& machine) {
                     {"effects", effects_json(corrected, machine.system.axes[k])},
                     {"derivative", to_json(corrected.derivative)}});
   }
-  return {{"system", machine.system.json}, {"axes", axes}};
+  Json json{{"system", machine.system.json}, {"axes", axes}};
+  if (machine.payload) json["payload"] = body_json(*machine.payload);
+  return json;
 }
 
 bool is_axis_machine(const Json& json) { return json.is_object() && json.contains("system"); }
@@ -205,6 +207,12 @@ AxisMachine parse_axis_machine(const Json& json, const std::string& where, Exit 
   for (std::size_t k = 0; k < axes.size(); ++k) {
     machine.axes.push_back(parse_corrected(axes[k], machine.system, k,
                                            where + ": axes[" + std::to_string(k) + "]", exit));
+  }
+  const Json payload = options.raw("payload");
+  if (!payload.is_null()) {
+    require(!machine.system.arm.is_null(), exit, where,
+            ": key 'payload' needs the arm; give 'arm' in the system description");
+    machine.payload = parse_body(payload, where + ": payload", exit);
   }
   options.finish();
   return machine;

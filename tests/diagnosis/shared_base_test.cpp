@@ -98,7 +98,7 @@ TEST_F(SharedBase, PredictsAJointWhereItWasNotMoved) {
 
 /// A joint whose scale is wrong cannot share the masses of the others.
 TEST_F(SharedBase, IsNotForcedOnAJointInOtherUnits) {
-  const auto right = load_axes(request(1.0)), wrong = load_axes(request(3.0));
+  const auto right = load_axes(request(1.0)).cases, wrong = load_axes(request(3.0)).cases;
   EXPECT_TRUE(right[0].fit.axis->base_is_known && right[1].fit.axis->base_is_known);
   EXPECT_FALSE(wrong[0].fit.axis->base_is_known && wrong[1].fit.axis->base_is_known);
 }

@@ -31,7 +31,7 @@ Json system_json() {
 }
 
 JointChain arm_chain() {
-  return chain_of(parse_arm(system_json()["arm"], "test", Exit::kData));
+  return parse_chain(system_json()["arm"], "test", Exit::kData);
 }
 
 /// A body of mass m at c, like a ball of radius of gyration 5 cm.

@@ -1,5 +1,6 @@
 // The chain's regressor against the DH form, and against orocos-kdl where it is installed.
-#include "dcnn/identification/chain.h"
+#include "dcnn/identification/urdf.h"
+#include "dcnn/physics/chain.h"
 
 #include <gtest/gtest.h>
 
@@ -59,31 +60,49 @@ VectorXd bodies_of(const JointChain& chain) {
   return all;
 }
 
-TEST(JointChain, OfADhTableIsTheArmInBothConventions) {
-  for (const char* convention : {"modified", "standard"}) {
-    const Arm arm = parse_arm({{"convention", convention},
-                               {"dh", {{0.1, 0.7, 0.3, 0.2}, {0.4, -1.1, 0.1, -0.5}, {0.2, 0.4, 0.2, 1.0}}}},
-                              "test", Exit::kData);
-    const JointChain chain = chain_of(arm);
-    Rng rng(5);
-    const MatrixXd q = random_rows(6, 3, rng), v = random_rows(6, 3, rng), a = random_rows(6, 3, rng);
-    // Standard DH has its link frames at the far end: the same torques need parameters there.
-    for (std::size_t joint = 0; joint < 3; ++joint) {
-      const MatrixXd by_arm = arm_regressor(arm, q, v, a, joint);
-      const MatrixXd by_chain = chain_regressor(chain, q, v, a, joint);
-      VectorXd body = random_rows(30, 1, rng), there = body;
-      for (std::size_t k = 0; k < 3 && !arm.modified; ++k) {
-        // From the far end's frame to the joint's: what the next joint's place is built from.
-        const Arm::Row& row = arm.rows[k];
-        const Matrix3d R = Eigen::AngleAxisd(row.alpha, Vector3d::UnitX()).toRotationMatrix();
-        const Matrix3d back = R.transpose();
-        there.segment(10 * static_cast<Index>(k), 10) =
-            body_in_frame(body.segment<10>(10 * static_cast<Index>(k)), back,
-                          -(back * Vector3d(row.a, 0.0, row.d)));
-      }
-      EXPECT_LT((by_arm * body - by_chain * there).cwiseAbs().maxCoeff(), 1e-10) << convention;
+/// A frame turned and moved as Denavit and Hartenberg's rows say, by homogeneous transformations.
+TEST(JointChain, OfADhTableHasTheFramesOfTheTableInBothConventions) {
+  const std::vector<std::vector<double>> rows{
+      {0.1, 0.7, 0.3, 0.2}, {0.4, -1.1, 0.1, -0.5}, {0.2, 0.4, 0.2, 1.0}};
+  const double q[] = {0.3, -0.8, 1.4};
+  for (const std::string convention : {"modified", "standard"}) {
+    const JointChain chain =
+        parse_chain({{"convention", convention}, {"dh", rows}}, "test", Exit::kData);
+    Eigen::Isometry3d table = Eigen::Isometry3d::Identity(), here = table;
+    for (std::size_t k = 0; k < 3; ++k) {
+      Eigen::Isometry3d turn = Eigen::Isometry3d::Identity(), twist = turn;
+      turn.rotate(Eigen::AngleAxisd(q[k] + rows[k][3], Vector3d::UnitZ()));
+      turn.translate(Vector3d(0.0, 0.0, rows[k][2]));
+      twist.rotate(Eigen::AngleAxisd(rows[k][1], Vector3d::UnitX()));
+      twist.translate(Vector3d(rows[k][0], 0.0, 0.0));
+      table = table * (convention == "modified" ? twist * turn : turn * twist);
+      Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
+      step.translate(chain.joints[k].p);
+      step.rotate(chain.joints[k].R);
+      step.rotate(Eigen::AngleAxisd(q[k], chain.joints[k].axis));
+      here = here * step;
     }
+    here.translate(chain.flange_p);
+    here.rotate(chain.flange_R);
+    EXPECT_LT((table.matrix() - here.matrix()).cwiseAbs().maxCoeff(), 1e-14) << convention;
   }
+}
+
+TEST(JointChain, IsReadBackAsItWasWritten) {
+  Rng rng(9);
+  JointChain chain = random_chain(rng);
+  chain.flange_R = random_rotation(rng);
+  chain.flange_p = {0.1, 0.2, -0.3};
+  const JointChain back = parse_chain(to_json(chain), "test", Exit::kData);
+  const auto count = static_cast<Index>(chain.joints.size());
+  const MatrixXd q = random_rows(5, count, rng), v = random_rows(5, count, rng),
+                 a = random_rows(5, count, rng);
+  ASSERT_TRUE(back.bodies());
+  for (std::size_t j = 0; j < chain.joints.size(); ++j) {
+    const VectorXd there = chain_regressor(back, q, v, a, j) * *back.bodies();
+    EXPECT_LT((chain_regressor(chain, q, v, a, j) * bodies_of(chain) - there).cwiseAbs().maxCoeff(), 1e-12);
+  }
+  EXPECT_LT((flange_to_link(chain) - flange_to_link(back)).cwiseAbs().maxCoeff(), 1e-14);
 }
 
 TEST(JointChain, ABodySeenFromAnotherFrameAndBackIsTheSame) {

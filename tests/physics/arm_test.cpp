@@ -1,10 +1,11 @@
-#include "dcnn/physics/arm.h"
+#include "dcnn/physics/chain.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "dcnn/core/random.h"
+#include "dcnn/physics/axis_machine.h"
 
 namespace dcnn {
 namespace {
@@ -12,28 +13,25 @@ namespace {
 constexpr double kL1 = 0.4, kL2 = 0.3, kG = 9.81;  // m, m, m/s²
 
 /// Two links in a vertical plane: the first joint's axis is horizontal.
-Arm planar(bool modified) {
+JointChain planar(bool modified) {
   const Json dh = modified ? Json{{0.0, 0.0, 0.0, 0.0}, {kL1, 0.0, 0.0, 0.0}}
                            : Json{{kL1, 0.0, 0.0, 0.0}, {kL2, 0.0, 0.0, 0.0}};
-  Arm arm = parse_arm({{"convention", modified ? "modified" : "standard"},
-                       {"dh", dh},
-                       {"gravity_mps2", {0.0, -kG, 0.0}}},
-                      "test", Exit::kData);
-  return arm;
+  return parse_chain({{"convention", modified ? "modified" : "standard"},
+                      {"dh", dh},
+                      {"gravity_mps2", {0.0, -kG, 0.0}}},
+                     "test", Exit::kData);
 }
 
 struct Link {
   double m, c, izz;  // kg; m of the centre of mass from the joint; kg·m² about the joint
 };
 
-/// Inertial parameters in the link's frame, whose origin is its joint (modified) or its end.
-Eigen::VectorXd parameters(const Link& link, double length, bool modified) {
-  const double x = modified ? link.c : link.c - length;
-  const double izz = modified ? link.izz : link.izz - link.m * link.c * link.c + link.m * x * x;
+/// Inertial parameters in the link's frame, whose origin is its joint.
+Eigen::VectorXd parameters(const Link& link) {
   Eigen::VectorXd p = Eigen::VectorXd::Zero(10);
   p(0) = link.m;
-  p(1) = link.m * x;
-  p(9) = izz;
+  p(1) = link.m * link.c;
+  p(9) = link.izz;
   return p;
 }
 
@@ -54,12 +52,12 @@ TEST(Arm, IsTheTwoLinkArmOfTheTextbook) {
   const auto draw = [&] { return Eigen::Vector2d(rng.normal(), rng.normal()); };
   for (const bool modified : {true, false}) {
     Eigen::VectorXd p(20);
-    p << parameters(a, kL1, modified), parameters(b, kL2, modified);
+    p << parameters(a), parameters(b);
     for (int trial = 0; trial < 20; ++trial) {
       const Eigen::Vector2d q = draw(), v = draw(), dd = draw(), expected = closed_form(a, b, q, v, dd);
       for (std::size_t joint = 0; joint < 2; ++joint) {
         const Eigen::MatrixXd row =
-            arm_regressor(planar(modified), q.transpose(), v.transpose(), dd.transpose(), joint);
+            chain_regressor(planar(modified), q.transpose(), v.transpose(), dd.transpose(), joint);
         EXPECT_NEAR((row * p)(0), expected(static_cast<Eigen::Index>(joint)), 1e-12);
       }
     }
@@ -69,7 +67,7 @@ TEST(Arm, IsTheTwoLinkArmOfTheTextbook) {
 /// Power of the drives is the change of energy: any arm, both conventions, all parameters.
 TEST(Arm, DrivesOnlyPutInWhatTheEnergyGains) {
   for (const char* convention : {"modified", "standard"}) {
-    const Arm arm = parse_arm({{"convention", convention},
+    const JointChain arm = parse_chain({{"convention", convention},
                                {"dh",
                                 {{0.1, 0.4, 0.3, 0.2}, {0.2, -1.1, 0.15, -0.3}, {0.05, 1.3, 0.1, 1.0}}}},
                               "test", Exit::kData);
@@ -89,13 +87,52 @@ TEST(Arm, DrivesOnlyPutInWhatTheEnergyGains) {
       }
       for (std::size_t j = 0; j < 3; ++j) {
         const double power =
-            (arm_regressor(arm, q, v, a, j) * p)(0) * v(static_cast<Eigen::Index>(j));
+            (chain_regressor(arm, q, v, a, j) * p)(0) * v(static_cast<Eigen::Index>(j));
         work += power;
         size += std::abs(power);
       }
     }
     EXPECT_LT(std::abs(work), 1e-9 * size) << convention;
   }
+}
+
+/// A payload at the flange is the same as that body in the last link.
+TEST(Arm, APayloadIsPartOfTheLastLink) {
+  Json system{{"kind", "axes"}, {"axes", Json::array()}};
+  for (const char* k : {"1", "2"}) {
+    system["axes"].push_back({{"name", k}, {"measured", std::string("tau") + k}, {"unit", "N*m"},
+                              {"position", std::string("q") + k}, {"velocity", std::string("v") + k},
+                              {"acceleration", std::string("a") + k}});
+  }
+  const Json link{{"mass_kg", 2.0}, {"moment_kgm", {0.2, 0.0, 0.1}}, {"inertia_kgm2", {0.1, 0, 0, 0.2, 0, 0.2}}};
+  Json first{{"rpy_rad", {0.5, 0.0, 0.0}}, {"body", link}}, second{{"xyz_m", {0.4, 0.0, 0.0}}, {"body", link}};
+  system["arm"] = {{"joints", {first, second}}, {"flange", {{"xyz_m", {0.3, 0.1, 0.0}}, {"rpy_rad", {0.1, 0.2, 0.3}}}}};
+
+  AxisMachine machine{parse_system(system, "test"), {}};
+  const JointChain chain = chain_of(machine.system);
+  const Eigen::VectorXd bodies = *chain.bodies();
+  std::vector<Eigen::Index> all;
+  for (Eigen::Index k = 0; k < 20; ++k) all.push_back(k);
+  for (int k = 0; k < 2; ++k) machine.axes.push_back({all, bodies, {}, DerivativeSpec(), 1.0});
+  BodyVector payload;
+  payload << 1.5, 0.03, -0.06, 0.09, 0.02, 0.001, 0.0, 0.03, 0.002, 0.01;
+
+  Rng rng({6u});
+  Table table;
+  table.columns = {"t", "q1", "v1", "a1", "q2", "v2", "a2"};
+  table.values.resize(20, 7);
+  for (double& x : table.values.reshaped()) x = rng.normal();
+  for (Eigen::Index i = 0; i < 20; ++i) table.values(i, 0) = 0.01 * static_cast<double>(i);
+  const Recording recording = make_recording("log.csv", table, ReadOptions(), machine.system);
+
+  machine.payload = payload;
+  AxisMachine lumped = parse_axis_machine(to_json(machine), "model.json", Exit::kData);
+  ASSERT_TRUE(lumped.payload.has_value());
+  const Eigen::MatrixXd with = predict_axes(lumped, recording);
+  lumped.payload.reset();
+  for (CorrectedAxis& axis : lumped.axes) axis.coefficients.tail(10) += flange_to_link(chain) * payload;
+  EXPECT_LT((with - predict_axes(lumped, recording)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_GT(with.cwiseAbs().maxCoeff(), 1.0);
 }
 
 TEST(Arm, FindsTheColumnsThatSpanTheOthers) {

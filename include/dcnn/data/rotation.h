@@ -16,6 +16,11 @@ Eigen::Vector3d euler_from_rotation(const Eigen::Matrix3d& R);
 /// Of a unit quaternion (w,x,y,z).
 Eigen::Matrix3d rotation_from_quaternion(const Eigen::Vector4d& q);
 
+/// v x w = cross_matrix(v) w.
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
+/// A turn by `angle` [rad] about an axis of unit length (Rodrigues).
+Eigen::Matrix3d rotation_about(const Eigen::Vector3d& axis, double angle);
+
 /// The angle plus that multiple of 2 pi which brings it nearest to `near`, rad.
 double nearest_turn(double angle, double near);
 /// Adds multiples of 2 pi to each column so that |step| < pi.

@@ -17,6 +17,7 @@ namespace dcnn {
 struct DiagnosisRequest {
   std::optional<std::filesystem::path> simulator;  ///< sim.json; none: columns *_sim
   std::optional<std::filesystem::path> system;     ///< system.json of another machine, instead
+  Json arm;                                        ///< kinematics instead of those of `system`; or null
   std::vector<std::filesystem::path> fit, holdout;
   ReadOptions read;
   std::optional<bool> shared_clock;  ///< none: shared where the times do not overlap

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "dcnn/data/system.h"
-#include "dcnn/identification/chain.h"
 #include "dcnn/identification/identify.h"
+#include "dcnn/physics/chain.h"
 
 namespace dcnn {
 

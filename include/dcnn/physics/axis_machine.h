@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "dcnn/data/system.h"
+#include "dcnn/physics/chain.h"
 #include "dcnn/physics/simulator.h"
 
 namespace dcnn {
@@ -24,6 +26,12 @@ Eigen::MatrixXd base_columns(const Recording& recording, const System& system, s
 /// Their names.
 std::vector<std::string> base_names(const System& system, std::size_t axis);
 
+/// The arm of a system description, one joint for each axis.
+JointChain chain_of(const System& system);
+/// (T, 10): what each parameter of a body at an arm's flange, in the flange's frame, adds to the drive of a joint.
+Eigen::MatrixXd payload_columns(const Recording& recording, const System& system, std::size_t axis,
+                                const DerivativeSpec& derivative);
+
 /// What acts on the drive of one axis.
 struct CorrectedAxis {
   std::vector<Eigen::Index> columns;  ///< of base_columns() that are used
@@ -37,6 +45,7 @@ struct CorrectedAxis {
 struct AxisMachine {
   System system;
   std::vector<CorrectedAxis> axes;
+  std::optional<BodyVector> payload = std::nullopt;  ///< of an arm, in the flange's frame, beside what the base has
 };
 Json to_json(const AxisMachine& machine);
 AxisMachine parse_axis_machine(const Json& json, const std::string& where, Exit exit);

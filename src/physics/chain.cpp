@@ -1,6 +1,9 @@
-#include "dcnn/identification/chain.h"
+#include "dcnn/physics/chain.h"
 
-#include "identification/wrist_model.h"
+#include <algorithm>
+#include <cmath>
+
+#include "dcnn/data/rotation.h"
 
 namespace dcnn {
 namespace {
@@ -8,7 +11,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
-using identification::cross_matrix;
 
 /// A link as it moves, in the base.
 struct MovingLink {
@@ -36,7 +38,7 @@ std::vector<MovingLink> moving_links(const JointChain& chain, const Eigen::RowVe
     if (joint.slides) {
       step += next.axis * q[k];
     } else {
-      next.R = R0 * Eigen::AngleAxisd(q[k], joint.axis).toRotationMatrix();
+      next.R = R0 * rotation_about(joint.axis, q[k]);
       next.w += next.axis * qd[k];
       next.dw += next.axis * qdd[k] + at.w.cross(next.axis * qd[k]);
     }
@@ -58,7 +60,8 @@ Eigen::Matrix<double, 3, 6> momentum_columns(const Vector3d& w) {
   return L;
 }
 
-/// Torque (force) at a joint's drive from one link, linear in its ten parameters.
+/// Torque (force) at a joint's drive from one link, linear in its ten parameters (Atkeson, An and
+/// Hollerbach 1986).
 Eigen::Matrix<double, 1, 10> share_of(const MovingLink& link, const MovingLink& joint,
                                       bool slides) {
   const Matrix3d to_link = link.R.transpose();
@@ -79,37 +82,15 @@ Eigen::Matrix<double, 1, 10> share_of(const MovingLink& link, const MovingLink& 
   return row;
 }
 
-Matrix3d turn_x(double a) { return Eigen::AngleAxisd(a, Vector3d::UnitX()).toRotationMatrix(); }
-Matrix3d turn_z(double a) { return Eigen::AngleAxisd(a, Vector3d::UnitZ()).toRotationMatrix(); }
-
 }  // namespace
 
-JointChain chain_of(const Arm& arm) {
-  JointChain chain;
-  chain.gravity = arm.gravity;
-  Matrix3d R = Matrix3d::Identity();  // behind the last joint, before the next one's axis
-  Vector3d p = Vector3d::Zero();
-  for (std::size_t i = 0; i < arm.rows.size(); ++i) {
-    const Arm::Row& row = arm.rows[i];
-    ChainJoint joint;
-    joint.name = "joint" + std::to_string(i + 1);
-    if (arm.modified) {  // Rx(alpha) Tx(a) | Rz(q + theta0) Tz(d)
-      const Matrix3d twist = R * turn_x(row.alpha);
-      joint.R = twist * turn_z(row.theta0);
-      joint.p = p + twist * Vector3d(row.a, 0.0, row.d);
-      R = Matrix3d::Identity();
-      p = Vector3d::Zero();
-    } else {  // | Rz(q + theta0) Tz(d) Tx(a) Rx(alpha)
-      joint.R = R * turn_z(row.theta0);
-      joint.p = p;
-      p = Vector3d(row.a, 0.0, row.d);
-      R = turn_x(row.alpha);
-    }
-    chain.joints.push_back(joint);
+std::optional<Eigen::VectorXd> JointChain::bodies() const {
+  Eigen::VectorXd all(10 * static_cast<Eigen::Index>(joints.size()));
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (!joints[j].body) return std::nullopt;
+    all.segment<10>(10 * static_cast<Eigen::Index>(j)) = *joints[j].body;
   }
-  chain.flange_R = R;
-  chain.flange_p = p;
-  return chain;
+  return all;
 }
 
 MatrixXd chain_regressor(const JointChain& chain, const MatrixXd& q, const MatrixXd& qd,
@@ -141,6 +122,38 @@ BodyVector body_in_frame(const BodyVector& body, const Matrix3d& R, const Vector
   out.tail<6>() << turned(0, 0), turned(0, 1), turned(0, 2), turned(1, 1), turned(1, 2),
       turned(2, 2);
   return out;
+}
+
+MatrixXd flange_to_link(const JointChain& chain) {
+  const Matrix3d back = chain.flange_R.transpose();
+  MatrixXd to_link(10, 10);
+  for (Eigen::Index k = 0; k < 10; ++k) {
+    to_link.col(k) = body_in_frame(BodyVector::Unit(k), back, -(back * chain.flange_p));
+  }
+  return to_link;
+}
+
+std::vector<Eigen::Index> independent_columns(const Eigen::MatrixXd& columns, double tolerance) {
+  Eigen::MatrixXd left = columns;
+  for (Eigen::Index k = 0; k < left.cols(); ++k) {
+    const double length = left.col(k).norm();
+    if (length > 1e-9 * std::sqrt(static_cast<double>(left.rows())))
+      left.col(k) /= length;
+    else
+      left.col(k).setZero();
+  }
+  std::vector<Eigen::Index> chosen;
+  for (Eigen::Index step = 0; step < left.cols(); ++step) {
+    Eigen::Index best = 0;
+    const double length = left.colwise().norm().maxCoeff(&best);
+    if (length < tolerance) break;
+    chosen.push_back(best);
+    const Eigen::VectorXd direction = left.col(best) / length;
+    for (int pass = 0; pass < 2; ++pass) left -= direction * (direction.transpose() * left);
+    left.col(best).setZero();
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
 }
 
 }  // namespace dcnn

@@ -1,0 +1,31 @@
+// A drawn arm: its limbs, its motion, what is hidden in it, and what its logs hold.
+#pragma once
+
+#include "conceal/arm_engine.h"
+#include "conceal/draws.h"
+
+namespace dcnn::conceal {
+
+struct ArmLog {
+  std::string name;
+  bool holdout = false;
+  Eigen::VectorXd t;
+  Eigen::MatrixXd q, measured, clean, simulated;  ///< (T, joints): rad, N·m
+};
+
+struct ArmScenario {
+  std::string id, group;
+  std::vector<Limb> limbs;                  ///< as the simulator at hand has them
+  Eigen::Vector3d flange{0.0, 0.0, 0.0};    ///< origin of the flange in the last limb's frame
+  bool described = true;                    ///< the limbs' bodies are in system.json
+  std::vector<double> sigma;                ///< N·m, noise of each joint's torque
+  std::string noise = "white";
+  double encoder = 1e-6;                    ///< rad
+  std::vector<Hidden> hidden;               ///< axis: joint1, …, or empty for the arm
+  std::vector<ArmLog> logs;
+};
+
+/// Of an id of arm_plan(); the same arguments give the same bytes.
+ArmScenario draw_arm(const std::string& id, std::uint64_t seed);
+
+}  // namespace dcnn::conceal

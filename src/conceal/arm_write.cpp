@@ -1,0 +1,127 @@
+#include <cstdio>
+
+#include "conceal/arm_draw.h"
+#include "dcnn/conceal/arm.h"
+#include "dcnn/conceal/challenge.h"
+#include "dcnn/core/digest.h"
+#include "dcnn/core/file.h"
+#include "dcnn/data/csv.h"
+
+namespace dcnn::conceal {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Index;
+using Eigen::Vector3d;
+
+Json three(const Vector3d& v) { return {v(0), v(1), v(2)}; }
+
+/// Mass, first moment, and the inertia about the frame's origin as sums over the masses.
+Json body_of(const std::vector<PointMass>& masses) {
+  double m = 0.0;
+  Vector3d moment = Vector3d::Zero();
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (const PointMass& point : masses) {
+    m += point.mass;
+    moment += point.mass * point.at;
+    inertia += point.mass * (point.at.squaredNorm() * Eigen::Matrix3d::Identity() -
+                             point.at * point.at.transpose());
+  }
+  const Json six{inertia(0, 0), inertia(0, 1), inertia(0, 2), inertia(1, 1), inertia(1, 2), inertia(2, 2)};
+  return {{"mass_kg", m}, {"moment_kgm", three(moment)}, {"inertia_kgm2", six}};
+}
+
+Json system_of(const ArmScenario& s) {
+  Json axes = Json::array(), joints = Json::array();
+  for (std::size_t j = 0; j < s.limbs.size(); ++j) {
+    const std::string number = std::to_string(j + 1);
+    Json axis{{"name", "joint" + number}, {"measured", "tau_" + number}, {"unit", "N*m"},
+              {"position", "q_" + number}};
+    if (!s.described) axis["simulated"] = "tau_" + number + "_sim";
+    axes.push_back(axis);
+    const Limb& limb = s.limbs[j];
+    // Limbs are turned about x alone.
+    const double roll = std::atan2(limb.turned(2, 1), limb.turned(2, 2));
+    Json joint{{"name", "joint" + number}, {"xyz_m", three(limb.origin)}, {"rpy_rad", {roll, 0.0, 0.0}}};
+    if (s.described) joint["body"] = body_of(limb.masses);
+    joints.push_back(joint);
+  }
+  return {{"kind", "axes"}, {"lowpass_hz", 10}, {"axes", axes},
+          {"arm", {{"joints", joints}, {"flange", {{"xyz_m", three(s.flange)}}},
+                   {"gravity_mps2", three(kGravity)}}}};
+}
+
+Table table_of(const ArmScenario& s, const ArmLog& log) {
+  const Index n = log.q.cols();
+  Table table;
+  table.columns = {"t"};
+  table.values.resize(log.t.size(), 1 + (s.described ? 2 : 3) * n);
+  table.values.leftCols(1 + 2 * n) << log.t, log.q, log.measured;
+  if (!s.described) table.values.rightCols(n) = log.simulated;
+  for (const char* stem : {"q_", "tau_", "sim"}) {
+    const bool simulated = std::string(stem) == "sim";
+    for (Index j = 1; j <= n && (!simulated || !s.described); ++j) {
+      table.columns.push_back(simulated ? "tau_" + std::to_string(j) + "_sim" : stem + std::to_string(j));
+    }
+  }
+  return table;
+}
+
+Json arm_truth(const ArmScenario& s) {
+  Json all{{"drawn", s.id}, {"group", s.group}, {"family", "arm"},
+           {"motion", std::to_string(s.limbs.size()) + " joints"}};
+  all["noise"] = {{"kind", s.noise}, {"sigma_nm", s.sigma}, {"encoder_rad", s.encoder}};
+  all["described"] = s.described;
+  all["hidden"] = Json::array();
+  for (const Hidden& h : s.hidden) {
+    Json one{{"effect", h.effect}, {"axis", h.axis.empty() ? Json() : Json(h.axis)},
+             {"interval_s", nullptr}, {"parameters", Json::object()},
+             {"listed", true}, {"foreign", false}, {"amplitude", h.amplitude}};
+    if (h.interval_s) one["interval_s"] = {h.interval_s->first, h.interval_s->second};
+    for (const auto& [name, value] : h.parameters) one["parameters"][name] = value;
+    all["hidden"].push_back(one);
+  }
+  Json oracle = Json::array();
+  for (const ArmLog& log : s.logs) {
+    for (Index j = 0; log.holdout && j < log.q.cols(); ++j) {
+      oracle.push_back(std::sqrt((log.measured - log.clean).col(j).array().square().mean()));
+    }
+  }
+  all["oracle_rmse"] = oracle;
+  return all;
+}
+
+Json write_arm(const ArmScenario& s, const fs::path& folder) {
+  fs::create_directories(folder);
+  write_file(folder / "system.json", system_of(s).dump(2) + "\n");
+  std::vector<std::string> files{"system.json"};
+  for (const ArmLog& log : s.logs) {
+    files.push_back(log.name + ".csv");
+    write_csv(folder / files.back(), table_of(s, log));
+  }
+  Json digests = Json::object();
+  for (const std::string& file : files) {
+    digests[file] = sha256_hex({read_file(folder / file, std::size_t{1} << 30, Exit::kData)});
+  }
+  return digests;
+}
+
+}  // namespace
+
+std::string conceal_arms(const std::vector<std::string>& ids, std::uint64_t seed, const fs::path& folder,
+                         const fs::path& seal, const std::function<void(int, int)>& progress) {
+  Json answers{{"seed", seed}, {"scenarios", Json::array()}};
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    char name[32];
+    std::snprintf(name, sizeof name, "s%04zu", k + 1);
+    const ArmScenario scenario = draw_arm(ids[k], seed);
+    Json one{{"id", name}};
+    one.update(arm_truth(scenario));
+    one["sha256"] = write_arm(scenario, folder / name);
+    answers["scenarios"].push_back(one);
+    progress(static_cast<int>(k) + 1, static_cast<int>(ids.size()));
+  }
+  return write_seal(answers, folder, seal);
+}
+
+}  // namespace dcnn::conceal

@@ -1,0 +1,126 @@
+#include "diagnosis/arm_sums.h"
+
+#include <algorithm>
+
+#include "core/linear_algebra.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kSharedBaseRidge = 1e-9;
+constexpr int kReweightings = 4;
+
+}  // namespace
+
+ArmSums::ArmSums(const std::vector<JointRows>& joints) : links_(joints.front().arm.cols()) {
+  for (const JointRows& rows : joints) {
+    for (const Index p : rows.piece) pieces_ = std::max(pieces_, p + 1);
+  }
+  for (const JointRows& rows : joints) {
+    Eigen::MatrixXd A(rows.arm.rows(), rows.arm.cols() + rows.own.cols());
+    A << rows.arm, rows.own;
+    std::vector<Piece> sums;
+    for (Index p = 0; p < pieces_; ++p) {
+      std::vector<Index> list;
+      for (std::size_t i = 0; i < rows.piece.size(); ++i) {
+        if (rows.piece[i] == p) list.push_back(static_cast<Index>(i));
+      }
+      const Eigen::MatrixXd part = A(list, Eigen::all);
+      const Eigen::VectorXd y = rows.target(list);
+      sums.push_back({part.transpose() * part, part.transpose() * y, y.squaredNorm(),
+                      static_cast<double>(list.size())});
+    }
+    sums_.push_back(std::move(sums));
+  }
+}
+
+ArmRegression::ArmRegression(const ArmSums& sums, ArmModel model)
+    : shared_(model.shared.cols()), variance_(Eigen::VectorXd::Ones(static_cast<Index>(sums.joints()))) {
+  size_ = shared_;
+  for (std::size_t j = 0; j < sums.joints(); ++j) {
+    const std::vector<Index>& own = model.own[j];
+    const auto more = static_cast<Index>(own.size());
+    const Index all = sums.sums_[j].front().gram.rows();
+    Eigen::MatrixXd T = Eigen::MatrixXd::Zero(all, shared_ + more);
+    T.topLeftCorner(sums.links_, shared_) = model.shared;
+    for (Index k = 0; k < more; ++k) T(sums.links_ + own[static_cast<std::size_t>(k)], shared_ + k) = 1.0;
+    std::vector<ArmSums::Piece> pieces;
+    for (const auto& piece : sums.sums_[j]) {
+      pieces.push_back(
+          {T.transpose() * piece.gram * T, T.transpose() * piece.match, piece.square, piece.rows});
+    }
+    pieces_.push_back(std::move(pieces));
+    first_.push_back(size_);
+    size_ += more;
+  }
+  first_.push_back(size_);
+}
+
+std::vector<Index> ArmRegression::places(std::size_t joint) const {
+  std::vector<Index> list;
+  for (Index k = 0; k < shared_; ++k) list.push_back(k);
+  for (Index k = first_[joint]; k < first_[joint + 1]; ++k) list.push_back(k);
+  return list;
+}
+
+Eigen::VectorXd ArmRegression::fit(Index left_out, std::size_t from, std::size_t to) const {
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(size_, size_);
+  Eigen::VectorXd match = Eigen::VectorXd::Zero(size_);
+  for (std::size_t j = from; j < to; ++j) {
+    const std::vector<Index> own = places(j);
+    const double variance = variance_(static_cast<Index>(j));
+    for (std::size_t p = 0; p < pieces_[j].size(); ++p) {
+      if (static_cast<Index>(p) == left_out) continue;
+      gram(own, own) += pieces_[j][p].gram / variance;
+      match(own) += pieces_[j][p].match / variance;
+    }
+  }
+  return solve_gram(gram, match, kSharedBaseRidge);
+}
+
+double ArmRegression::misfit(std::size_t joint, Index piece, const Eigen::VectorXd& x) const {
+  const ArmSums::Piece& sums = pieces_[joint][static_cast<std::size_t>(piece)];
+  const Eigen::VectorXd c = x(places(joint));
+  return sums.square - 2.0 * c.dot(sums.match) + c.dot(sums.gram * c);
+}
+
+void ArmRegression::reweight() {
+  for (int pass = 0; pass < kReweightings; ++pass) {
+    const Eigen::VectorXd x = fit(-1, 0, pieces_.size());
+    for (std::size_t j = 0; j < pieces_.size(); ++j) {
+      double sum = 0.0, rows = 0.0;
+      for (std::size_t p = 0; p < pieces_[j].size(); ++p) {
+        sum += misfit(j, static_cast<Index>(p), x);
+        rows += pieces_[j][p].rows;
+      }
+      variance_(static_cast<Index>(j)) = std::max(1e-300, sum / std::max(1.0, rows));
+    }
+  }
+}
+
+Eigen::VectorXd ArmRegression::shared(Index left_out) const {
+  return fit(left_out, 0, pieces_.size()).head(shared_);
+}
+
+Eigen::MatrixXd ArmRegression::left_out() const {
+  const auto pieces = static_cast<Index>(pieces_.front().size());
+  Eigen::MatrixXd errors(pieces, variance_.size());
+  for (Index p = 0; p < pieces; ++p) {
+    const Eigen::VectorXd x = fit(p, 0, pieces_.size());
+    for (Index j = 0; j < variance_.size(); ++j) {
+      errors(p, j) = misfit(static_cast<std::size_t>(j), p, x) / variance_(j);
+    }
+  }
+  return errors;
+}
+
+Eigen::VectorXd ArmRegression::left_out_alone(std::size_t joint) const {
+  const auto pieces = static_cast<Index>(pieces_.front().size());
+  Eigen::VectorXd errors(pieces);
+  for (Index p = 0; p < pieces; ++p) {
+    errors(p) = misfit(joint, p, fit(p, joint, joint + 1)) / variance_(static_cast<Index>(joint));
+  }
+  return errors;
+}
+
+}  // namespace dcnn

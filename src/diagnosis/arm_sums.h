@@ -1,0 +1,60 @@
+// One regression for all joints of an arm, and what it predicts of pieces of time that were left out.
+#pragma once
+
+#include "diagnosis/arm_rows.h"
+
+namespace dcnn {
+
+/// What is fitted to an arm: parameters that all joints share, and terms of each joint.
+struct ArmModel {
+  Eigen::MatrixXd shared;               ///< (10·joints, p): links' parameters from the shared ones
+  std::vector<std::vector<Index>> own;  ///< columns of JointRows::own in use, by joint
+};
+
+/// Sums of products of all columns and the target over each piece of time.
+class ArmSums {
+ public:
+  explicit ArmSums(const std::vector<JointRows>& joints);
+  Index pieces() const { return pieces_; }
+  std::size_t joints() const { return sums_.size(); }
+
+ private:
+  friend class ArmRegression;
+  struct Piece {
+    Eigen::MatrixXd gram;
+    Eigen::VectorXd match;
+    double square = 0.0, rows = 0.0;
+  };
+  std::vector<std::vector<Piece>> sums_;  // by joint and piece
+  Index pieces_ = 0, links_ = 0;          // links_: columns of the arm
+};
+
+/// Least squares of one model over all joints, each weighted by what it leaves.
+class ArmRegression {
+ public:
+  ArmRegression(const ArmSums& sums, ArmModel model);
+
+  /// Weights of the joints by what each leaves; or those of another regression.
+  void reweight();
+  void set_variances(const Eigen::VectorXd& variances) { variance_ = variances; }
+  const Eigen::VectorXd& variances() const { return variance_; }
+
+  /// The shared parameters fitted to all pieces but one (-1: to all).
+  Eigen::VectorXd shared(Index left_out) const;
+  /// (pieces, joints): squared error, in units of the joints' variances, on pieces that were left out.
+  Eigen::MatrixXd left_out() const;
+  /// (pieces): the same of one joint with shared parameters of its own.
+  Eigen::VectorXd left_out_alone(std::size_t joint) const;
+
+ private:
+  Eigen::VectorXd fit(Index left_out, std::size_t from, std::size_t to) const;
+  std::vector<Index> places(std::size_t joint) const;
+  double misfit(std::size_t joint, Index piece, const Eigen::VectorXd& x) const;
+
+  std::vector<std::vector<ArmSums::Piece>> pieces_;  // in the model's own columns
+  std::vector<Index> first_;                         // unknowns of each joint begin there
+  Index shared_ = 0, size_ = 0;
+  Eigen::VectorXd variance_;
+};
+
+}  // namespace dcnn

@@ -1,0 +1,199 @@
+#include "diagnosis/given_arm.h"
+
+#include <cmath>
+
+#include "diagnosis/words.h"
+
+namespace dcnn {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kSharedTolerance = 1e-3;  // of a column's length that others must leave
+
+/// 97.5 % quantile of Student's distribution (Cornish and Fisher; within 0.003 from 5 degrees on).
+double student_quantile(double freedom) {
+  constexpr double z = 1.959963985;
+  const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z, n = freedom;
+  return z + (z3 + z) / (4.0 * n) + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * n * n) +
+         (3.0 * z7 + 19.0 * z5 + 17.0 * z3 - 15.0 * z) / (384.0 * n * n * n);
+}
+
+/// Whether errors b are less than a beyond chance, piece by piece.
+bool is_better(const VectorXd& b, const VectorXd& a) {
+  const VectorXd gain = a - b;
+  const auto n = static_cast<double>(gain.size());
+  const double mean = gain.mean();
+  const double deviation = std::sqrt((gain.array() - mean).square().sum() / (n - 1.0) / n);
+  return mean > student_quantile(n - 1.0) * deviation;
+}
+
+std::vector<Index> own_terms(Index count) {
+  std::vector<Index> list;
+  for (Index k = 0; k < count; ++k) list.push_back(k);
+  return list;
+}
+
+/// A model with all terms of its own in each joint.
+ArmModel with_all_terms(const MatrixXd& shared, std::size_t joints) {
+  return {shared, std::vector<std::vector<Index>>(joints, own_terms(kOwnFriction + kOwnAliases))};
+}
+
+VectorXd errors_of(const ArmSums& sums, const ArmModel& model, const VectorXd& variances) {
+  ArmRegression regression(sums, model);
+  regression.set_variances(variances);
+  return regression.left_out().rowwise().sum();
+}
+
+/// Drops what resembles a payload from each joint where it is not significantly needed.
+void drop_aliases(const ArmSums& sums, const VectorXd& variances, ArmModel& model) {
+  VectorXd errors = errors_of(sums, model, variances);
+  for (std::vector<Index>& own : model.own) {
+    const std::vector<Index> kept = own;
+    own = own_terms(kOwnFriction);
+    const VectorXd fewer = errors_of(sums, model, variances);
+    if (is_better(errors, fewer)) {
+      own = kept;
+    } else {
+      errors = fewer;
+    }
+  }
+}
+
+/// Value and half of its 95 % interval: of a number that depends on the shared parameters.
+struct Jackknifed {
+  double value, half;
+};
+template <class Number>
+Jackknifed jackknife(const std::vector<VectorXd>& without, const VectorXd& all, Number number) {
+  const auto n = static_cast<double>(without.size());
+  double sum = 0.0, square = 0.0;
+  for (const VectorXd& x : without) sum += number(x);
+  for (const VectorXd& x : without) square += std::pow(number(x) - sum / n, 2);
+  return {number(all), student_quantile(n - 1.0) * std::sqrt((n - 1.0) / n * square)};
+}
+
+/// About the centre of mass: xx xy xz yy yz zz.
+double central_inertia(const VectorXd& p, Index k) {
+  constexpr Index row[] = {0, 0, 0, 1, 1, 2}, col[] = {0, 1, 2, 1, 2, 2};
+  const Eigen::Vector3d h = p.segment<3>(1);
+  const double steiner = (row[k] == col[k] ? h.squaredNorm() : 0.0) - h[row[k]] * h[col[k]];
+  return p[4 + k] - steiner / p[0];
+}
+
+class PayloadText {
+ public:
+  PayloadText(const ArmRegression& regression, Index pieces) : all_(regression.shared(-1)) {
+    for (Index p = 0; p < pieces; ++p) without_.push_back(regression.shared(p));
+  }
+
+  Json finding() {
+    put("delta_mass_kg", "kg", [](const VectorXd& x) { return x[0]; });
+    const Jackknifed mass = jackknife(without_, all_, [](const VectorXd& x) { return x[0]; });
+    const bool has_mass = std::abs(mass.value) > mass.half;
+    for (Index i = 1; i < 4; ++i) {
+      const std::string name = std::string(has_mass ? "delta_com_" : "delta_moment_") + "xyz"[i - 1];
+      put(name + (has_mass ? "_m" : "_kgm"), has_mass ? "m" : "kg*m",
+          [=](const VectorXd& x) { return has_mass ? x[i] / x[0] : x[i]; });
+    }
+    constexpr const char* kMoments[] = {"xx", "xy", "xz", "yy", "yz", "zz"};
+    for (Index k = 0; k < 6 && all_.size() == 10 && has_mass; ++k) {
+      put(std::string("delta_inertia_") + kMoments[k] + "_kgm2", "kg*m^2",
+          [=](const VectorXd& x) { return central_inertia(x, k); });
+    }
+    return {{"effect", "payload"},     {"kind", "parameter"},
+            {"axis", nullptr},         {"interval_s", nullptr},
+            {"parameters", numbers_},  {"words", words(has_mass)},
+            {"confidence", nullptr},   {"p_value", nullptr},
+            {"alternatives", Json::array()}, {"holdout_gain", nullptr}};
+  }
+
+ private:
+  template <class Number>
+  void put(const std::string& name, const std::string& unit, Number number) {
+    const Jackknifed n = jackknife(without_, all_, number);
+    Json interval = Json::array({n.value - n.half, n.value + n.half});
+    numbers_[name] = {{"value", n.value}, {"ci95", interval}, {"unit", unit}};
+  }
+  std::string words(bool has_mass) const {
+    const double m = all_[0], h = all_.segment<3>(1).norm();
+    if (!has_mass) return "a moment of " + brief(h) + " kg*m at the flange, without a mass that is told";
+    const std::string centre = ", centre " + brief(100.0 * h / std::abs(m)) + " cm off";
+    if (m > 0.0) return "payload of " + brief(m) + " kg" + centre;
+    return brief(-m) + " kg less at the flange than simulated" + centre;
+  }
+
+  VectorXd all_;
+  std::vector<VectorXd> without_;
+  Json numbers_ = Json::object();
+};
+
+Json links_finding() {
+  return {{"effect", "link_inertia"},
+          {"kind", "parameter"},
+          {"axis", nullptr},
+          {"interval_s", nullptr},
+          {"parameters", Json::object()},
+          {"words", "links with other masses, centres or inertias than described"},
+          {"confidence", nullptr},
+          {"p_value", nullptr},
+          {"alternatives", Json::array()},
+          {"holdout_gain", nullptr}};
+}
+
+}  // namespace
+
+MatrixXd told_parameters(const std::vector<JointRows>& rows) {
+  MatrixXd stacked(0, rows.front().arm.cols());
+  for (const JointRows& joint : rows) {
+    const double size = std::max(1e-300, joint.target.norm());
+    const Index before = stacked.rows();
+    stacked.conservativeResize(before + joint.arm.rows(), Eigen::NoChange);
+    stacked.bottomRows(joint.arm.rows()) = joint.arm / size;
+  }
+  const auto columns = independent_columns(stacked, kSharedTolerance);
+  return MatrixXd::Identity(stacked.cols(), stacked.cols())(Eigen::all, columns);
+}
+
+GivenArm what_is_missing(const std::vector<JointRows>& rows, const JointChain& chain,
+                         const VectorXd& bodies) {
+  const ArmSums sums(rows);
+  const Index columns = rows.front().arm.cols();
+  std::vector<MatrixXd> shared{MatrixXd(columns, 0), MatrixXd::Zero(columns, 4),
+                               MatrixXd::Zero(columns, 10)};
+  shared[2].bottomRows(10) = flange_to_link(chain);
+  shared[1] = shared[2].leftCols(4);
+  if (bodies.size() > 0) shared.push_back(told_parameters(rows));
+
+  ArmRegression largest(sums, with_all_terms(shared.back(), rows.size()));
+  largest.reweight();
+  const VectorXd variances = largest.variances();
+  std::size_t chosen = 0;
+  VectorXd least;
+  for (std::size_t h = 0; h < shared.size(); ++h) {
+    const VectorXd errors = errors_of(sums, with_all_terms(shared[h], rows.size()), variances);
+    if (h > 0 && !is_better(errors, least)) continue;
+    chosen = h;
+    least = errors;
+  }
+  GivenArm result;
+  if (chosen == 0) return result;
+  ArmModel model = with_all_terms(shared[chosen], rows.size());
+  drop_aliases(sums, variances, model);
+  ArmRegression regression(sums, model);
+  regression.reweight();
+  const VectorXd x = regression.shared(-1);
+  if (chosen == 3) {
+    result.missing = GivenArm::Missing::kLinks;
+    result.links = bodies + shared[chosen] * x;
+    result.finding = links_finding();
+    return result;
+  }
+  result.missing = GivenArm::Missing::kPayload;
+  result.payload.head(x.size()) = x;
+  result.finding = PayloadText(regression, sums.pieces()).finding();
+  return result;
+}
+
+}  // namespace dcnn
