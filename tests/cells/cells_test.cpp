@@ -240,7 +240,7 @@ TEST_F(Cells, StopWhenAskedToAndGoOn) {
   const fs::path at = planned(
       R"({"commands": [["bash", "-c", "echo {k}; sleep 0.1"]], "grid": {"k": {"from": 1, "count": 6}}})");
   int asked = 0;
-  const auto stopped = run(request(at), [&] { return ++asked > 6; });
+  const auto stopped = run(request(at), [&] { return ++asked > 3; });
   EXPECT_FALSE(stopped.finished);
   EXPECT_LT(stopped.done, 6);
   const auto rest = run(request(at));
