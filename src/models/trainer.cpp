@@ -14,7 +14,6 @@
 namespace dcnn {
 namespace {
 
-// Streams of random numbers that one seed feeds.
 std::vector<NamedTensor> copies(const std::vector<NamedTensor>& tensors) {
   std::vector<NamedTensor> result;
   for (const NamedTensor& t : tensors) {
@@ -32,8 +31,7 @@ void assign(const std::vector<NamedTensor>& to, const std::vector<NamedTensor>& 
 
 /// Rows of x that every process has made of its pieces come to all.
 void share_rows(const Tensor& x) {
-  const Index rows = x.dim(0), pieces = piece_count(rows);
-  const Index bytes = x.dim(1) * static_cast<Index>(sizeof(Real));
+  const Index rows = x.dim(0), pieces = piece_count(rows), bytes = x.dim(1) * Index{sizeof(Real)};
   share_pieces(x.data(), pieces, [&](Index k) { return piece_begin(rows, pieces, k) * bytes; });
 }
 
