@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +15,7 @@
 
 #include "dcnn/core/error.h"
 #include "dcnn/core/ranks.h"
+#include "support/interrupt.h"
 
 namespace dcnn {
 namespace {
@@ -32,9 +34,41 @@ int launched() {
 }
 
 #ifdef DCNN_WITH_MPI
+/// Where one process dies mpirun asks the others to end, which wait in an exchange that never
+/// completes; a user's wish to stop lets it complete. The first process tells which it was.
+class DeathWatch {
+ public:
+  DeathWatch() : thread_([this](const std::stop_token& stop) { watch(stop); }) {}
+  void enter() { entered_ = monotonic_s(); }
+  void leave() { entered_ = 0.0; }
+
+ private:
+  void watch(const std::stop_token& stop) const {
+    constexpr auto kLook = std::chrono::milliseconds(50);
+    constexpr double kPatience_s = 0.5;  // mpirun kills 1 s after it has asked
+    double asked = 0.0;
+    while (!stop.stop_requested()) {
+      std::this_thread::sleep_for(kLook);
+      const double now = monotonic_s(), entered = entered_;
+      if (!interrupted()) continue;
+      if (asked == 0.0) asked = now;
+      if (entered == 0.0 || now - std::max(entered, asked) < kPatience_s) continue;
+      constexpr char kWords[] =
+          "dcnn-train: one of its processes has died; the last checkpoint is kept, go on with the "
+          "same command and --resume\n";
+      ::_exit(::write(STDERR_FILENO, kWords, sizeof kWords - 1) < 0 ? 2 : 1);
+    }
+  }
+
+  std::atomic<double> entered_{0.0};  ///< when the exchange under way began, 0: none
+  std::jthread thread_;
+};
+
 class MpiRanks final : public Ranks {
  public:
-  using Ranks::Ranks;
+  MpiRanks(int index, int count) : Ranks(index, count) {
+    if (index == 0) watch_ = std::make_unique<DeathWatch>();
+  }
   void share(std::byte* data, const std::vector<Index>& offsets) override {
     counts_.clear();
     starts_.clear();
@@ -42,12 +76,15 @@ class MpiRanks final : public Ranks {
       starts_.push_back(static_cast<int>(offsets[r]));
       counts_.push_back(static_cast<int>(offsets[r + 1] - offsets[r]));
     }
+    if (watch_) watch_->enter();
     MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, data, counts_.data(), starts_.data(),
                    MPI_BYTE, MPI_COMM_WORLD);
+    if (watch_) watch_->leave();
   }
 
  private:
   std::vector<int> counts_, starts_;
+  std::unique_ptr<DeathWatch> watch_;
 };
 #endif
 
