@@ -1,9 +1,11 @@
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 
 #include "dcnn/cells/emit.h"
 #include "dcnn/cells/merge.h"
 #include "dcnn/cells/plan.h"
+#include "dcnn/cells/project.h"
 #include "dcnn/cells/run.h"
 #include "dcnn/core/file.h"
 #include "support/interrupt.h"
@@ -30,6 +32,19 @@ Shard parse_shard(const std::string& text) {
   require(read == 2 && shard.count >= 1 && shard.index >= 1 && shard.index <= shard.count,
           Exit::kUsage, "--shard: ", text, " is not i/n with 1 <= i <= n");
   return shard;
+}
+
+void print_projection(const std::filesystem::path& folder, const std::string& text) {
+  long cells = 0, workers = 0;
+  char rest = 0;
+  require(std::sscanf(text.c_str(), "%ld/%ld%c", &cells, &workers, &rest) == 2 && cells >= 1 &&
+              workers >= 1 && cells <= 10'000'000 && workers <= cells,
+          Exit::kUsage, "--project: ", text, " is not cells/workers, such as 1721/100");
+  const CellProjection p = project_cells(folder, cells, workers);
+  std::cout << p.measured << " cells took " << std::lround(p.mean_s * 10.0) / 10.0
+            << " s on average, the longest " << std::lround(p.longest_s * 10.0) / 10.0 << " s\n"
+            << cells << " such cells on " << workers << " workers: " << clock_text(p.median_s)
+            << ", 95 of 100 times less than " << clock_text(p.late_s) << "\n";
 }
 
 Exit run(const CellRun& request, bool failures_allowed, const Tool& tool) {
@@ -103,7 +118,7 @@ int main(int argc, char** argv) {
   MergeRequest merging;
   EngineRequest engine;
   CellRun work;
-  std::string shard, emit;
+  std::string shard, emit, project;
   bool status = false;
   tool.option("description", description,
               "settings, seeds, recordings, models and the commands (JSON)");
@@ -113,6 +128,7 @@ int main(int argc, char** argv) {
   tool.option("--limit", work.limit, "run this many cells and no more").positive();
   tool.flag("--again", work.again, "run cells that failed again");
   tool.flag("--status", status, "what is done, running, failed, and the time left");
+  tool.option("--project", project, "the time that N such cells take on W workers").called("N/W");
   tool.output("--merge", merging.table,
               "the table of all results, one line of JSON each, in the order of keys")
       .replaces(is_merged_table);
@@ -137,9 +153,11 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     const bool runs = jobs.given() || share.given();
-    require(runs || status || !description.empty() || !emit.empty() || !merging.table.empty() ||
-                !merging.files.empty(),
-            Exit::kUsage, "give a description, --jobs, --shard, --status, --emit, --merge or --unpack");
+    require(
+        runs || status || !project.empty() || !description.empty() || !emit.empty() ||
+            !merging.table.empty() || !merging.files.empty(),
+        Exit::kUsage,
+        "give a description, --jobs, --shard, --status, --project, --emit, --merge or --unpack");
     engine.program = fs::canonical("/proc/self/exe");
     work.programs = engine.program.parent_path();
     work.folder = engine.folder = merging.folder = folder;
@@ -160,6 +178,7 @@ int main(int argc, char** argv) {
     if (!emit.empty())
       std::cout << (emit == "slurm" ? slurm_script(engine) : parallel_script(engine));
     if (!merging.table.empty() || !merging.files.empty()) exit = merge(merging);
+    if (!project.empty()) print_projection(folder, project);
     if (status) {
       const Json json = cells_status(folder);
       tool.common().json ? Tool::print(json) : print_status(json);

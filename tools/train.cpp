@@ -6,8 +6,10 @@
 #include <iostream>
 #include <numeric>
 
+#include "dcnn/core/ranks.h"
 #include "support/doctor.h"
 #include "support/interrupt.h"
+#include "support/joined_ranks.h"
 #include "support/progress.h"
 #include "support/tool.h"
 
@@ -116,7 +118,8 @@ void print_summary(const Json& summary) {
 }
 
 /// What the check of the recordings found; a run that goes on was checked when it began.
-std::vector<std::string> checked(const Tool& tool, const Doctor& doctor, const TrainingRequest& request) {
+std::vector<std::string> checked(const Tool& tool, const Doctor& doctor,
+                                 const TrainingRequest& request) {
   if (request.resume) return {};
   CheckRequest logs{request.training, request.read, request.base.value_or(""),
                     request.configuration.system.value_or("")};
@@ -127,6 +130,7 @@ std::vector<std::string> checked(const Tool& tool, const Doctor& doctor, const T
 }  // namespace
 
 int main(int argc, char** argv) {
+  JoinedRanks ranks("dcnn-train");
   Tool tool("dcnn-train", "Learns the force a tool puts on its sensor from recordings (CSV).",
             kExamples);
   TrainingRequest request;
@@ -154,15 +158,17 @@ int main(int argc, char** argv) {
   const ReadFlags read(tool);
   const Doctor doctor(tool);
 
-  return tool.run(argc, argv, [&] {
+  return ranks.leave(tool.run(argc, argv, [&] {
     request.read = read.options();
     flags.seed = tool.common().seed;
     const auto run = run_directory(request.out);
-    require(request.resume || tool.common().force ||
+    require(!is_first_rank() || request.resume || tool.common().force ||
                 !std::filesystem::exists(run / "checkpoint.safetensors"),
             Exit::kUsage, run.string(),
             ": an interrupted run is here; go on with --resume, or start anew with --force");
     const std::vector<std::string> check = checked(tool, doctor, request);
+    require(rank_count() == 1 || flags.model != "auto", Exit::kUsage,
+            "--model auto tries models of one process; name one, or run dcnn-train without mpirun");
     catch_interrupts();
     Observer observer(tool);
     const TrainingOutcome outcome = flags.model == "auto"
@@ -181,6 +187,7 @@ int main(int argc, char** argv) {
       for (const std::string& line : check) std::cout << line << "\n";
       print_summary(outcome.summary);
     }
+    ranks.print_times();
     return Exit::kDone;
-  });
+  }));
 }

@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "dcnn/core/ranks.h"
+
 namespace dcnn {
 namespace {
 
@@ -189,6 +191,7 @@ std::string read_file(const fs::path& path, std::size_t max_bytes, Exit exit) {
 }
 
 void write_file(const fs::path& path, std::string_view bytes) {
+  if (!is_first_rank()) return;
   const Target target = target_of(path);
   if (target.descriptor >= 0) return write_all(target.descriptor, bytes, path);
   if (is_stream(target.file)) {
@@ -208,6 +211,7 @@ std::optional<fs::path> replaced_file(const fs::path& path) {
 }
 
 FolderLock::FolderLock(const fs::path& folder) {
+  if (!is_first_rank()) return;
   make_folder(folder);
   folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   check(folder_ >= 0, Exit::kFailure, folder, "cannot open this folder");

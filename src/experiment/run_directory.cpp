@@ -3,6 +3,8 @@
 #include <sstream>
 #include <utility>
 
+#include "dcnn/core/ranks.h"
+
 namespace dcnn {
 namespace {
 
@@ -25,6 +27,7 @@ std::optional<Container> RunDirectory::find_checkpoint(const std::string& identi
 }
 
 void RunDirectory::start(const Json& configuration) {
+  if (!is_first_rank()) return;
   for (const char* name : {"checkpoint.safetensors", "metrics.jsonl", "best.dcnn", "last.dcnn"}) {
     std::error_code ignored;
     std::filesystem::remove(folder_ / name, ignored);

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "dcnn/core/file.h"
+#include "dcnn/core/ranks.h"
+#include "dcnn/models/network_model.h"
 #include "experiment/references.h"
 #include "experiment/run_directory.h"
 #include "experiment/splitter.h"
@@ -93,6 +95,9 @@ class Learner {
     identifier_.model = configuration_.kind->make({identifier_.layout, identifier_.targets, json,
                                                    configuration_.where, configuration_.seed,
                                                    identifier_.base.has_value()});
+    require(rank_count() == 1 || dynamic_cast<const NetworkModel*>(identifier_.model.get()),
+            Exit::kUsage, configuration_.kind->name,
+            " is trained by one process; run dcnn-train without mpirun");
     RunDirectory run(folder);
     const std::string identity = identity_of(json, training_, validation_);
     FitSession session = make_session(run, identity, identifier_, json, observer_);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "dcnn/core/ranks.h"
 #include "dcnn/nn/loss.h"
 #include "models/linear_skip.h"
 #include "models/noisy_blocks.h"
@@ -13,7 +14,6 @@
 namespace dcnn {
 namespace {
 
-// Streams of random numbers that one seed feeds.
 std::vector<NamedTensor> copies(const std::vector<NamedTensor>& tensors) {
   std::vector<NamedTensor> result;
   for (const NamedTensor& t : tensors) {
@@ -27,6 +27,12 @@ void assign(const std::vector<NamedTensor>& to, const std::vector<NamedTensor>& 
     const auto values = from[i].tensor.values();
     std::copy(values.begin(), values.end(), to[i].tensor.data());
   }
+}
+
+/// Rows of x that every process has made of its pieces come to all.
+void share_rows(const Tensor& x) {
+  const Index rows = x.dim(0), pieces = piece_count(rows), bytes = x.dim(1) * Index{sizeof(Real)};
+  share_pieces(x.data(), pieces, [&](Index k) { return piece_begin(rows, pieces, k) * bytes; });
 }
 
 /// x (N, outputs) with each row times its factor.
@@ -54,6 +60,8 @@ Trainer::Trainer(NetworkModel& model, const Samples& training, const Samples& va
   require(rows >= spec_.batch, Exit::kData, "only ", rows,
           " training rows an epoch for batches of ", spec_.batch,
           "; give longer recordings or a smaller training.batch or training.stride");
+  require(rank_count() == 1 || model.network_->is_divisible(), Exit::kUsage,
+          "an LSTM is trained by one process; run dcnn-train without mpirun");
   y_ = (training.y.rowwise() - model.scale_.mean.transpose()).array().rowwise() /
        model.scale_.deviation.transpose().array();
   steps_per_epoch_ = rows / spec_.batch;  // an incomplete last batch is skipped (D37)
@@ -116,7 +124,7 @@ void Trainer::weigh_rows(const std::vector<std::size_t>& level_of) {
 bool Trainer::run_steps() {
   const KeptMemory kept;
   while (step_ < steps_per_epoch_) {
-    if (session_.stop_wanted && session_.stop_wanted()) return false;
+    if (any_rank(session_.stop_wanted && session_.stop_wanted())) return false;
     step();
     ++step_;
     if (session_.step_done) {
@@ -131,8 +139,10 @@ void Trainer::step() {
   const auto epoch = static_cast<std::uint64_t>(epoch_), number = static_cast<std::uint64_t>(step_);
   const Index first = step_ * spec_.batch;
   Pass pass{Pass::Mode::kTrain, Rng({model_.seed_, kDropout, epoch, number})};
+  const DividedWork divided;
   const Tensor inputs = gather(noisy_, order_, first);
   Tensor predicted = model_.network_->forward(inputs, pass), wanted = gather_targets(inputs, first);
+  share_rows(predicted);
   if (!row_factors_.empty()) {
     const std::vector<Real> factors = gather_factors(first);
     predicted = scaled_rows(predicted, factors);
@@ -219,6 +229,7 @@ void Trainer::collect_statistics() {
   const auto order = permutation(training_.rows(), rng);
   const PreparedStream clean = model_.input_->prepare(training_, model_.map_);
   Pass pass{Pass::Mode::kCollect, Rng(0)};
+  const DividedWork divided;
   for (Index k = 0; k < training_.rows() / spec_.batch; ++k) {
     pass.batch_number = k;
     model_.network_->forward(gather(clean, order, k * spec_.batch), pass);

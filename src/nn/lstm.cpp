@@ -20,6 +20,7 @@ class Lstm final : public Layer {
   };
   Lstm(const LstmShape& shape, Weights weights) : shape_(shape), weights_(std::move(weights)) {}
 
+  bool is_divisible() const override { return false; }  // on the way back pieces share memory
   Tensor forward(const Tensor& x, Pass&) const override {
     const LstmShape& s = shape_;
     const Weights& w = weights_;

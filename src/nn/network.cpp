@@ -84,6 +84,10 @@ Tensor Network::forward(const Tensor& x, Pass& pass) const {
   return y;
 }
 
+bool Network::is_divisible() const {
+  return std::ranges::all_of(stack_, [](const LayerPtr& layer) { return layer->is_divisible(); });
+}
+
 Index Network::parameter_count() const {
   Index count = 0;
   for (const auto& named : state_) {

@@ -50,6 +50,7 @@ class Normalisation {
       measure(x.data() + begin * sample, samples * sample, moments.of(piece));
     });
     if (!of_batch) return y;
+    moments.share();
     s = of_pieces(moments, n, sample, pass);
     for_each_part(n, apply);
     return y;
@@ -69,6 +70,7 @@ class Normalisation {
       channel_gradient_sums(gradient.from(first), x.data() + first, s.mean.data(),
                             samples * sample / channels(), channels(), sums.of(piece));
     });
+    sums.share();
     const Slopes slopes = parameter_gradients(s, sums, x.size() / channels());
     if (!dx.data) return;
     for_each_part(n, [&](Index piece, Index begin, Index samples) {

@@ -8,6 +8,7 @@
 #include "dcnn/cells/merge.h"
 #include "dcnn/cells/pack.h"
 #include "dcnn/cells/plan.h"
+#include "dcnn/cells/project.h"
 #include "dcnn/cells/run.h"
 #include "dcnn/core/file.h"
 #include "support/process.h"
@@ -240,7 +241,7 @@ TEST_F(Cells, StopWhenAskedToAndGoOn) {
   const fs::path at = planned(
       R"({"commands": [["bash", "-c", "echo {k}; sleep 0.1"]], "grid": {"k": {"from": 1, "count": 6}}})");
   int asked = 0;
-  const auto stopped = run(request(at), [&] { return ++asked > 6; });
+  const auto stopped = run(request(at), [&] { return ++asked > 3; });
   EXPECT_FALSE(stopped.finished);
   EXPECT_LT(stopped.done, 6);
   const auto rest = run(request(at));
@@ -318,6 +319,27 @@ TEST_F(Cells, AtWorkAreToldUntilTheirProcessEnds) {
     EXPECT_EQ(status["running"][0]["name"].get<std::string>(), plan(kSweep).cells[0].name);
   }
   EXPECT_TRUE(cells_status(at)["running"].empty());
+}
+
+TEST_F(Cells, AreProjectedFromTheTimesOfThoseThatRan) {
+  const fs::path at = planned(R"({"commands": [["true"]]})");
+  expect_refused([&] { project_cells(at, 10, 2); }, "no cell has run");
+  {
+    PackWriter pack(at, {1, 1});
+    for (const auto& [key, seconds] : {std::pair("a", 1.0), std::pair("b", 3.0)}) {
+      CellResult result;
+      result.key = key;
+      result.seconds = seconds;
+      pack.append(result);
+    }
+  }
+  const CellProjection one = project_cells(at, 100, 1), many = project_cells(at, 100, 100);
+  EXPECT_EQ(one.measured, 2);
+  EXPECT_EQ(one.mean_s, 2.0);
+  // A sum of 100 times of 1 or 3 s: mean 200 s, standard deviation 10 s.
+  EXPECT_NEAR(one.median_s, 200.0, 3.0);
+  EXPECT_NEAR(one.late_s, 200.0 + 1.645 * 10.0, 4.0);
+  EXPECT_EQ(many.median_s, 3.0);  // the longest of 100
 }
 
 TEST_F(Cells, AreCutIntoTasksOfFiveMinutesAtLeast) {

@@ -107,7 +107,7 @@ TEST(Scripts, PrintTheirHelpAndDoNothing) {
   const test::TemporaryFolder folder;
   for (const char* script :
        {"accuracy", "challenge", "check-rooms", "demo", "hybrid", "install-deps", "package", "real",
-        "real-identifiers", "reproduce", "teleop-live", "test", "test-neon"}) {
+        "real-identifiers", "reproduce", "teleop-live", "test", "test-engines", "test-neon"}) {
     const std::string out = folder / "out.txt";
     const std::string command = "cd '" + folder.path().string() + "' && timeout 10 '" DCNN_SOURCE_DIR
                                 "/tools/" + script + "' --help > out.txt 2>&1";

@@ -69,6 +69,7 @@ const Case kCases[] = {
      {"--inject", "bias", "--motion", "@d/a.csv", "--sim", "s", "--out", "@d", "--seal", "@s"},
      "d/a.csv",
      kInput},
+    {"sweep", {"--plan", "p", "--jobs", "1", "--merge", "@t.jsonl"}, "t.jsonl", kKept},
     {"run", {"--make-key", "@key"}, "key", kKept},
 };
 INSTANTIATE_TEST_SUITE_P(Every, Outputs, ::testing::ValuesIn(kCases));

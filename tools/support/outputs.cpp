@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "dcnn/core/ranks.h"
+
 namespace dcnn {
 namespace {
 
@@ -58,6 +60,7 @@ std::vector<Outputs::Path> Outputs::inputs() const {
 }
 
 void Outputs::claim(bool force) {
+  if (!is_first_rank()) return;
   for (const auto& rule : rules_) {
     if (rule->path().empty()) continue;
     const bool keep = !force && !any_given(rule->unless);

@@ -49,6 +49,9 @@ class Layer {
   /// From now on forward() does a batch norm or a ReLU, too; false where it cannot.
   virtual bool absorb_norm(const Normalisation& /*norm*/) { return false; }
   virtual bool absorb_relu() { return false; }
+  /// Whether a piece of a batch passes forth and back without the others, but for PieceSums: then
+  /// processes can divide its pieces.
+  virtual bool is_divisible() const { return true; }
   /// The layer at inference as a step for one sample of this shape, given the step before it (null
   /// for the first); null where it does nothing then, or where that step does it too.
   virtual std::unique_ptr<PlanStep> plan(const Shape& sample, PlanStep* before) const = 0;

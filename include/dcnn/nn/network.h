@@ -18,6 +18,9 @@ class Network {
   /// x is (N, input…); the result (N, outputs).
   Tensor forward(const Tensor& x, Pass& pass) const;
 
+  /// Whether processes can divide the pieces of a batch among them.
+  bool is_divisible() const;
+
   /// Everything a model file holds, named "<index>.<kind>.<tensor>", in layer order.
   const std::vector<NamedTensor>& state() const { return state_; }
   /// Number of learnable parameters (statistics do not count).
