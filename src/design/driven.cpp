@@ -1,9 +1,9 @@
-// Limits from recordings.
+// Limits from recordings, and the next motion within them.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "dcnn/design/limits.h"
+#include "dcnn/design/design.h"
 #include "dcnn/physics/motion.h"
 
 namespace dcnn::design {
@@ -57,6 +57,19 @@ std::optional<Limits> driven_limits(const std::vector<Recording>& recordings, co
   limits.pose = pose;
   limits.rate_hz = model.sample_rate_hz;
   return limits;
+}
+
+Json next_motion(const DiagnosisRequest& request, const Diagnosis& diagnosis) {
+  constexpr double kSeconds = 30.0;
+  constexpr int kEvaluations = 60;  // half a second
+  if (!request.simulator || request.system) return nullptr;
+  const Recording first = read_recording(request.fit.front(), request.read, System());
+  const auto limits = driven_limits({first}, diagnosis.corrected.model);
+  if (!limits) return nullptr;
+  DesignRequest wanted{diagnosis.report, diagnosis.model, "report.json", *limits, kSeconds, kEvaluations, 1};
+  Json next = next_motion(make_design(wanted, {}), kSeconds);
+  if (!next.is_null()) next["limits"] = to_json(*limits);
+  return next;
 }
 
 }  // namespace dcnn::design

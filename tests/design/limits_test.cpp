@@ -137,7 +137,7 @@ TEST_P(DesignBadLimits, AreOneLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, DesignBadLimits, testing::ValuesIn(kBad),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace
 }  // namespace dcnn::design

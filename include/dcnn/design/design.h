@@ -10,6 +10,7 @@
 #include "dcnn/core/json.h"
 #include "dcnn/data/csv.h"
 #include "dcnn/design/limits.h"
+#include "dcnn/diagnosis/diagnose.h"
 
 namespace dcnn::design {
 
@@ -46,6 +47,9 @@ Design make_design(const DesignRequest& request, const std::function<void(double
 
 /// `next_motion` of report.json; null where nothing is left to be decided.
 Json next_motion(const Design& design, double seconds);
+/// The same of a diagnosis of a tool with a simulator of its own, in every direction as far and as fast as its first
+/// recording moved in one; null for other machines, poses at rest and where nothing is left to be decided.
+Json next_motion(const DiagnosisRequest& request, const Diagnosis& diagnosis);
 std::string to_text(const Design& design);
 Json to_json(const Design& design, double seconds);
 
