@@ -41,15 +41,15 @@ std::optional<Limits> driven_limits(const std::vector<Recording>& recordings, co
     pose.angular_acceleration = std::max(pose.angular_acceleration, usual_most(m.dw_S));
   }
   if (low.size() == 0) return std::nullopt;
-  constexpr double kSteepest = 1.4;  // rad, |beta|
+  constexpr double kSteepestDriven = 1.4;  // rad, |beta|
   Limits limits;
   limits.start = 0.5 * (low + high);
   for (Index k = 0; k < 6; ++k) {
     const double half = 0.5 * (high - low).segment(k < 3 ? 0 : 3, 3).maxCoeff();
     Range range{limits.start(k) - half, limits.start(k) + half};
     if (k == 4) {
-      limits.start(k) = std::clamp(limits.start(k), -kSteepest, kSteepest);
-      range = {std::max(range.low, -kSteepest), std::min(range.high, kSteepest)};
+      limits.start(k) = std::clamp(limits.start(k), -kSteepestDriven, kSteepestDriven);
+      range = {std::max(range.low, -kSteepestDriven), std::min(range.high, kSteepestDriven)};
       range = {std::min(range.low, limits.start(k)), std::max(range.high, limits.start(k))};
     }
     pose.range[static_cast<std::size_t>(k)] = range;
