@@ -34,6 +34,7 @@ struct Design {
   Table motion;                     ///< t from 0; x … gamma, or joints q1 … and x … gamma
   std::vector<std::string> limits;  ///< each limit and its share that is used, in words
   double greatest_use = 0.0;        ///< of any limit; 1 at most
+  std::string chosen;               ///< names of the report's own model
   std::vector<Verdict> verdicts;    ///< of the chosen structure and its likeliest rival first
   double unknown = 0.0;             ///< probability that no name describes what is left
   double information = 0.0;         ///< nats about a law linear in the states, for each of these
