@@ -20,6 +20,9 @@ constexpr const char* kExamples =
     "    --holdout set/s0001/holdout_*.csv --out set/reports/s0001\n"
     "  dcnn-conceal --inject coulomb_friction@tool_z --amplitude 0.5 --motion log.csv \\\n"
     "    --sim sim.json --out hidden --seal hidden.sealed.json       # in your own recording\n"
+    "  dcnn-conceal --scenario poor:0.5/gain/1 --on motion.csv --out again --seal again.json  # "
+    "the same\n"
+    "                                       # scenario, with one more recording, on that motion\n"
     "  dcnn-conceal --score --out set --seal set.sealed.json    # set/scores.json, "
     "set/report.html\n";
 
@@ -89,6 +92,7 @@ int main(int argc, char** argv) {
   std::string family = "plain";
   std::filesystem::path out, seal;
   std::string fault;
+  std::vector<std::filesystem::path> on;
   conceal::Injection injection;
   auto many = tool.option("--scenarios", scenarios, "how many, of every group its share");
   tool.option("--scenario", ids, "these, as a sealed file names them under `drawn`").excludes(many);
@@ -109,6 +113,9 @@ int main(int argc, char** argv) {
           "the force), clock (200 to 2000 Hz, rows lost), field (some of each), hardware (plain, "
           "with laws that hardware has: load friction, creep), all (in turn)")
       .with_default();
+  tool.option("--on", on,
+              "motions (t, x,y,z, alpha,beta,gamma) on which every scenario is recorded once more, after its own "
+              "recordings: same tool, effects and sensor");
   const Option opening =
       tool.flag("--score", score, "score OUT/reports/*/report.json against the seal").excludes(many);
   tool.flag("--list-faults", list, "prints the names for --fault");
@@ -166,11 +173,17 @@ int main(int argc, char** argv) {
     if (rounds > 0) ids = conceal::rates_plan(rounds, seed);
     if (ids.empty()) ids = conceal::plan(scenarios, seed);
     ids = conceal::in_family(std::move(ids), family);
+    std::vector<Recording> motions;
+    ReadOptions pose_alone = read.options();
+    pose_alone.motion_only = true;
+    for (const auto& file : on) motions.push_back(read_recording(file, pose_alone, System()));
     Progress bar(tool.common().quiet);
-    const std::string digest =
-        conceal::conceal_challenge(ids, seed, out, seal, [&](int done, int total) {
+    const std::string digest = conceal::conceal_challenge(
+        ids, seed, out, seal,
+        [&](int done, int total) {
           bar.update(static_cast<double>(done) / total, std::to_string(done) + " scenarios");
-        });
+        },
+        motions);
     bar.clear();
     return print(tool, ids.size(), seed, digest, seal);
   });

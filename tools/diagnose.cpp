@@ -1,5 +1,6 @@
 #include <iostream>
 
+#include "dcnn/design/design.h"
 #include "dcnn/experiment/diagnosis_report.h"
 #include "dcnn/identification/urdf.h"
 #include "support/doctor.h"
@@ -91,6 +92,8 @@ int main(int argc, char** argv) {
     Progress bar(tool.common().quiet);
     Diagnosis diagnosis = diagnose(request, [&](const std::string& text) { bar.line(text); });
     add_least_sizes(request, diagnosis);
+    bar.line("designing the next motion");
+    diagnosis.report["next_motion"] = design::next_motion(request, diagnosis);
     bar.clear();
     diagnosis.report = with_check(check, diagnosis.report);
     write_diagnosis(out, diagnosis);

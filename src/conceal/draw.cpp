@@ -109,7 +109,7 @@ void draw_simulator(const Request& r, const std::vector<Wanted>& wanted, Scenari
 /// out.
 std::vector<Path> draw_motion(Scenario& s, Rng& rng) {
   const std::size_t count = rng.uniform() < 0.5 ? 2 : 3, held = count == 2 ? 1 : 1 + rng.below(2);
-  const Climate climate = draw_climate(rng);
+  const Climate climate = s.climate = draw_climate(rng);
   std::vector<Path> paths;
   double start = 0.0;
   int fit = 0;
@@ -118,7 +118,7 @@ std::vector<Path> draw_motion(Scenario& s, Rng& rng) {
     const double seconds = s.conditions.seconds > 0.0 ? s.conditions.seconds : drawn;
     paths.push_back(make_path(s.motion, start, seconds, s.tool.mounting, s.conditions, rng.bits()));
     paths.back().climate = climate;
-    start = std::ceil(start + seconds + 5.0);
+    start = next_start(start + seconds);
     s.recordings.emplace_back();
     s.recordings.back().holdout = k == held;
     s.recordings.back().name = k == held ? "holdout_0" : "fit_" + std::to_string(fit++);

@@ -49,6 +49,10 @@ void place(Hidden& h, const Scenario& s, const std::vector<Path>& paths, Rng& rn
 std::optional<Hidden> of_amplitude(const std::vector<Path>& paths, const Scenario& s, Hidden h,
                                    double target);
 
+/// Pauses between recordings, from the end of one to the start of the next [s].
+double next_start(double end);
+/// Fills one recording from its path.
+void record(const Scenario& s, const Path& path, bool thermometer, Recorded& r, Rng& rng);
 /// Fills s.recordings from the paths.
 void record(Scenario& s, const std::vector<Path>& paths, bool thermometer, Rng& rng);
 

@@ -101,24 +101,6 @@ Path path_along(const Recording& recording, const Axis& axis) {
   return path;
 }
 
-/// Orientations through quaternions, so that no Euler singularity matters but to the angles.
-Path path_of(const Recording& recording, const Eigen::Vector3d& mounting) {
-  refuse_gaps(recording);
-  require(recording.has_all(kForces), Exit::kData, recording.name, ": has no fx,fy,fz");
-  const Eigen::VectorXd t = recording.column("t");
-  Eigen::MatrixXd raw = Eigen::MatrixXd::Zero(t.size(), 10);
-  if (recording.has_all({"x", "y", "z"})) raw.leftCols(3) = recording.block({"x", "y", "z"});
-  raw.middleCols(3, 3) = euler_angles(recording);
-  raw.rightCols(4) = quaternions(recording);
-  const Eigen::MatrixXd fine = resampled(t, raw);
-  std::vector<Eigen::Matrix3d> rotation;
-  for (Index i = 0; i < fine.rows(); ++i) {
-    const Eigen::Quaterniond q(fine(i, 6), fine(i, 7), fine(i, 8), fine(i, 9));
-    rotation.push_back(q.normalized().toRotationMatrix());
-  }
-  return follow(t(0), fine.leftCols(6), std::move(rotation), mounting);
-}
-
 /// Deviation of white noise, from the median of second differences; of the middle axis.
 double noise_of(const Eigen::MatrixXd& force) {
   std::vector<double> sigma;
@@ -186,6 +168,22 @@ void check(const std::vector<Hidden>& hidden) {
 
 }  // namespace
 
+Path path_of(const Recording& recording, const Eigen::Vector3d& mounting) {
+  refuse_gaps(recording);
+  const Eigen::VectorXd t = recording.column("t");
+  Eigen::MatrixXd raw = Eigen::MatrixXd::Zero(t.size(), 10);
+  if (recording.has_all({"x", "y", "z"})) raw.leftCols(3) = recording.block({"x", "y", "z"});
+  raw.middleCols(3, 3) = euler_angles(recording);
+  raw.rightCols(4) = quaternions(recording);
+  const Eigen::MatrixXd fine = resampled(t, raw);
+  std::vector<Eigen::Matrix3d> rotation;
+  for (Index i = 0; i < fine.rows(); ++i) {
+    const Eigen::Quaterniond q(fine(i, 6), fine(i, 7), fine(i, 8), fine(i, 9));
+    rotation.push_back(q.normalized().toRotationMatrix());
+  }
+  return follow(t(0), fine.leftCols(6), std::move(rotation), mounting);
+}
+
 namespace {
 
 /// What is measured, and of whom.
@@ -198,7 +196,9 @@ struct Subject {
 
   bool is_machine() const { return system.kind == System::Kind::kAxes; }
   Path path(const Recording& log) const {
-    return is_machine() ? path_along(log, system.axes.front()) : path_of(log, tool.mounting);
+    if (is_machine()) return path_along(log, system.axes.front());
+    require(log.has_all(kForces), Exit::kData, log.name, ": has no fx,fy,fz");
+    return path_of(log, tool.mounting);
   }
 };
 

@@ -93,17 +93,42 @@ std::vector<Hidden> without_rounding(std::vector<Hidden> hidden) {
 
 }  // namespace
 
-void record(Scenario& s, const std::vector<Path>& paths, bool thermometer, Rng& rng) {
+double next_start(double end) { return std::ceil(end + 5.0); }
+
+void record(const Scenario& s, const Path& path, bool thermometer, Recorded& r, Rng& rng) {
   const double lattice = s.noise.kind == "quantised" ? 2e3 : 1e7;
   const int stride = s.conditions.samples_per_reading;
-  for (std::size_t k = 0; k < paths.size(); ++k) {
-    Recorded& r = s.recordings[k];
-    r.clean = reading(paths[k], s.tool, without_rounding(s.hidden), {}, stride);
-    r.measured = reading(paths[k], s.tool, s.hidden, sensor_noise(s, r.clean, rng), stride)
-                     .unaryExpr([lattice](double f) { return printed(f, lattice); });
-    read_pose(paths[k], s, thermometer, r, rng);
-    if (s.conditions.lost > 0.0) lose_rows(s.conditions, r, rng);
+  r.clean = reading(path, s.tool, without_rounding(s.hidden), {}, stride);
+  r.measured = reading(path, s.tool, s.hidden, sensor_noise(s, r.clean, rng), stride)
+                   .unaryExpr([lattice](double f) { return printed(f, lattice); });
+  read_pose(path, s, thermometer, r, rng);
+  if (s.conditions.lost > 0.0) lose_rows(s.conditions, r, rng);
+}
+
+void record(Scenario& s, const std::vector<Path>& paths, bool thermometer, Rng& rng) {
+  for (std::size_t k = 0; k < paths.size(); ++k) record(s, paths[k], thermometer, s.recordings[k], rng);
+}
+
+void record_on(Scenario& scenario, const Recording& motion, std::uint64_t seed) {
+  Path path = path_of(motion, scenario.tool.mounting);
+  double end = 0.0;
+  std::size_t fitted = 0;
+  for (const Recorded& r : scenario.recordings) {
+    end = std::max(end, r.t.maxCoeff());
+    fitted += r.holdout ? 0 : 1;
   }
+  path.start = next_start(end);
+  path.climate = scenario.climate;
+  const double last = path.time(path.samples() - scenario.conditions.samples_per_reading);
+  for (Hidden& h : scenario.hidden) {
+    if (h.effect == "step_bias" && h.interval_s) h.interval_s->second = last;
+  }
+  Recorded next;
+  next.name = "fit_" + std::to_string(fitted);
+  const bool thermometer = scenario.recordings.front().temperature.size() > 0;
+  Rng rng({seed, 14, scenario.recordings.size()});
+  record(scenario, path, thermometer, next, rng);
+  scenario.recordings.push_back(std::move(next));
 }
 
 }  // namespace dcnn::conceal

@@ -43,13 +43,15 @@ std::string write_seal(const Json& answers, const fs::path& folder, const fs::pa
 
 std::string conceal_challenge(const std::vector<std::string>& ids, std::uint64_t seed,
                               const fs::path& folder, const fs::path& seal,
-                              const std::function<void(int, int)>& progress) {
+                              const std::function<void(int, int)>& progress,
+                              const std::vector<Recording>& motions) {
   keep_apart(folder, seal);
   Json answers{{"seed", seed}, {"scenarios", Json::array()}};
   for (std::size_t k = 0; k < ids.size(); ++k) {
     char name[32];
     std::snprintf(name, sizeof name, "s%04zu", k + 1);
-    const Scenario scenario = draw(ids[k], seed);
+    Scenario scenario = draw(ids[k], seed);
+    for (const Recording& motion : motions) record_on(scenario, motion, seed);
     Json one{{"id", name}};
     one.update(truth(scenario));
     one["sha256"] = written(scenario, folder / name);

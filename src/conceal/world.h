@@ -8,11 +8,6 @@ namespace dcnn::conceal {
 
 constexpr double kStep = 1.0 / 4000.0;  // s
 
-/// The room's temperature [degC] over the clock: warms up and swings.
-struct Climate {
-  double start = 21.0, rise = 0.0, settle_s = 60.0, swing = 0.0, period_s = 90.0;
-  double operator()(double t) const;
-};
 Climate draw_climate(Rng& rng);
 
 /// A recording's motion, 4000 samples a second.
@@ -33,6 +28,10 @@ struct Path {
 /// mounted in them with rpy `mounting`.
 Path follow(double start, const Eigen::MatrixXd& pose, std::vector<Eigen::Matrix3d> rotation,
             const Eigen::Vector3d& mounting);
+
+/// The motion of a recording without gaps, smoothed over some 20 ms. Orientations pass through quaternions, so that no
+/// Euler singularity matters but to the angles.
+Path path_of(const Recording& recording, const Eigen::Vector3d& mounting);
 
 /// Motions: human, multisine, points, scan, repeats; poor: harmonic, planar. With the conditions'
 /// tremor.

@@ -11,7 +11,7 @@ struct Contest {
   double own = 0.0, rival = 0.0;
 };
 
-/// P(difference > threshold). The non-central distribution by its cube root (Abdel-Aty 1954).
+/// P(difference > threshold).
 double probability_above(const Contest& contest, double threshold);
 
 /// The chi-square that the rival must have above the true structure, on all recordings, for dcnn-diagnose to list it no

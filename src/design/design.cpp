@@ -73,8 +73,11 @@ class Judge {
         const double square = predictor_.fitted_square(b, motion, all[a].force);
         const double shared = shared_dimension(all[a], all[b]);
         const auto own = static_cast<double>(dimension(all[a])), rival = static_cast<double>(dimension(all[b]));
-        const double before = hypotheses[b].chi2_above - hypotheses[a].chi2_above;
-        const double needed = exclusion_threshold(hypotheses[b].more_numbers - hypotheses[a].more_numbers) - before;
+        const int more = hypotheses[b].more_numbers - hypotheses[a].more_numbers;
+        double before = hypotheses[b].chi2_above - hypotheses[a].chi2_above;
+        // What further numbers gained by chance they lose where the next recording tells them better.
+        if (more > 0) before = std::max(0.0, before);
+        const double needed = exclusion_threshold(more) - before;
         const Contest contest{square, std::max(0.0, own - shared), std::max(0.0, rival - shared)};
         const double p = probability_above(contest, needed);
         list.push_back({question_.name_of(a, b), question_.name_of(b, a), std::sqrt(square), p});
@@ -144,6 +147,7 @@ Design make_design(const DesignRequest& request, const std::function<void(double
   const Spline best = within(best_spline(judge, request, progress), request.limits, request.limits.rate_hz);
   Design design;
   const Played coarse = judge.played(best);
+  design.chosen = question.chosen();
   design.unknown = question.unknown;
   design.information = judge.unknown_information(coarse.motion);
   design.verdicts = judge.verdicts(coarse.motion, design);

@@ -1,9 +1,9 @@
-// Limits from recordings.
+// Limits from recordings, and the next motion within them.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "dcnn/design/limits.h"
+#include "dcnn/design/design.h"
 #include "dcnn/physics/motion.h"
 
 namespace dcnn::design {
@@ -41,15 +41,15 @@ std::optional<Limits> driven_limits(const std::vector<Recording>& recordings, co
     pose.angular_acceleration = std::max(pose.angular_acceleration, usual_most(m.dw_S));
   }
   if (low.size() == 0) return std::nullopt;
-  constexpr double kSteepest = 1.4;  // rad, |beta|
+  constexpr double kSteepestDriven = 1.4;  // rad, |beta|
   Limits limits;
   limits.start = 0.5 * (low + high);
   for (Index k = 0; k < 6; ++k) {
     const double half = 0.5 * (high - low).segment(k < 3 ? 0 : 3, 3).maxCoeff();
     Range range{limits.start(k) - half, limits.start(k) + half};
     if (k == 4) {
-      limits.start(k) = std::clamp(limits.start(k), -kSteepest, kSteepest);
-      range = {std::max(range.low, -kSteepest), std::min(range.high, kSteepest)};
+      limits.start(k) = std::clamp(limits.start(k), -kSteepestDriven, kSteepestDriven);
+      range = {std::max(range.low, -kSteepestDriven), std::min(range.high, kSteepestDriven)};
       range = {std::min(range.low, limits.start(k)), std::max(range.high, limits.start(k))};
     }
     pose.range[static_cast<std::size_t>(k)] = range;
@@ -57,6 +57,19 @@ std::optional<Limits> driven_limits(const std::vector<Recording>& recordings, co
   limits.pose = pose;
   limits.rate_hz = model.sample_rate_hz;
   return limits;
+}
+
+Json next_motion(const DiagnosisRequest& request, const Diagnosis& diagnosis) {
+  constexpr double kSeconds = 30.0;
+  constexpr int kEvaluations = 60;  // half a second
+  if (!request.simulator || request.system) return nullptr;
+  const Recording first = read_recording(request.fit.front(), request.read, System());
+  const auto limits = driven_limits({first}, diagnosis.corrected.model);
+  if (!limits) return nullptr;
+  DesignRequest wanted{diagnosis.report, diagnosis.model, "report.json", *limits, kSeconds, kEvaluations, 1};
+  Json next = next_motion(make_design(wanted, {}), kSeconds);
+  if (!next.is_null()) next["limits"] = to_json(*limits);
+  return next;
 }
 
 }  // namespace dcnn::design

@@ -176,6 +176,27 @@ Limits parse_limits(const Json& json, const std::string& where, const std::files
   return limits;
 }
 
+Json to_json(const Limits& limits) {
+  Json json{{"rate_hz", limits.rate_hz}};
+  const char* const groups[] = {"position_m", "angle_rad"};
+  const char* const names[] = {"x", "y", "z", "alpha", "beta", "gamma"};
+  for (std::size_t k = 0; k < 6; ++k) {
+    json[groups[k / 3]][names[k]] = {limits.pose.range[k].low, limits.pose.range[k].high};
+  }
+  const auto add = [&](const char* key, double value) {
+    if (std::isfinite(value)) json[key] = value;
+  };
+  add("speed_mps", limits.pose.speed);
+  add("acceleration_mps2", limits.pose.acceleration);
+  add("jerk_mps3", limits.pose.jerk);
+  add("rate_radps", limits.pose.rate);
+  add("acceleration_radps2", limits.pose.angular_acceleration);
+  add("jerk_radps3", limits.pose.angular_jerk);
+  const Eigen::VectorXd& s = limits.start;
+  json["start"] = {{"position_m", {s(0), s(1), s(2)}}, {"angle_rad", {s(3), s(4), s(5)}}};
+  return json;
+}
+
 Limits read_limits(const std::filesystem::path& path) {
   return parse_limits(read_json(path, Exit::kUsage), path.string(), path.parent_path());
 }

@@ -53,6 +53,12 @@ int channel_of(const std::string& target, const std::string& where) {
 
 }  // namespace
 
+std::string Question::chosen() const {
+  std::string names;
+  for (const EffectSpec& e : hypotheses.front().effects) names += (names.empty() ? "" : " + ") + e.effect;
+  return names.empty() ? "nothing" : names;
+}
+
 std::string Question::name_of(std::size_t one, std::size_t other) const {
   std::string names;
   for (const EffectSpec& e : hypotheses[one].effects) {
@@ -104,6 +110,8 @@ Question question_of(const Json& report, const Json& model, const std::string& w
   }
   for (Hypothesis& one : question.hypotheses) leave_past(one.effects);
   set_masses(log_odds, question);
+  std::stable_sort(question.hypotheses.begin() + 1, question.hypotheses.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.mass > b.mass; });
   return question;
 }
 

@@ -91,7 +91,7 @@ Json next_motion(const Design& design, double seconds) {
   if (design.verdicts.empty() && design.unknown < 1.0 - kDecided) return nullptr;
   Json separates = Json::array();
   if (design.verdicts.empty()) {
-    separates = {"nothing", "unknown"};
+    separates = {design.chosen, "unknown"};
   } else {
     separates = {design.verdicts[0].one, design.verdicts[0].other};
   }

@@ -174,13 +174,13 @@ Json rivals_json(const Search& search, const std::vector<std::vector<Alternative
     for (const Alternative& other : of_member) add(other.members, other.log_odds, other.chi2_above);
   }
   const evidence::Posterior& p = search.posterior();
-  if (p.structures.empty()) return list;
-  const auto mass = [&](std::size_t k) { return p.without_unknown[k] + p.with_unknown[k]; };
+  const double least = elementary::exp(-0.5 * kAsLikely);
+  if (p.structures.empty() || p.without_unknown[p.most_probable()] < least) return list;
   const std::size_t best = p.most_probable();
   for (std::size_t k = 0; k < p.structures.size(); ++k) {
     const evidence::Structure& s = p.structures[k];
-    const double odds = mass(k) / mass(best);
-    if (k == best || s.members.size() == chosen.size() || !(odds > elementary::exp(-0.5 * kAsLikely))) continue;
+    const double odds = p.without_unknown[k] / p.without_unknown[best];
+    if (k == best || s.members.size() == chosen.size() || !(odds > least)) continue;
     add(s.members, elementary::log(odds), s.chi2 - p.structures[best].chi2);
   }
   return list;

@@ -83,7 +83,7 @@ TEST(DesignSeparation, IsWhatARefittedRivalLeaves) {
 
 TEST(DesignDecision, ProbabilityIsTheShareOfSimulatedRecordingsThatDecide) {
   DesignRequest request = test::friction_request();
-  request.report["fit"]["noise_floor"] = {0.6, 0.6, 0.6};
+  request.report["fit"]["noise_floor"] = {0.2, 0.2, 0.2};
   const Question question = question_of(request.report, request.model, "report.json");
   constexpr double kHz = 50.0;
   const Predictor predictor(question, kHz);
@@ -106,7 +106,8 @@ TEST(DesignDecision, ProbabilityIsTheShareOfSimulatedRecordingsThatDecide) {
     const double p = probability_above(contest, threshold);
     double share = 0.0;
     for (const double d : differences) share += d > threshold ? 1.0 / kRecordings : 0.0;
-    EXPECT_NEAR(share, p, 3.5 * std::sqrt(p * (1.0 - p) / kRecordings)) << shift;
+    EXPECT_GT(threshold, 0.0);
+    EXPECT_NEAR(share, p, 3.5 * std::sqrt(p * (1.0 - p) / kRecordings) + 0.005) << shift;
   }
 }
 

@@ -101,8 +101,9 @@ class Clone {
 
 /// Pages in the order in which a reader comes to them: later ones use what earlier ones wrote.
 const std::vector<const char*> kPages{
-    "first-log.md", "import.md", "check.md",     "identify.md", "diagnose.md", "train.md",
-    "export.md",    "outputs.md", "calibrate.md", "run.md",      "teleop.md", "cluster.md"};
+    "first-log.md", "import.md",  "check.md",  "identify.md", "diagnose.md", "discover.md",
+    "train.md",     "export.md",  "outputs.md", "calibrate.md", "run.md",     "teleop.md",
+    "cluster.md"};
 
 TEST(DocumentedCommands, OfEveryPageRunOrSayWhyNot) {
   if (test::kSanitized) GTEST_SKIP() << "as any program under sanitizers, by tests of its own";

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dcnn/core/json.h"
+#include "dcnn/data/recording.h"
 
 namespace dcnn::conceal {
 
@@ -29,11 +30,12 @@ std::vector<std::string> in_family(std::vector<std::string> ids, const std::stri
 /// Writes FOLDER/s0001/{sim.json,fit_*.csv,holdout_*.csv}, … and the sealed answers to the file
 /// `seal`, which must lie outside the folder; returns the SHA-256 of its bytes, which stands in
 /// FOLDER/seal.sha256 as well. The seal holds the SHA-256 of every file a scenario has.
-/// `progress` is told how many are written.
+/// Each scenario is recorded on each of `motions` too (record_on()). `progress` is told how many are written.
 std::string conceal_challenge(const std::vector<std::string>& ids, std::uint64_t seed,
                               const std::filesystem::path& folder,
                               const std::filesystem::path& seal,
-                              const std::function<void(int done, int total)>& progress);
+                              const std::function<void(int done, int total)>& progress,
+                              const std::vector<Recording>& motions = {});
 
 /// Writes one scenario's sealed answers: the document's bytes go to `seal`, their SHA-256 to
 /// FOLDER/seal.sha256; returns the latter.

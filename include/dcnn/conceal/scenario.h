@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "dcnn/core/json.h"
+#include "dcnn/data/recording.h"
 
 namespace dcnn::conceal {
 
@@ -57,6 +58,12 @@ struct Conditions {
   double hz() const { return 4000.0 / samples_per_reading; }
 };
 
+/// The room's temperature [degC] over the clock: warms up and swings.
+struct Climate {
+  double start = 21.0, rise = 0.0, settle_s = 60.0, swing = 0.0, period_s = 90.0;
+  double operator()(double t) const;
+};
+
 struct Recorded {
   std::string name;
   bool holdout = false;
@@ -72,6 +79,7 @@ struct Scenario {
   Noise noise;
   Conditions conditions;
   std::string motion;
+  Climate climate;
   std::vector<Hidden> hidden;
   std::vector<Recorded> recordings;
 };
@@ -102,6 +110,10 @@ const std::vector<std::string>& families();
 /// (dry friction along an axis that rests) is drawn anew, motion and all. Error(kUsage) for another
 /// id.
 Scenario draw(const std::string& id, std::uint64_t seed);
+
+/// One more recording to fit on: the same tool, effects, sensor and conditions while the robot follows the pose of
+/// `motion`. Its clock begins some 5 s after the last recording; what acts to the end of the clock goes on.
+void record_on(Scenario& scenario, const Recording& motion, std::uint64_t seed);
 
 /// Writes sim.json and one CSV per recording; returns the files to fit on and those held out.
 struct Files {

@@ -10,6 +10,7 @@
 #include "dcnn/core/json.h"
 #include "dcnn/data/csv.h"
 #include "dcnn/design/limits.h"
+#include "dcnn/diagnosis/diagnose.h"
 
 namespace dcnn::design {
 
@@ -33,6 +34,7 @@ struct Design {
   Table motion;                     ///< t from 0; x … gamma, or joints q1 … and x … gamma
   std::vector<std::string> limits;  ///< each limit and its share that is used, in words
   double greatest_use = 0.0;        ///< of any limit; 1 at most
+  std::string chosen;               ///< names of the report's own model
   std::vector<Verdict> verdicts;    ///< of the chosen structure and its likeliest rival first
   double unknown = 0.0;             ///< probability that no name describes what is left
   double information = 0.0;         ///< nats about a law linear in the states, for each of these
@@ -46,6 +48,9 @@ Design make_design(const DesignRequest& request, const std::function<void(double
 
 /// `next_motion` of report.json; null where nothing is left to be decided.
 Json next_motion(const Design& design, double seconds);
+/// The same of a diagnosis of a tool with a simulator of its own, in every direction as far and as fast as its first
+/// recording moved in one; null for other machines, poses at rest and where nothing is left to be decided.
+Json next_motion(const DiagnosisRequest& request, const Diagnosis& diagnosis);
 std::string to_text(const Design& design);
 Json to_json(const Design& design, double seconds);
 

@@ -45,6 +45,8 @@ struct Limits {
 /// are looked for in `folder`.
 Limits parse_limits(const Json& json, const std::string& where, const std::filesystem::path& folder);
 Limits read_limits(const std::filesystem::path& path);
+/// Of a pose, as parse_limits() reads them.
+Json to_json(const Limits& limits);
 
 /// What recordings show that the robot does: every direction as far, as fast and as sharply as the one that moved most.
 /// Nothing where they hold no motion with a position.
