@@ -109,10 +109,10 @@ double rms_of(const std::vector<MatrixXd>& torques, Index joint) {
   return std::sqrt(square / rows);
 }
 
-/// White, or an autoregression of first order as on tools.
+/// White, or the autoregression of tools' logs (0.8 from one sample of 500 Hz to the next).
 MatrixXd torque_noise(const ArmScenario& s, std::size_t joint, Index rows, Rng& rng) {
   MatrixXd noise = MatrixXd::Zero(rows, 3);
-  const double keep = s.noise == "white" ? 0.0 : 0.8;
+  const double keep = s.noise == "white" ? 0.0 : 0.64;
   double at = rng.normal();
   for (Index i = 0; i < rows; ++i) {
     at = keep * at + std::sqrt(1.0 - keep * keep) * rng.normal();
@@ -201,7 +201,7 @@ ArmScenario draw_arm(const std::string& id, std::uint64_t seed) {
   s.limbs = draw_limbs(joints, rng);
   s.flange = {0.0, 0.0, rng.uniform(0.03, 0.12)};
   s.noise = rng.uniform() < 0.7 ? "white" : "ar1";
-  s.encoder = logarithmic(rng, 5e-7, 5e-6);
+  s.encoder = logarithmic(rng, 2e-7, 2e-6);
   std::vector<Limb> loaded = s.limbs;
   if (has("payload loaded", s.group)) s.hidden.push_back(draw_payload(s, loaded, rng));
   std::vector<MatrixXd> angles, torques;
