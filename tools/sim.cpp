@@ -1,5 +1,6 @@
 #include <iostream>
 
+#include "dcnn/physics/axis_machine.h"
 #include "dcnn/physics/scenario.h"
 #include "dcnn/physics/simulator.h"
 #include "support/file_kind.h"
@@ -13,7 +14,8 @@ constexpr const char* kExamples =
     "  dcnn-sim --config configs/sim/embedded.json --out data      # recordings, sim.json, "
     "truth.json\n"
     "  dcnn-sim --sim data/sim.json --motion log.csv --out b.csv   # what the simulator says to a "
-    "motion\n";
+    "motion\n"
+    "  dcnn-sim --sim arm.json --motion log.csv --out torques.csv  # joint torques of an arm\n";
 
 /// Recordings with ground truth from a configuration.
 Json simulate_folder(const std::filesystem::path& config, const std::filesystem::path& out,
@@ -30,12 +32,27 @@ Json simulate_folder(const std::filesystem::path& config, const std::filesystem:
           {"truth", (out / "truth.json").string()}};
 }
 
+/// What a tool's sensor, or the drives of a machine, show on a logged motion.
+Recording simulated(const std::filesystem::path& sim, const std::filesystem::path& motion,
+                    const ReadOptions& read) {
+  const Json json = read_json(sim, Exit::kData);
+  if (is_axis_machine(json)) {
+    const AxisMachine machine = parse_axis_machine(json, sim.string(), Exit::kData);
+    return predict_motion(machine, read_recording(motion, read, machine.system));
+  }
+  if (json.is_object() && json.contains("axes")) {
+    const AxisMachine machine = machine_of(parse_system(json, sim.string()));
+    return predict_motion(machine, read_recording(motion, read, machine.system));
+  }
+  const Recording recording = read_recording(motion, read, System());
+  return predict_motion(read_simulator(sim), recording, DerivativeSpec());
+}
+
 /// The simulator's prediction for a logged motion.
 Json simulate_motion(const std::filesystem::path& sim, const std::filesystem::path& motion,
                      const std::filesystem::path& out, ReadOptions read) {
   read.motion_only = true;
-  const Recording recording = read_recording(motion, read, System());
-  const Recording predicted = predict_motion(read_simulator(sim), recording, DerivativeSpec());
+  const Recording predicted = simulated(sim, motion, read);
   write_csv(out, predicted.table);
   return {{"recordings", {{{"file", out.string()}, {"samples", predicted.samples()}}}}};
 }
@@ -44,11 +61,13 @@ Json simulate_motion(const std::filesystem::path& sim, const std::filesystem::pa
 
 int main(int argc, char** argv) {
   Tool tool("dcnn-sim",
-            "Simulates recordings of a tool on a wrist sensor, with effects hidden in them.",
+            "Simulates recordings of a tool on a wrist sensor, with effects hidden in them, and the joint "
+            "torques of arms.",
             kExamples);
   std::filesystem::path config, sim, motion, out;
   auto from_config = tool.option("--config", config, "what to simulate (JSON)");
-  auto from_sim = tool.option("--sim", sim, "simulator: sim.json, or a corrected model.json");
+  auto from_sim = tool.option("--sim", sim, "simulator: sim.json, a corrected model.json, or an arm's description with the "
+                              "bodies of its links");
   auto with_motion = tool.option("--motion", motion, "recording whose motion is simulated");
   from_sim.needs(with_motion).excludes(from_config);
   with_motion.needs(from_sim);
@@ -60,7 +79,7 @@ int main(int argc, char** argv) {
 
   tool.check([&] {
     expect_kind("--config", config, {FileKind::kScene});
-    expect_kind("--sim", sim, {FileKind::kSimulator});
+    expect_kind("--sim", sim, {FileKind::kSimulator, FileKind::kSystem});
     expect_kind("--motion", motion, {FileKind::kRecording});
   });
   return tool.run(argc, argv, [&] {

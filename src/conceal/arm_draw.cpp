@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
 #include "core/elementary.h"
 #include "dcnn/conceal/arm.h"
@@ -17,82 +16,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
 constexpr int kPerReading = 16;     // of the 4000 Hz world: 250 Hz
-constexpr double kSeconds = 40.0;   // of a recording
-constexpr double kArmTurn = 2.0 * std::numbers::pi;
-
-Eigen::Matrix3d about_x(double angle) {
-  const double c = elementary::cos(angle), s = elementary::sin(angle);
-  Eigen::Matrix3d R;
-  R << 1, 0, 0, 0, c, -s, 0, s, c;
-  return R;
-}
-
-struct LimbShape {
-  Vector3d origin;
-  double roll;  // rad, about x
-  double mass;  // kg
-  Vector3d centre;
-  double girth;  // m, mean radius of gyration
-};
-
-/// Six joints like those of common cobots, or seven in a row that turn and bend.
-const std::vector<LimbShape>& shapes(std::size_t joints) {
-  constexpr double h = 0.5 * std::numbers::pi;
-  static const std::vector<LimbShape> kSix{
-      {{0, 0, 0.18}, 0, 7.0, {0, -0.02, -0.01}, 0.06}, {{0, 0, 0}, h, 12.0, {-0.3, 0, 0.15}, 0.15},
-      {{-0.6, 0, 0}, 0, 4.0, {-0.25, 0, 0.05}, 0.13},  {{-0.55, 0, 0.16}, 0, 2.0, {0, -0.01, 0}, 0.04},
-      {{0, -0.12, 0}, h, 2.0, {0, 0.01, 0}, 0.04},     {{0, 0.1, 0}, -h, 0.5, {0, 0, -0.03}, 0.03}};
-  static const std::vector<LimbShape> kSeven{
-      {{0, 0, 0.16}, 0, 4.0, {0, -0.03, 0.12}, 0.08},  {{0, 0, 0.2}, -h, 4.0, {0, -0.06, 0.04}, 0.08},
-      {{0, -0.21, 0}, h, 3.0, {0, 0.03, 0.13}, 0.07},  {{0, 0, 0.21}, h, 2.7, {0, 0.07, 0.03}, 0.07},
-      {{0, 0.2, 0}, -h, 1.7, {0, 0.02, 0.08}, 0.06},   {{0, 0, 0.2}, -h, 1.8, {0, 0, 0.01}, 0.05},
-      {{0, -0.08, 0}, h, 0.3, {0, 0, 0.02}, 0.03}};
-  return joints == 6 ? kSix : kSeven;
-}
-
-Eigen::Matrix3d drawn_turn(Rng& rng) {
-  Eigen::Vector4d q(rng.normal(), rng.normal(), rng.normal(), rng.normal());
-  q.normalize();
-  return Eigen::Quaterniond(q(0), q(1), q(2), q(3)).toRotationMatrix();
-}
-
-std::vector<Limb> draw_limbs(std::size_t joints, Rng& rng) {
-  std::vector<Limb> limbs;
-  for (const LimbShape& shape : shapes(joints)) {
-    Limb limb;
-    limb.origin = shape.origin * rng.uniform(0.85, 1.15);
-    limb.turned = about_x(shape.roll);
-    const Vector3d centre = shape.centre * rng.uniform(0.8, 1.2);
-    Vector3d radii;
-    for (double& r : radii) r = shape.girth * rng.uniform(0.6, 1.4);
-    limb.masses = solid(shape.mass * rng.uniform(0.8, 1.2), centre, radii, drawn_turn(rng));
-    limbs.push_back(limb);
-  }
-  return limbs;
-}
-
-/// Joint angles at the world's rate: five tones in each joint, under a clock that stands still at pauses.
-MatrixXd draw_angles(std::size_t joints, Rng& rng) {
-  const auto n = static_cast<Index>(kSeconds / kStep);
-  MatrixXd q = MatrixXd::Zero(n, static_cast<Index>(joints));
-  Eigen::VectorXd clock(n);
-  const double period = rng.uniform(8.0, 14.0), phase = rng.uniform(0.0, kArmTurn);
-  double now = 0.0;
-  for (Index i = 0; i < n; ++i) {
-    clock(i) = now;
-    const double wave = elementary::sin(kArmTurn * kStep * static_cast<double>(i) / period + phase);
-    now += kStep * (1.0 - 1.0 / (1.0 + elementary::exp(-(wave - 0.8) / 0.05)));
-  }
-  for (Index j = 0; j < q.cols(); ++j) {
-    q.col(j).setConstant(rng.uniform(-0.6, 0.6));
-    for (int tone = 0; tone < 5; ++tone) {
-      const double hz = logarithmic(rng, 0.04, 0.5), p = rng.uniform(0.0, kArmTurn);
-      const double size = 0.7 * std::min(1.0, 0.2 / hz);
-      for (Index i = 0; i < n; ++i) q(i, j) += size * elementary::sin(kArmTurn * hz * clock(i) + p);
-    }
-  }
-  return q;
-}
 
 /// Effects of a joint whose names a joint's torque can bear.
 const std::vector<std::string>& joint_effects() {
@@ -186,10 +109,10 @@ double rms_of(const std::vector<MatrixXd>& torques, Index joint) {
   return std::sqrt(square / rows);
 }
 
-/// White, or an autoregression of first order as on tools.
+/// White, or the autoregression of tools' logs (0.8 from one sample of 500 Hz to the next).
 MatrixXd torque_noise(const ArmScenario& s, std::size_t joint, Index rows, Rng& rng) {
   MatrixXd noise = MatrixXd::Zero(rows, 3);
-  const double keep = s.noise == "white" ? 0.0 : 0.8;
+  const double keep = s.noise == "white" ? 0.0 : 0.64;
   double at = rng.normal();
   for (Index i = 0; i < rows; ++i) {
     at = keep * at + std::sqrt(1.0 - keep * keep) * rng.normal();
@@ -209,9 +132,9 @@ void read_joint(ArmScenario& s, std::size_t joint, const std::vector<std::string
   one.noise.sigma = s.sigma[joint];
   one.conditions.samples_per_reading = kPerReading;
   std::vector<Path> paths;
-  for (std::size_t k = 0; k < angles.size(); ++k) {
+  for (std::size_t k = 0; k < angles.size() && !effects.empty(); ++k) {
     paths.push_back(joint_path(angles[k].col(column), torques[k].col(column),
-                               static_cast<double>(k) * (kSeconds + 5.0)));
+                               static_cast<double>(k) * (kArmSeconds + 5.0)));
     one.recordings.emplace_back();
     one.recordings.back().holdout = s.logs[k].holdout;
   }
@@ -227,12 +150,17 @@ void read_joint(ArmScenario& s, std::size_t joint, const std::vector<std::string
     s.hidden.push_back(*strong);
     s.hidden.back().axis = "joint" + std::to_string(joint + 1);
   }
-  for (std::size_t k = 0; k < paths.size(); ++k) {
-    const MatrixXd clean = reading(paths[k], one.tool, one.hidden, {}, kPerReading);
-    const MatrixXd noise = torque_noise(s, joint, clean.rows(), rng);
-    const MatrixXd read = reading(paths[k], one.tool, one.hidden, noise, kPerReading);
-    s.logs[k].clean.col(column) = -clean.col(0);
-    s.logs[k].measured.col(column) = -read.col(0).unaryExpr(&digits);
+  for (std::size_t k = 0; k < s.logs.size(); ++k) {
+    ArmLog& log = s.logs[k];
+    const MatrixXd noise = torque_noise(s, joint, log.t.size(), rng);
+    if (effects.empty()) {
+      for (Index i = 0; i < log.t.size(); ++i) log.clean(i, column) = torques[k](i * kPerReading, column);
+      log.measured.col(column) = (log.clean.col(column) + noise.col(0)).unaryExpr(&digits);
+      continue;
+    }
+    log.clean.col(column) = -reading(paths[k], one.tool, one.hidden, {}, kPerReading).col(0);
+    log.measured.col(column) =
+        -reading(paths[k], one.tool, one.hidden, noise, kPerReading).col(0).unaryExpr(&digits);
   }
 }
 
@@ -273,7 +201,7 @@ ArmScenario draw_arm(const std::string& id, std::uint64_t seed) {
   s.limbs = draw_limbs(joints, rng);
   s.flange = {0.0, 0.0, rng.uniform(0.03, 0.12)};
   s.noise = rng.uniform() < 0.7 ? "white" : "ar1";
-  s.encoder = logarithmic(rng, 5e-7, 5e-6);
+  s.encoder = logarithmic(rng, 2e-7, 2e-6);
   std::vector<Limb> loaded = s.limbs;
   if (has("payload loaded", s.group)) s.hidden.push_back(draw_payload(s, loaded, rng));
   std::vector<MatrixXd> angles, torques;
@@ -289,7 +217,7 @@ ArmScenario draw_arm(const std::string& id, std::uint64_t seed) {
     log.q.resize(rows, nominal.cols());
     log.simulated = log.measured = log.clean = log.q;
     for (Index i = 0; i < rows; ++i) {
-      log.t(i) = digits(k * (kSeconds + 5.0) + kPerReading * kStep * static_cast<double>(i));
+      log.t(i) = digits(k * (kArmSeconds + 5.0) + kPerReading * kStep * static_cast<double>(i));
       for (Index j = 0; j < nominal.cols(); ++j) {
         log.q(i, j) = digits(angles.back()(i * kPerReading, j) + s.encoder * rng.normal());
         log.simulated(i, j) = digits(nominal(i * kPerReading, j));

@@ -25,6 +25,14 @@ struct ArmScenario {
   std::vector<ArmLog> logs;
 };
 
+constexpr double kArmSeconds = 40.0;  ///< of a recording
+
+/// An arm of six joints like those of common cobots, or of seven in a row that turn and bend.
+std::vector<Limb> draw_limbs(std::size_t joints, Rng& rng);
+/// (T, joints) at the world's rate: five tones in each joint, under a clock that stands still at pauses.
+Eigen::MatrixXd draw_angles(std::size_t joints, Rng& rng);
+Eigen::Matrix3d drawn_turn(Rng& rng);
+
 /// Of an id of arm_plan(); the same arguments give the same bytes.
 ArmScenario draw_arm(const std::string& id, std::uint64_t seed);
 

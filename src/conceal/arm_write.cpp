@@ -46,7 +46,7 @@ Json system_of(const ArmScenario& s) {
     if (s.described) joint["body"] = body_of(limb.masses);
     joints.push_back(joint);
   }
-  return {{"kind", "axes"}, {"lowpass_hz", 10}, {"axes", axes},
+  return {{"kind", "axes"}, {"axes", axes},
           {"arm", {{"joints", joints}, {"flange", {{"xyz_m", three(s.flange)}}},
                    {"gravity_mps2", three(kGravity)}}}};
 }

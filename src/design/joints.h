@@ -3,7 +3,7 @@
 
 #include <Eigen/Dense>
 
-#include "dcnn/identification/chain.h"
+#include "dcnn/physics/chain.h"
 
 namespace dcnn::design {
 

@@ -1,3 +1,4 @@
+#include "dcnn/identification/urdf.h"
 #include "dcnn/design/limits.h"
 
 #include <algorithm>

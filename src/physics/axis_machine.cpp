@@ -183,4 +183,14 @@ MatrixXd predict_axes(const AxisMachine& machine, const Recording& recording) {
   return low_pass(predicted, recording, system.lowpass_hz);
 }
 
+Recording predict_motion(const AxisMachine& machine, const Recording& motion) {
+  Recording predicted = motion;
+  const MatrixXd torques = predict_axes(machine, motion);
+  for (std::size_t k = 0; k < machine.system.axes.size(); ++k) {
+    const Axis& axis = machine.system.axes[k];
+    predicted.set(axis.measured, torques.col(static_cast<Index>(k)) / axis.scale);
+  }
+  return predicted;
+}
+
 }  // namespace dcnn

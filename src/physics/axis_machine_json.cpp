@@ -145,6 +145,15 @@ std::vector<EffectSpec> effects_from(const Json& list, const Axis& axis, double 
   return parse_effects(inner, where, exit);
 }
 
+/// The links as they are described.
+void set_described(const System& system, std::size_t k, CorrectedAxis& corrected) {
+  if (system.arm.is_null() || system.axes[k].has_base || !system.axes[k].simulated.empty()) return;
+  const auto bodies = chain_of(system).bodies();
+  if (!bodies) return;
+  corrected.coefficients = *bodies;
+  for (Index i = 0; i < bodies->size(); ++i) corrected.columns.push_back(i);
+}
+
 CorrectedAxis parse_corrected(const Json& json, const System& system, std::size_t k,
                               const std::string& where, Exit exit) {
   Options options(json, where, exit);
@@ -153,6 +162,7 @@ CorrectedAxis parse_corrected(const Json& json, const System& system, std::size_
   const Json base = options.raw("base");
   const auto names = base_names(system, k);
   std::vector<double> values;
+  if (base.is_null()) set_described(system, k, corrected);
   if (base.is_object()) {
     for (const auto& [name, value] : base.items()) {
       const auto found = std::find(names.begin(), names.end(), name);
@@ -162,7 +172,9 @@ CorrectedAxis parse_corrected(const Json& json, const System& system, std::size_
       values.push_back(value.get<double>());
     }
   }
-  corrected.coefficients = VectorXd::Map(values.data(), static_cast<Index>(values.size()));
+  if (!base.is_null()) {
+    corrected.coefficients = VectorXd::Map(values.data(), static_cast<Index>(values.size()));
+  }
   if (options.has("derivative")) corrected.derivative = parse_derivative(options.child("derivative"));
   corrected.sense = options.choice("measured", "drive", {"drive", "reaction"}) == "drive" ? 1 : -1;
   const Json effects = options.raw("effects");
@@ -196,6 +208,17 @@ Json to_json(const AxisMachine& machine) {
 }
 
 bool is_axis_machine(const Json& json) { return json.is_object() && json.contains("system"); }
+
+AxisMachine machine_of(const System& system) {
+  AxisMachine machine{system, {}};
+  for (std::size_t k = 0; k < system.axes.size(); ++k) {
+    machine.axes.emplace_back();
+    set_described(system, k, machine.axes.back());
+    require(!machine.axes.back().columns.empty(), Exit::kData, "system: axis '", system.axes[k].name,
+            "': nothing simulates it; describe the bodies of all links in 'arm', or give a model.json");
+  }
+  return machine;
+}
 
 AxisMachine parse_axis_machine(const Json& json, const std::string& where, Exit exit) {
   Options options(json, where, exit);

@@ -119,11 +119,11 @@ TEST(Arm, APayloadIsPartOfTheLastLink) {
 
   Rng rng({6u});
   Table table;
-  table.columns = {"t", "q1", "v1", "a1", "q2", "v2", "a2"};
-  table.values.resize(20, 7);
+  table.columns = {"t", "q1", "v1", "a1", "q2", "v2", "a2", "tau1", "tau2"};
+  table.values.resize(20, 9);
   for (double& x : table.values.reshaped()) x = rng.normal();
   for (Eigen::Index i = 0; i < 20; ++i) table.values(i, 0) = 0.01 * static_cast<double>(i);
-  const Recording recording = make_recording("log.csv", table, ReadOptions(), machine.system);
+  const Recording recording = make_recording({table, {}}, "log.csv", ReadOptions(), machine.system);
 
   machine.payload = payload;
   AxisMachine lumped = parse_axis_machine(to_json(machine), "model.json", Exit::kData);

@@ -8,7 +8,7 @@
 
 #include "dcnn/core/json.h"
 #include "dcnn/data/recording.h"
-#include "dcnn/identification/chain.h"
+#include "dcnn/physics/chain.h"
 #include "dcnn/physics/tool_model.h"
 
 namespace dcnn::design {

@@ -49,6 +49,9 @@ struct AxisMachine {
 };
 Json to_json(const AxisMachine& machine);
 AxisMachine parse_axis_machine(const Json& json, const std::string& where, Exit exit);
+/// The machine of a description that gives the bodies of all of an arm's links, nothing else acting. Error(kData)
+/// for another one.
+AxisMachine machine_of(const System& system);
 /// Whether a model.json is one of a machine rather than of a wrist tool.
 bool is_axis_machine(const Json& json);
 
@@ -65,5 +68,8 @@ struct AxisParameter {
 /// None for components that an axis does not have (_y, _z).
 std::optional<AxisParameter> axis_parameter(const EffectKind& kind, const std::string& name,
                                             const Axis& axis, double sense);
+
+/// The recording with what the machine's drives show in the measured columns, in the log's own units.
+Recording predict_motion(const AxisMachine& machine, const Recording& motion);
 
 }  // namespace dcnn
