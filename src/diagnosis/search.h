@@ -99,6 +99,7 @@ class Search {
   bool split();
   bool exchange(std::size_t split, const std::vector<Member>& parts);
   bool replace_pairs();
+  bool merge_pair();
   void explore();
   void detect();
   bool hear_knocks();
