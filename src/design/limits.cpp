@@ -1,4 +1,3 @@
-#include "dcnn/identification/urdf.h"
 #include "dcnn/design/limits.h"
 
 #include <algorithm>
@@ -7,6 +6,7 @@
 #include <numbers>
 
 #include "dcnn/core/options.h"
+#include "dcnn/identification/urdf.h"
 #include "dcnn/physics/motion.h"
 #include "design/joints.h"
 
@@ -95,7 +95,7 @@ JointLimits read_joints(Options options, const std::string& where, const std::fi
     joints.chain = read_urdf_chain(folder / options.get<std::string>("urdf"), options.get("tip", std::string()));
   } else {
     const Json dh{{"convention", options.get("convention", std::string("modified"))}, {"dh", options.raw("dh")}};
-    joints.chain = chain_of(parse_arm(dh, where, Exit::kUsage));
+    joints.chain = parse_chain(dh, where, Exit::kUsage);
   }
   const auto count = static_cast<Index>(joints.chain.joints.size());
   const auto ranges = options.raw("range");

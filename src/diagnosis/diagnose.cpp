@@ -42,13 +42,16 @@ const char* verdict_of(bool named, bool remains) {
   return remains ? "unexplained" : "consistent";
 }
 
-/// What no name explains: by channel, in the band where it is; or that the held-out data refute
-/// that all is explained.
-Json unnamed_part(const Search& search, const std::optional<HoldOut::Excess>& refuted) {
+/// What no name explains: by channel, in the band where it is (`bands`, before any law), and in a
+/// formula; or that the held-out data refute that all is explained.
+Json unnamed_part(const Search& search, const std::vector<BandTest>& bands, const Json& laws,
+                  const std::optional<HoldOut::Excess>& refuted) {
+  const Case& study = search.study();
+  const Signals left = difference(study, predict(study, search.names()));
   Json excess = Json::array();
-  for (Index j = 0; j < search.study().channel_count(); ++j) {
+  for (Index j = 0; j < study.channel_count(); ++j) {
     double square = 0.0, count = 0.0;
-    for (const auto& r : search.left()) {
+    for (const auto& r : left) {
       square += r.col(j).squaredNorm();
       count += static_cast<double>(r.rows());
     }
@@ -58,15 +61,19 @@ Json unnamed_part(const Search& search, const std::optional<HoldOut::Excess>& re
   Json part{{"excess_rms", excess}, {"formula", nullptr}, {"words", nullptr}};
   if (!search.remains() && refuted) {
     part["words"] = "an error on held-out data of " + brief(refuted->ratio) +
-                    " times the noise on " + search.study().targets[refuted->channel];
+                    " times the noise on " + study.targets[refuted->channel];
   }
   if (!search.remains()) return part;
-  const BandTest* most = &search.bands().front();
-  for (const BandTest& band : search.bands()) {
-    if (band.excess > most->excess) most = &band;
-  }
+  const auto most = std::max_element(
+      bands.begin(), bands.end(),
+      [](const BandTest& a, const BandTest& b) { return a.excess < b.excess; });
   part["words"] = "something that no effect of the catalogue explains, mostly between " +
                   brief(most->from_hz) + " and " + brief(most->to_hz) + " Hz";
+  std::string formula;
+  for (const Json& finding : laws) {
+    formula += (formula.empty() ? "" : " + ") + finding["law"]["expression"].get<std::string>();
+  }
+  if (!formula.empty()) part["formula"] = formula;
   return part;
 }
 
@@ -107,8 +114,11 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   search.run();
   if (progress) progress("judging by what was held out");
   const HoldOut holdout(search.study(), loaded.holdout);
-  const Json refuted_names = leave_refuted(search, holdout);
+  Json refuted_names = leave_refuted(search, holdout);
   prefer_one_law(search);
+  const std::vector<BandTest> bands = search.bands();
+  const auto laws = add_discovered(search);
+  for (const Json& name : leave_refuted(search, holdout)) refuted_names.push_back(name);
   const Case& study = search.study();
   const JointFit &fit = search.fit(), given = joint_fit(search.setting(), {});
 
@@ -137,7 +147,9 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   report["where"] = locate(study, before, search.floors());
   report["where"]["budget"] =
       budget(search.setting(), before, own_parameters(study), report["where"]["segments"]);
-  report["unnamed"] = unnamed_part(search, refuted);
+  const Json formulas = law_findings(search, laws, holdout);
+  report["unnamed"] = unnamed_part(search, bands, formulas, refuted);
+  for (const Json& law : formulas) report["findings"].push_back(law);
   Json floors = Json::array(), sources = Json::array();
   for (const Floor& floor : search.floors()) {
     floors.push_back(floor.deviation());
@@ -165,7 +177,6 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
     diagnosis.holdout[k].before = given_records[k].before;
   }
   diagnosis.portraits = portraits(search);
-  add_discovered(search, holdout, diagnosis);
   CaseDiagnosis result{std::move(diagnosis),
                        fit.base.size() > 0 ? fit.base : study.base_coefficients, {}};
   if (!first.empty()) result.uncorrected = first.rmse(fit.members, fit.base);

@@ -131,7 +131,9 @@ std::vector<Discovered> laws_in(const Setting& setting, const JointFit& fit) {
 }
 
 Member member_of(const law::Law& law, const Json& told) {
-  static const EffectFit form;
+  static const EffectFit form{.parameters = [](const VectorXd&, const VectorXd&) {
+    return Json::object();  // its numbers stand in law_parameters
+  }};
   Member member;
   member.kind = find_effect("discovered");
   member.form = &form;
@@ -185,21 +187,22 @@ Json law_finding(const Discovered& found, const Json& law) {
   return entry;
 }
 
-/// The numbers of the named effects as they are beside the laws; intervals keep their width.
-void move_numbers(const std::vector<Member>& members, Json& findings) {
-  for (std::size_t m = 0; m < members.size(); ++m) {
-    if (!members[m].law.is_null()) continue;
-    const Json parameters = spec_of(members[m]).parameters;
-    for (auto& [name, number] : findings[m]["parameters"].items()) {
-      if (!parameters.contains(name)) continue;
-      const double moved = parameters[name].get<double>() - number["value"].get<double>();
-      number["value"] = parameters[name];
-      if (!number["ci95"].is_array()) continue;
-      for (std::size_t end = 0; end < 2; ++end) {
-        number["ci95"][end] = number["ci95"][end].get<double>() + moved;
-      }
-    }
+/// Laws and the members that they are, where the chain bears out what each promised; else none.
+struct Laws {
+  std::vector<Discovered> found;
+  std::vector<Member> members;
+};
+Laws borne_out(const Setting& setting, const JointFit& names) {
+  Laws laws{laws_in(setting, names), {}};
+  double promised = 0.0;
+  std::vector<Member> all = names.members;
+  for (const Discovered& found : laws.found) {
+    laws.members.push_back(member_of(found.law, law_json(found)));
+    all.push_back(laws.members.back());
+    promised += found.gain;
   }
+  if (names.chi2 - joint_fit(setting, all).chi2 < kStillGained * promised) return {};
+  return laws;
 }
 
 }  // namespace
@@ -235,45 +238,39 @@ void prefer_one_law(Search& search) {
   }
 }
 
-void add_discovered(Search& search, const HoldOut& holdout, Diagnosis& diagnosis) {
-  if (!search.remains() || !can_hold_laws(search.study())) return;
-  const auto laws = laws_in(search.setting(), search.fit());
-  if (laws.empty()) return;
-  std::vector<Member> members = search.fit().members;
-  double promised = 0.0;
-  for (const Discovered& found : laws) {
-    members.push_back(member_of(found.law, law_json(found)));
-    promised += found.gain;
+std::vector<Discovered> add_discovered(Search& search) {
+  if (!search.remains() || !can_hold_laws(search.study())) return {};
+  Laws laws = borne_out(search.setting(), search.fit());
+  if (laws.found.empty()) return {};
+  search.put_beside(laws.members);
+  const std::vector<Member> before = search.fit().members;
+  if (!search.name_beside_laws()) return laws.found;
+  // Names that were found beside a formula stand where both, fitted again, leave nothing.
+  Laws again = borne_out(search.setting(), joint_fit(search.setting(), search.names()));
+  if (!again.found.empty()) search.put_beside(again.members);
+  if (search.confirms_names()) return again.found.empty() ? laws.found : again.found;
+  search.take_back(before);
+  return laws.found;
+}
+
+Json law_findings(const Search& search, const std::vector<Discovered>& laws,
+                  const HoldOut& holdout) {
+  const JointFit& fit = search.fit();
+  const double error = holdout.empty() ? 0.0 : mean_error(holdout.rmse(fit.members, fit.base));
+  Json list = Json::array();
+  std::size_t next = 0;
+  for (std::size_t m = 0; m < fit.members.size(); ++m) {
+    if (fit.members[m].law.is_null()) continue;
+    Json entry = law_finding(laws[next++], fit.members[m].law);
+    if (!holdout.empty()) {
+      std::vector<Member> others = fit.members;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
+      entry["holdout_gain"] =
+          1.0 - error / std::max(1e-300, mean_error(holdout.rmse(others, fit.base)));
+    }
+    list.push_back(entry);
   }
-  const JointFit fit = joint_fit(search.setting(), members);
-  if (search.fit().chi2 - fit.chi2 < kStillGained * promised) return;
-  Json& report = diagnosis.report;
-  search.settle(fit.members);
-  report["fit"]["noise_floor"] = Json::array();
-  for (const Floor& floor : search.floors()) {
-    report["fit"]["noise_floor"].push_back(floor.deviation());
-  }
-  move_numbers(fit.members, report["findings"]);
-  const std::size_t named = fit.members.size() - laws.size();
-  const auto error = holdout.rmse(fit.members, fit.base);
-  Json expressions;
-  for (std::size_t k = 0; k < laws.size(); ++k) {
-    std::vector<Member> others = fit.members;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(named + k));
-    const Json law = fit.members[named + k].law;
-    Json entry = law_finding(laws[k], law);
-    entry["holdout_gain"] =
-        1.0 - mean_error(error) / std::max(1e-300, mean_error(holdout.rmse(others, fit.base)));
-    report["findings"].push_back(entry);
-    const auto text = law["expression"].get<std::string>();
-    expressions = expressions.is_null() ? text : expressions.get<std::string>() + " + " + text;
-  }
-  report["unnamed"]["formula"] = expressions;
-  report["fit"]["holdout_rmse_after"] = error;
-  diagnosis.corrected.effects = search.study().simulator.effects;
-  for (const auto& effect : specs_of(fit.members)) diagnosis.corrected.effects.push_back(effect);
-  diagnosis.model = to_json(diagnosis.corrected);
-  diagnosis.holdout = holdout.records(joint_fit(search.setting(), {}), fit);
+  return list;
 }
 
 }  // namespace dcnn

@@ -1,6 +1,7 @@
 // Laws for what no effect of the catalogue explains, as part of the corrected model and its report.
 #pragma once
 
+#include "dcnn/discovery/discover.h"
 #include "diagnosis/holdout.h"
 
 namespace dcnn {
@@ -10,9 +11,13 @@ namespace dcnn {
 /// price, by what any law must gain to be accepted.
 void prefer_one_law(Search& search);
 
-/// Where the search says that something unnamed remains: looks for laws in the residual
-/// (dcnn/discovery), fits the named effects again beside them, and adds the laws to the findings,
-/// the hold-out errors, the noise, and the model. Leaves everything as it is where no law is found.
-void add_discovered(Search& search, const HoldOut& holdout, Diagnosis& diagnosis);
+/// Where something unnamed remains: looks for laws in the residual (dcnn/discovery), puts them
+/// beside the names, looks for further names beside both, and for the laws again beside those. The
+/// laws that then stand in the fit, in their order; none where none is found.
+std::vector<discovery::Discovered> add_discovered(Search& search);
+
+/// Laws of the fit as findings.
+Json law_findings(const Search& search, const std::vector<discovery::Discovered>& laws,
+                  const HoldOut& holdout);
 
 }  // namespace dcnn

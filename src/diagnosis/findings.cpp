@@ -38,6 +38,7 @@ class Writer {
     Json list = Json::array();
     for (std::size_t m = 0; m < fit.members.size(); ++m) {
       const Member& member = fit.members[m];
+      if (!member.law.is_null()) continue;  // law_findings()
       Json entry = base_entry(member, numbers[m]);
       JointFit rest = member.fixed ? fit : search_.without(m);
       std::vector<Member>& others = rest.members;

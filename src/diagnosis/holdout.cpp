@@ -154,6 +154,8 @@ double HoldOut::log_support(const JointFit& with, const JointFit& without,
                             const std::vector<Floor>& floors) const {
   const Signals a = prediction(with.members, with.base),
                 b = prediction(without.members, without.base);
+  std::vector<double> deviation;
+  for (const Floor& floor : floors) deviation.push_back(floor.whole_deviation());
   std::map<std::pair<std::size_t, std::int64_t>, evidence::BlockChange> blocks;
   for (std::size_t k = 0; k < a.size(); ++k) {
     const Log& log = study_.logs[k];
@@ -164,7 +166,7 @@ double HoldOut::log_support(const JointFit& with, const JointFit& without,
                               : static_cast<std::int64_t>(std::floor(log.motion.t(i) / kBlock));
       evidence::BlockChange& block = blocks[{k, number}];
       for (Index j = 0; j < a[k].cols(); ++j) {
-        const double s = floors[static_cast<std::size_t>(j)].whole_deviation();
+        const double s = deviation[static_cast<std::size_t>(j)];
         const double with_it = (log.measured(i, j) - a[k](i, j)) / s,
                      without_it = (log.measured(i, j) - b[k](i, j)) / s;
         block.fall += without_it * without_it - with_it * with_it;

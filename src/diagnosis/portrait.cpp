@@ -61,6 +61,7 @@ std::vector<Portrait> portraits(const Search& search) {
   const auto& members = search.fit().members;
   std::vector<Portrait> list;
   for (std::size_t m = 0; m < members.size(); ++m) {
+    if (!members[m].law.is_null()) continue;  // a picture of its own
     std::vector<Member> others = members;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
     const Chain rest(study, others);

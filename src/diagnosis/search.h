@@ -50,6 +50,16 @@ class Search {
 
   /// Takes back members that other data or another law refute, and judges what is left.
   void leave_out(const std::vector<std::size_t>& members);
+  /// Fits laws without a name beside the names, in place of those that were there.
+  void put_beside(const std::vector<Member>& laws);
+  /// Looks for names beside the laws: whether there are more than before.
+  bool name_beside_laws();
+  /// Whether names and laws leave nothing but noise; then weighs the names beside the laws.
+  bool confirms_names();
+  /// Back to these members, laws among them.
+  void take_back(const std::vector<Member>& members);
+  /// The members that are no laws without a name.
+  std::vector<Member> names() const;
   /// Whitens again for what these members leave, and fits them.
   void settle(const std::vector<Member>& members);
   std::vector<Member> members_without(std::size_t member) const;
@@ -97,6 +107,7 @@ class Search {
   bool split();
   bool exchange(std::size_t split, const std::vector<Member>& parts);
   bool replace_pairs();
+  bool merge_pair();
   void explore();
   void detect();
   bool hear_knocks();

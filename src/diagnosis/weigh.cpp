@@ -43,6 +43,7 @@ std::size_t Search::weigh_once() {
     structures.push_back(evidence::structure_of(*setting_, grid, joint_fit(*setting_, members)));
   }
   posterior_ = evidence::posterior_of(std::move(structures), rounding_ || knocking_);
+  if (names().size() < fit_.members.size()) posterior_.hold_a_law();
   return posterior_.most_probable();
 }
 
@@ -77,6 +78,42 @@ void Search::leave_out(const std::vector<std::size_t>& members) {
   settle(rest);
   weigh_once();
   if (!study_.axis) judge_rest();
+}
+
+std::vector<Member> Search::names() const {
+  std::vector<Member> members = fit_.members;
+  std::erase_if(members, [](const Member& m) { return !m.law.is_null(); });
+  return members;
+}
+
+void Search::put_beside(const std::vector<Member>& laws) {
+  std::vector<Member> members = names();
+  std::erase_if(apart_, [](const Member& m) { return !m.law.is_null(); });
+  for (auto* list : {&members, &apart_}) list->insert(list->end(), laws.begin(), laws.end());
+  settle(members);
+}
+
+bool Search::name_beside_laws() {
+  const std::size_t before = fit_.members.size();
+  explore();
+  drop_coincidences();
+  drop_unconfirmed();
+  return fit_.members.size() > before;
+}
+
+bool Search::confirms_names() {
+  if (is_alarming_now()) return false;
+  weigh_once();
+  return true;
+}
+
+void Search::take_back(const std::vector<Member>& members) {
+  std::vector<Member> laws = members;
+  std::erase_if(laws, [](const Member& m) { return m.law.is_null(); });
+  std::erase_if(apart_, [](const Member& m) { return !m.law.is_null(); });
+  apart_.insert(apart_.end(), laws.begin(), laws.end());
+  settle(members);
+  bands_ = band_tests(*setting_, fit_.residual);
 }
 
 }  // namespace dcnn

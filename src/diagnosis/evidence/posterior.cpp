@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/elementary.h"
 #include "diagnosis/evidence/marginal.h"
@@ -25,6 +26,11 @@ double Posterior::inclusion(const Member& member) const {
 double updated(double probability, double log_factor) {
   const double against = (1.0 - probability) / probability * elementary::exp(-log_factor);
   return std::clamp(1.0 / (1.0 + against), 0.5 * prior::kElsewhere, 1.0 - 0.5 * prior::kElsewhere);
+}
+
+void Posterior::hold_a_law() {
+  unknown += std::exchange(nothing, 0.0);
+  named_and_unknown += std::exchange(named, 0.0);
 }
 
 std::size_t Posterior::most_probable() const {

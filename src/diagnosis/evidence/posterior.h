@@ -14,6 +14,8 @@ struct Posterior {
 
   /// Mass of the structures that hold an effect of this kind on this axis.
   double inclusion(const Member& member) const;
+  /// Every structure holds a law without a name: that is what is unknown.
+  void hold_a_law();
   /// The structure of the largest mass, with and without an unknown.
   std::size_t most_probable() const;
 };
