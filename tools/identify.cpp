@@ -24,7 +24,8 @@ constexpr const char* kExamples =
     "Finds mass, centre of mass, inertia (where torques are logged), the sensor's offset and its\n"
     "mounting, with 95 % intervals, and says which motion would show what these logs do not.\n"
     "sim.json is the simulator that dcnn-diagnose compares with recordings. With --system it finds\n"
-    "the links, the friction and the payload of an arm from joint torques or currents.";
+    "the links, the friction and the payload of an arm from joint torques or currents; --out is then\n"
+    "the description with these links, which dcnn-diagnose takes as --system.";
 
 struct Command {
   IdentifyRequest request;
@@ -51,13 +52,16 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
-std::string next_command(const Command& command) {
-  std::string text = "dcnn-diagnose --sim " + quoted(command.out.string()) + " --fit";
-  for (const Path& log : command.request.logs) text += " " + quoted(log.string());
+/// The command that goes on from what was found.
+std::string diagnosis_of(const std::string& option, const Path& found, const std::vector<Path>& logs) {
+  std::string text = "dcnn-diagnose " + option + " " + quoted(found.string()) + " --fit";
+  for (const Path& log : logs) text += " " + quoted(log.string());
   return text + " --out report";
 }
 
-void write_report(const Command& command, const ToolIdentification& result) {
+template <class Identification>
+void write_report(const Command& command, const Identification& result) {
+  if (command.report.empty()) return;
   std::filesystem::create_directories(command.report);
   write_file(command.report / "identify.json", to_json(result).dump(2) + "\n");
   write_file(command.report / "identify.txt", to_text(result));
@@ -70,10 +74,10 @@ Exit identify(Command& command, const Tool& tool) {
   }
   const ToolIdentification result = identify_tool(command.request);
   write_file(command.out, to_json(Simulator{result.model, {}}).dump(2) + "\n");
-  if (!command.report.empty()) write_report(command, result);
+  write_report(command, result);
   if (!command.formats.empty()) export_payload(command, result.model, tool);
   for (const auto& note : result.notes) tool.note(note);
-  const std::string next = next_command(command);
+  const std::string next = diagnosis_of("--sim", command.out, command.request.logs);
   if (tool.common().json) {
     Json json = to_json(result);
     json["next"] = next;
@@ -87,18 +91,17 @@ Exit identify(Command& command, const Tool& tool) {
 Exit identify_joints(Command& command, const Tool& tool) {
   command.arm.logs = command.request.logs;
   const ArmIdentification result = identify_arm(command.arm);
-  const Json json = to_json(result);
-  write_file(command.out, json.dump(2) + "\n");
+  write_file(command.out, result.system.dump(2) + "\n");
+  write_report(command, result);
   for (const auto& note : result.notes) tool.note(note);
+  const auto& judged = command.arm.loaded.empty() ? command.arm.logs : command.arm.loaded;
+  const std::string next = diagnosis_of("--system", command.out, judged);
   if (tool.common().json) {
+    Json json = to_json(result);
+    json["next"] = next;
     Tool::print(json);
-    return Exit::kDone;
-  }
-  std::cout << to_text(result);
-  if (command.arm.urdf.empty()) {
-    std::cout << "Next: dcnn-diagnose --system " << quoted(command.arm.system.string()) << " --fit";
-    for (const Path& log : command.arm.logs) std::cout << " " << quoted(log.string());
-    std::cout << " --out report\n";
+  } else {
+    std::cout << to_text(result) << "Next: " << next << "\n";
   }
   return Exit::kDone;
 }
@@ -137,7 +140,7 @@ int main(int argc, char** argv) {
                                 "recordings: poses with fx,fy,fz (and tx,ty,tz), moving or at rest");
   const auto from = tool.option("--from", command.from,
                                 "export the tool of this sim.json; nothing is identified");
-  const auto out = tool.output("--out", command.out, "sim.json to write");
+  const auto out = tool.output("--out", command.out, "sim.json to write (of an arm: its description)");
   tool.output("--report", command.report, "folder for all numbers with their intervals",
               {"identify.json", "identify.txt"});
   tool.option("--mounting", command.mounting,

@@ -17,13 +17,13 @@ using Eigen::Vector3d;
 
 constexpr int kPerReading = 16;     // of the 4000 Hz world: 250 Hz
 
-/// Effects of a joint whose names a joint's torque can bear.
+/// Effects that one joint of an arm can have: its log has one clock and nobody pushes at a single joint.
 const std::vector<std::string>& joint_effects() {
   static const std::vector<std::string> ids{
       "coulomb_friction", "viscous_friction", "stribeck_friction", "quadratic_drag", "lugre_friction",
       "hysteresis",       "cable_spring",     "cogging",           "bias",           "gain",
-      "time_delay",       "linear_drift",     "step_bias",         "hum",            "load_friction",
-      "contact"};
+      "lowpass",          "linear_drift",     "step_bias",         "hum",            "load_friction",
+      "gear_friction",    "asymmetric_friction"};
   return ids;
 }
 
@@ -80,11 +80,11 @@ Hidden draw_payload(const ArmScenario& s, std::vector<Limb>& loaded, Rng& rng) {
 Hidden draw_joint_effect(const std::string& effect, Rng& rng) {
   Hidden h;
   h.effect = effect;
-  if (has("cable_spring hysteresis cogging", effect)) h.axis = "alpha:base_x";
   if (effect.find("friction") != std::string::npos || effect == "quadratic_drag") h.axis = "base_x";
+  if (has("cable_spring hysteresis cogging gear_friction", effect)) h.axis = "alpha:base_x";
   h.parameters = draw_parameters(effect, h.axis, rng);
-  for (auto& [name, value] : h.parameters) {
-    if (name.find("_y") != std::string::npos || name.find("_z") != std::string::npos) value = 0.0;
+  for (auto& [name, value] : h.parameters) {  // a joint has one component, x
+    if (name == "gain_y" || name == "gain_z" || name.find("_y_") != std::string::npos || name.find("_z_") != std::string::npos) value = 0.0;
   }
   return h;
 }

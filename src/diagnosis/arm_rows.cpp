@@ -39,12 +39,13 @@ Eigen::MatrixXd alias_columns(const Motion& motion, const Eigen::VectorXd& given
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n, kOwnAliases);
   columns.col(0) = motion.euler.col(0);
   columns.col(1) = (v * v.abs()).matrix();
-  columns.col(2) = given;
+  columns.col(2) = motion.a_B.col(0);
+  columns.col(3) = given;
   for (Index i = 1; i + 1 < n; ++i) {
-    columns(i, 3) = (given(i + 1) - given(i - 1)) / std::max(1e-12, motion.t(i + 1) - motion.t(i - 1));
+    columns(i, 4) = (given(i + 1) - given(i - 1)) / std::max(1e-12, motion.t(i + 1) - motion.t(i - 1));
   }
   const double size = std::max(1e-12, kDryWidths[1] * std::sqrt(v.square().mean()));
-  columns.col(4) = (given.array().abs() * elementary::tanh(v / size)).matrix();
+  columns.col(5) = (given.array().abs() * elementary::tanh(v / size)).matrix();
   return columns;
 }
 

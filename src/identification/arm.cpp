@@ -164,6 +164,10 @@ ArmIdentification identify_arm(const ArmRequest& request) {
   set_torques(logs, result.joints);
   set_held_out(held, chain, fit, result.joints);
   result.links = link_estimates(fit, chain);
+  JointChain found = chain;
+  for (std::size_t j = 0; j < found.joints.size(); ++j) found.joints[j].body = result.links[j].body;
+  result.system = system.json;
+  result.system["arm"] = to_json(found);
   result.base_parameters = identification::told_combinations(logs);
   result.payload = payload_estimates(fit);
   result.lowpass_hz = logs.front().clock.cutoff_hz;

@@ -66,7 +66,7 @@ TEST_F(GivenArms, NothingIsMissingWhereNothingIsHidden) {
 }
 
 TEST_F(GivenArms, AnEffectOfOneJointIsNoPayload) {
-  for (const char* effect : {"gain", "cable_spring", "coulomb_friction", "time_delay"}) {
+  for (const char* effect : {"gain", "cable_spring", "coulomb_friction", "lowpass"}) {
     const auto [answer, request] = concealed(std::string("single:2/") + effect + "/0", 4);
     const LoadedAxes loaded = load_axes(request);
     EXPECT_TRUE(loaded.finding.is_null()) << effect << loaded.finding.dump(1);

@@ -7,6 +7,7 @@
 
 #include "dcnn/core/random.h"
 #include "dcnn/data/csv.h"
+#include "dcnn/physics/axis_machine.h"
 #include "identification/arm_log.h"
 #include "support/process.h"
 
@@ -131,6 +132,23 @@ TEST_F(ArmIdentify, FrictionAndLinksPredictHeldOutTorquesToTheNoise) {
   EXPECT_LT(id.base_parameters, 30);
   EXPECT_TRUE(id.payload.empty());
   EXPECT_NE(to_text(id).find("dry friction on joints 1 to 3"), std::string::npos) << to_text(id);
+}
+
+/// On the joint that bears the links' weight, the description that was found leaves of a held-out log what drives add:
+/// offset, friction, rotor, noise.
+TEST_F(ArmIdentify, TheDescriptionFoundIsASimulator) {
+  const ArmRequest asked = request({}, false);
+  const AxisMachine machine = machine_of(parse_system(identify_arm(asked).system, "found.json"));
+  const Recording held = read_recording(asked.holdout[0], ReadOptions(), machine.system);
+  const MatrixXd torque = predict_axes(machine, held);
+  const Motion motion = axis_motion(held, machine.system.axes[1],
+                                    {.kind = DerivativeSpec::Kind::kSpectral, .cutoff_hz = 8.0});
+  const VectorXd v = motion.v_B.col(0);
+  MatrixXd drive(v.size(), 4);
+  drive << VectorXd::Ones(v.size()), (v / 0.02).array().tanh().matrix(), v, motion.a_B.col(0);
+  const VectorXd measured = held.column("tau_2"), left = measured - torque.col(1);
+  const VectorXd unexplained = left - drive * drive.householderQr().solve(left);
+  EXPECT_LT(unexplained.norm(), 0.05 * measured.norm());
 }
 
 TEST_F(ArmIdentify, APayloadIsABodyAtTheFlange) {

@@ -45,6 +45,7 @@ struct ArmIdentification {
   std::vector<IdentifiedNumber> payload;    ///< mass_kg, com_*_m in the flange's frame; empty without `loaded`
   std::vector<std::string> recordings, holdout, notes;
   double lowpass_hz = 0.0;
+  Json system;  ///< description with the links found: the simulator at hand of a diagnosis
 };
 
 /// One regression for all joints, weighted by their residuals and their correlation in time. Faults
