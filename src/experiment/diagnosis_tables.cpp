@@ -93,6 +93,16 @@ void add_findings(const Json& report, HtmlReport& page) {
     rows.push_back({words_of_effect(plain_text(f["effect"])), words_of_axis(plain_text(f["axis"])),
                     parameters, shown(f["confidence"]), shown(f["holdout_gain"]), alternatives});
   }
+  std::string refuted;
+  for (const Json& name : report["refuted"]) {
+    const std::string axis = words_of_axis(plain_text(name["axis"]));
+    refuted += (refuted.empty() ? "" : ", ") + words_of_effect(plain_text(name["effect"])) +
+               (axis.empty() ? "" : " (" + axis + ")");
+  }
+  if (!refuted.empty()) {
+    page.paragraph("Found in the fitted recordings and taken back, because the held-out data speak "
+                   "against it: " + refuted + ".");
+  }
   if (rows.empty()) {
     page.paragraph("No effect is named.");
     return;
@@ -102,7 +112,7 @@ void add_findings(const Json& report, HtmlReport& page) {
              rows);
   page.paragraph(
       "Confidence: the probability that the finding is true, after the search over the whole "
-      "catalogue; empty where a test of its own found it. Hold-out gain: the share of the held-out "
+      "catalogue and given the held-out data; empty where a test of its own found it. Hold-out gain: the share of the held-out "
       "RMSE that would come back without this finding, 1 - after / (after without it). Names and "
       "numbers for programs are in report.json.");
 }
