@@ -40,11 +40,14 @@ void print_projection(const std::filesystem::path& folder, const std::string& te
   require(std::sscanf(text.c_str(), "%ld/%ld%c", &cells, &workers, &rest) == 2 && cells >= 1 &&
               workers >= 1 && cells <= 10'000'000 && workers <= cells,
           Exit::kUsage, "--project: ", text, " is not cells/workers, such as 1721/100");
-  const CellProjection p = project_cells(folder, cells, workers);
-  std::cout << p.measured << " cells took " << std::lround(p.mean_s * 10.0) / 10.0
-            << " s on average, the longest " << std::lround(p.longest_s * 10.0) / 10.0 << " s\n"
-            << cells << " such cells on " << workers << " workers: " << clock_text(p.median_s)
-            << ", 95 of 100 times less than " << clock_text(p.late_s) << "\n";
+  for (const CellTime time : {CellTime::kWall, CellTime::kProcessor}) {
+    const CellProjection p = project_cells(folder, cells, workers, time);
+    std::cout << (time == CellTime::kWall ? "wall time" : "processor time") << ": " << p.measured
+              << " cells took " << std::lround(p.mean_s * 10.0) / 10.0
+              << " s on average, the longest " << std::lround(p.longest_s * 10.0) / 10.0 << " s; "
+              << cells << " such cells on " << workers << " workers " << clock_text(p.median_s)
+              << ", 95 of 100 times less than " << clock_text(p.late_s) << "\n";
+  }
 }
 
 Exit run(const CellRun& request, bool failures_allowed, const Tool& tool) {

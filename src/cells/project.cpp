@@ -9,11 +9,13 @@
 namespace dcnn {
 
 CellProjection project_cells(const std::filesystem::path& folder, std::int64_t cells,
-                             std::int64_t workers) {
+                             std::int64_t workers, CellTime time) {
   constexpr int kDraws = 1000;
   std::vector<double> times;
   const PackIndex index = read_packs(folder, [](const std::string&) { return true; });
-  for (const auto& [key, packed] : index.results) times.push_back(packed.result.seconds);
+  for (const auto& [key, packed] : index.results) {
+    times.push_back(time == CellTime::kWall ? packed.result.seconds : packed.result.cpu_seconds);
+  }
   require(!times.empty(), Exit::kUsage, folder.string(),
           ": no cell has run, so no time is known; run some with --limit 30");
   CellProjection projection;

@@ -8,13 +8,15 @@ namespace {
 
 Ranks* the_ranks = nullptr;
 bool work_is_divided = false;
-double seconds_in_exchanges = 0.0;
+ExchangeCost the_cost;
 
 void exchange_bytes(void* data, const std::vector<Index>& offsets) {
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
   the_ranks->share(static_cast<std::byte*>(data), offsets);
-  seconds_in_exchanges += std::chrono::duration<double>(Clock::now() - begin).count();
+  the_cost.seconds += std::chrono::duration<double>(Clock::now() - begin).count();
+  the_cost.bytes += offsets.back();
+  ++the_cost.count;
 }
 
 }  // namespace
@@ -22,7 +24,7 @@ void exchange_bytes(void* data, const std::vector<Index>& offsets) {
 void set_ranks(Ranks* ranks) { the_ranks = ranks; }
 int rank_count() { return the_ranks ? the_ranks->count() : 1; }
 bool is_first_rank() { return !the_ranks || the_ranks->index() == 0; }
-double exchange_seconds() { return seconds_in_exchanges; }
+const ExchangeCost& exchange_cost() { return the_cost; }
 
 DividedWork::DividedWork() : before_(work_is_divided) { work_is_divided = rank_count() > 1; }
 DividedWork::~DividedWork() { work_is_divided = before_; }

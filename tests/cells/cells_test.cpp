@@ -323,7 +323,7 @@ TEST_F(Cells, AtWorkAreToldUntilTheirProcessEnds) {
 
 TEST_F(Cells, AreProjectedFromTheTimesOfThoseThatRan) {
   const fs::path at = planned(R"({"commands": [["true"]]})");
-  expect_refused([&] { project_cells(at, 10, 2); }, "no cell has run");
+  expect_refused([&] { project_cells(at, 10, 2, CellTime::kWall); }, "no cell has run");
   {
     PackWriter pack(at, {1, 1});
     for (const auto& [key, seconds] : {std::pair("a", 1.0), std::pair("b", 3.0)}) {
@@ -333,7 +333,8 @@ TEST_F(Cells, AreProjectedFromTheTimesOfThoseThatRan) {
       pack.append(result);
     }
   }
-  const CellProjection one = project_cells(at, 100, 1), many = project_cells(at, 100, 100);
+  const CellProjection one = project_cells(at, 100, 1, CellTime::kWall),
+                       many = project_cells(at, 100, 100, CellTime::kWall);
   EXPECT_EQ(one.measured, 2);
   EXPECT_EQ(one.mean_s, 2.0);
   // A sum of 100 times of 1 or 3 s: mean 200 s, standard deviation 10 s.

@@ -125,8 +125,10 @@ void JoinedRanks::fall_silent() {
 void JoinedRanks::print_times() const {
   if (!ranks_ || !is_first_rank()) return;
   const double all = monotonic_s() - begin_;
-  std::fprintf(stderr, "%d processes: %.2f s, of which %.2f s exchanging\n", ranks_->count(), all,
-               exchange_seconds());
+  const ExchangeCost& cost = exchange_cost();
+  std::fprintf(stderr, "%d processes: %.2f s, of which %.2f s exchanging (%lld times, %.1f MB)\n",
+               ranks_->count(), all, cost.seconds, static_cast<long long>(cost.count),
+               1e-6 * static_cast<double>(cost.bytes));
 }
 
 int JoinedRanks::leave(int code) {

@@ -13,9 +13,11 @@ struct CellProjection {
          late_s = 0.0;  ///< until the last worker is done; late: 95 of 100 times earlier
 };
 
+enum class CellTime { kWall, kProcessor };
+
 /// `cells` times drawn with replacement from the measured ones, in equal shares for `workers`, as
 /// shards are: 1000 draws of a fixed seed. Waiting in a queue is not in it.
 CellProjection project_cells(const std::filesystem::path& folder, std::int64_t cells,
-                             std::int64_t workers);
+                             std::int64_t workers, CellTime time);
 
 }  // namespace dcnn

@@ -53,7 +53,11 @@ PieceRange own_pieces(Index pieces);
 void share_pieces(void* data, Index pieces, const std::function<Index(Index)>& offset);
 /// Whether any rank wishes it: the same answer for all of them. Waits for all.
 bool any_rank(bool wish);
-/// Seconds that this process has spent in exchanges, waiting for others included.
-double exchange_seconds();
+/// What exchanges have cost this process so far: waiting for others included.
+struct ExchangeCost {
+  double seconds = 0.0;
+  std::int64_t count = 0, bytes = 0;  ///< bytes that all hold afterwards
+};
+const ExchangeCost& exchange_cost();
 
 }  // namespace dcnn
