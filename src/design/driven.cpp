@@ -63,13 +63,17 @@ Json next_motion(const DiagnosisRequest& request, const Diagnosis& diagnosis) {
   constexpr double kSeconds = 30.0;
   constexpr int kEvaluations = 60;  // half a second
   if (!request.simulator || request.system) return nullptr;
-  const Recording first = read_recording(request.fit.front(), request.read, System());
-  const auto limits = driven_limits({first}, diagnosis.corrected.model);
-  if (!limits) return nullptr;
-  DesignRequest wanted{diagnosis.report, diagnosis.model, "report.json", *limits, kSeconds, kEvaluations, 1};
-  Json next = next_motion(make_design(wanted, {}), kSeconds);
-  if (!next.is_null()) next["limits"] = to_json(*limits);
-  return next;
+  try {
+    const Recording first = read_recording(request.fit.front(), request.read, System());
+    const auto limits = driven_limits({first}, diagnosis.corrected.model);
+    if (!limits) return nullptr;
+    DesignRequest wanted{diagnosis.report, diagnosis.model, "report.json", *limits, kSeconds, kEvaluations, 1};
+    Json next = next_motion(make_design(wanted, {}), kSeconds);
+    if (!next.is_null()) next["limits"] = to_json(*limits);
+    return next;
+  } catch (const Error&) {
+    return nullptr;  // too short to be differentiated, or an effect needs a signal that no design has: the rest stands
+  }
 }
 
 }  // namespace dcnn::design

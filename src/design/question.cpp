@@ -24,11 +24,12 @@ bool same_effects(const Hypothesis& a, const Hypothesis& b) {
          std::all_of(a.effects.begin(), a.effects.end(), [&](const EffectSpec& e) { return holds(b.effects, e); });
 }
 
-/// What acts in one recording, or for some time that is over, is absent from the next.
+/// What acts in one recording, or for some time that is over, is absent from the next; what follows a temperature no
+/// motion shows.
 void leave_past(std::vector<EffectSpec>& effects) {
   std::erase_if(effects, [](const EffectSpec& e) {
     const EffectKind* kind = find_effect(e.effect);
-    return !e.recording.empty() || (e.interval_s && kind && kind->interval != IntervalRule::kOnset);
+    return !e.recording.empty() || e.parameters.contains("t_ref_degc") || (e.interval_s && kind && kind->interval != IntervalRule::kOnset);
   });
 }
 

@@ -55,6 +55,20 @@ TEST(Design, NextMotionNamesThePairAndSaysHowProbableADecisionIs) {
   EXPECT_TRUE(next_motion(make_design(request, {}), 10.0).is_null());  // nothing is left to be decided
 }
 
+TEST(Design, LeavesOutWhatTheNextRecordingCannotHold) {
+  DesignRequest request = test::friction_request();
+  Json contact = test::effect_json("contact", "", {{"force_x_n", 1.0}, {"force_y_n", 0.0}, {"force_z_n", 0.0}});
+  contact["axis"] = nullptr;
+  contact["interval_s"] = {3.0, 5.0};
+  Json drift = test::effect_json("thermal_drift", "", {{"k_x_npk", 0.1}, {"k_y_npk", 0.0}, {"k_z_npk", 0.0}, {"t_ref_degc", 20.0}});
+  drift["axis"] = nullptr;
+  request.model["effects"].push_back(contact);
+  request.model["effects"].push_back(drift);
+  const Question question = question_of(request.report, request.model, "report.json");
+  EXPECT_EQ(question.hypotheses[0].effects.size(), 1U);
+  EXPECT_NEAR(question.hypotheses[0].mass + question.hypotheses[1].mass + question.unknown, 1.0, 1e-12);
+}
+
 TEST(Design, RefusesReportsOfOtherMachinesAndOlderOnes) {
   DesignRequest request = test::friction_request();
   request.report["targets"] = Json::array({Json("tau1")});
