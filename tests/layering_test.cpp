@@ -99,6 +99,51 @@ TEST(Layering, IncludesPointDownwards) {
   }
 }
 
+/// Types at the indentation of namespaces, with their namespace, but for unnamed ones.
+std::vector<std::string> types_of(const std::string& text) {
+  static const std::regex space(R"(^namespace ([\w:]*) ?\{)"),
+      type(R"(^(?:struct|class|union|enum class) (\w+)(?: final)?(?: :[^;{]*)? ?\{)");
+  std::vector<std::string> found;
+  std::string inside;
+  bool unnamed = false;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || std::string("scuen}").find(line[0]) == std::string::npos) continue;
+    std::smatch match;
+    if (line == "}  // namespace") unnamed = false;
+    if (std::regex_search(line, match, space)) {
+      if (match[1].length() == 0) unnamed = true;
+      else inside = match[1];
+    }
+    if (!unnamed && std::regex_search(line, match, type)) {
+      found.push_back(inside + "::" + std::string(match[1]));
+    }
+  }
+  return found;
+}
+
+TEST(Layering, CheckerSeesTypes) {
+  const auto types = types_of(
+      "namespace dcnn {\nnamespace {\nstruct Own {\n};\n}  // namespace\n"
+      "class Shared final : public Base {\n  struct Inner {\n  };\n};\nstruct Told;\n}\n");
+  EXPECT_EQ(types, std::vector<std::string>{"dcnn::Shared"});
+}
+
+// Two types of one name in two files that never meet in one compile: the linker keeps the members of
+// either for both (C++20 [basic.def.odr]).
+TEST(Layering, NoTwoFilesDefineATypeOfOneName) {
+  std::map<std::string, fs::path> defined;
+  for (const auto& source : sources()) {
+    if (source.room == "tools") continue;  // programs are linked one by one
+    for (const std::string& type : types_of(source.text)) {
+      const auto [first, is_new] = defined.emplace(type, source.path);
+      EXPECT_TRUE(is_new || first->second == source.path)
+          << type << " in " << source.path << " and " << first->second;
+    }
+  }
+  EXPECT_GT(defined.size(), 200U);
+}
+
 TEST(Layering, NoFileIsLongerThan300Lines) {
   for (const auto& source : sources()) {
     EXPECT_LE(std::count(source.text.begin(), source.text.end(), '\n'), 300) << source.path;

@@ -7,8 +7,8 @@
 namespace dcnn {
 
 /// Takes back the names along an axis, together of more numbers than the simplest law has, where
-/// one established law without a name in their place gains more than they do, each number at its
-/// price, by what any law must gain to be accepted.
+/// one established law without a name in their place gains more than they do by what any law must
+/// gain to be accepted, and by the price of the numbers that it has more.
 void prefer_one_law(Search& search);
 
 /// Where something unnamed remains: looks for laws in the residual (dcnn/discovery), puts them

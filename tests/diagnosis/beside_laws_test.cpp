@@ -1,0 +1,76 @@
+// Names and laws without a name, together; and names that held-out data refute.
+#include <gtest/gtest.h>
+
+#include "diagnosis/support.h"
+
+namespace dcnn {
+namespace {
+
+using test::Bench;
+using test::configuration;
+using test::hidden;
+
+/// A law of the speed along the tool: shape "peaked" is that of an eddy-current brake, u/(1 + u^2).
+Json drag(const char* shape, const Json& parameters) {
+  Json effect = hidden("discovered", nullptr, parameters);
+  effect["law"] = {{"axis", "tool_z"}, {"factors", {{{"shape", shape}, {"of", "v_tool_z"}}}}};
+  return effect;
+}
+
+TEST(BesideLaws, AListedEffectKeepsItsName) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Bench bench(configuration(
+      {drag("peaked", {{"amplitude_n", -4.0}, {"scale_1_mps", 0.06}}),
+       hidden("com", nullptr,
+              {{"delta_com_x_m", 0.02}, {"delta_com_y_m", 0.0}, {"delta_com_z_m", 0.03}})}));
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(test::names(report), std::vector<std::string>{"com"}) << report["findings"].dump(1);
+  EXPECT_EQ(report["verdict"], "partly-explained");
+  EXPECT_EQ(report["findings"].back()["effect"], "discovered");
+  for (std::size_t j = 0; j < 3; ++j) {
+    EXPECT_LT(report["fit"]["holdout_rmse_after"][j].get<double>(),
+              1.05 * report["fit"]["noise_floor"][j].get<double>());
+  }
+}
+
+// The 1.5th power of the speed lies between a viscous friction and a drag that grows as its square.
+TEST(BesideLaws, OneLawTakesThePlaceOfTwoNamesThatImitateIt) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Bench bench(configuration(
+      {drag("power", {{"amplitude_n", -3.0}, {"scale_1_mps", 0.1}, {"power_1", 1.5}})}));
+  const Json report = bench.diagnose().report;
+  EXPECT_TRUE(test::names(report).empty()) << report["findings"].dump(1);
+  EXPECT_EQ(report["verdict"], "unexplained");
+  ASSERT_FALSE(report["findings"].empty());
+  EXPECT_NEAR(report["findings"][0]["parameters"]["power_1"]["value"].get<double>(), 1.5, 0.05);
+}
+
+TEST(BesideLaws, TwoNamesThatActStayTwo) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Bench bench(configuration(
+      {hidden("coulomb_friction", "tool_z", {{"fc_n", 0.5}, {"v0_mps", 0.01}}),
+       hidden("viscous_friction", "tool_z", {{"c_nspm", 6.0}})}));
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(test::found(report),
+            (std::set<std::string>{"coulomb_friction", "viscous_friction"}));
+  EXPECT_EQ(report["verdict"], "explained");
+  EXPECT_TRUE(report["refuted"].empty());
+}
+
+TEST(HeldOutData, TakeBackWhatTheyRefute) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Json friction =
+      Json::array({hidden("viscous_friction", "tool_z", {{"c_nspm", 4.0}})});
+  const Bench with(configuration(friction)), without(configuration(Json::array()));
+  DiagnosisRequest request = with.request();
+  request.holdout = {without / "hold.csv"};
+  const Json report = diagnose(request, nullptr).report;
+  EXPECT_TRUE(test::names(report).empty()) << report["findings"].dump(1);
+  ASSERT_EQ(report["refuted"].size(), 1u);
+  EXPECT_EQ(report["refuted"][0]["effect"], "viscous_friction");
+  EXPECT_LT(report["refuted"][0]["confidence"].get<double>(), 0.5);
+  EXPECT_EQ(report["verdict"], "unexplained");
+}
+
+}  // namespace
+}  // namespace dcnn
