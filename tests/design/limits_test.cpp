@@ -54,7 +54,7 @@ Json random_limits(Rng& rng) {
 }
 
 TEST(DesignLimits, AreNeverBrokenByMotionsUnderRandomLimits) {
-  const char* const more = std::getenv("DCNN_DESIGNS");  // docs/results/discovery.md: 10000
+  const char* const more = std::getenv("DCNN_DESIGNS");  // docs/develop/building.md
   const int designs = more ? std::atoi(more) : 60;
   Rng rng({7});
   int used = 0;
