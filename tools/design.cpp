@@ -1,7 +1,8 @@
+#include "dcnn/design/design.h"
+
 #include <iostream>
 
 #include "dcnn/core/file.h"
-#include "dcnn/design/design.h"
 #include "support/progress.h"
 #include "support/tool.h"
 
@@ -13,8 +14,10 @@ using design::DesignRequest;
 using Path = std::filesystem::path;
 
 constexpr const char* kExamples =
-    "  dcnn-design --report report --limits configs/limits/wrist.json --seconds 30 --out motion.csv\n"
-    "  dcnn-diagnose --sim sim.json --fit first.csv second.csv --out decided   # with what was recorded on it\n";
+    "  dcnn-design --report report --limits configs/limits/wrist.json --seconds 30 --out "
+    "motion.csv\n"
+    "  dcnn-diagnose --sim sim.json --fit first.csv second.csv --out decided   # with what was "
+    "recorded on it\n";
 
 /// The design beside what the report has.
 void write_next_motion(const Path& folder, Json report, const Json& next, const Path& motion) {
@@ -33,13 +36,15 @@ int main(int argc, char** argv) {
             kExamples);
   DesignRequest request;
   Path report, limits, out;
-  tool.option("--report", report, "folder of dcnn-diagnose").required();
+  tool.option("--report", report, "folder of dcnn-diagnose").called("DIR").required();
   tool.option("--limits", limits, "what the robot may do (JSON)").required();
   tool.option("--seconds", request.seconds, "length of the motion").with_default().positive();
-  tool.option("--evaluations", request.evaluations, "motions that are judged: time against a better one")
+  tool.option("--evaluations", request.evaluations,
+              "motions that are judged: time against a better one")
       .with_default()
       .between(1, 100000);
-  tool.output("--out", out, "motion.csv to write: t, joints where the limits are of joints, pose").required();
+  tool.output("--out", out, "motion.csv to write: t, joints where the limits are of joints, pose")
+      .required();
   return tool.run(argc, argv, [&] {
     const Path file = report / "report.json";
     request.where = file.string();
@@ -48,7 +53,8 @@ int main(int argc, char** argv) {
     request.limits = design::read_limits(limits);
     request.seed = tool.common().seed.value_or(1);
     Progress bar(tool.common().quiet);
-    const Design made = design::make_design(request, [&](double share) { bar.update(share, "motions"); });
+    const Design made =
+        design::make_design(request, [&](double share) { bar.update(share, "motions"); });
     bar.clear();
     write_csv(out, made.motion);
     const Json next = design::next_motion(made, request.seconds);

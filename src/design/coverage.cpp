@@ -12,8 +12,8 @@ Eigen::MatrixXd states_of(const Motion& motion) {
   for (Index k = 0; k < motion.samples(); ++k) {
     const Eigen::Matrix3d to_S = motion.R_BS[static_cast<std::size_t>(k)].transpose();
     states.row(k) << (to_S * motion.v_B.row(k).transpose()).transpose(), motion.w_S.row(k),
-        (to_S * motion.a_B.row(k).transpose()).transpose(), motion.dw_S.row(k), -to_S.col(2).transpose(),
-        motion.p_B.row(k);
+        (to_S * motion.a_B.row(k).transpose()).transpose(), motion.dw_S.row(k),
+        -to_S.col(2).transpose(), motion.p_B.row(k);
   }
   return states;
 }
@@ -25,7 +25,8 @@ double coverage(const Motion& motion, const Eigen::VectorXd& largest, double sam
   for (Index j = 0; j < states.cols(); ++j) states.col(j) /= largest(j);
   const Spectrum spectrum = spectrum_of(states.transpose() * states / rows);
   double sum = 0.0;
-  for (const double value : spectrum.values) sum += elementary::log1p(samples * std::max(0.0, value));
+  for (const double value : spectrum.values)
+    sum += elementary::log1p(samples * std::max(0.0, value));
   return 0.5 * sum / static_cast<double>(spectrum.values.size());
 }
 

@@ -31,8 +31,8 @@ Quantiles quantiles() {
   return q;
 }
 
-/// The quantile of a chi-square that belongs to a normal deviate: k (1 - v + z sqrt(v))³, v = 2/(9 k) (Wilson and Hilferty
-/// 1931).
+/// The quantile of a chi-square that belongs to a normal deviate: k (1 - v + z sqrt(v))³, v = 2/(9
+/// k) (Wilson and Hilferty 1931).
 double chi_square_quantile(double k, double z) {
   constexpr double kHardlyAny = 0.05;  // degrees of freedom
   if (k < kHardlyAny) return 0.0;
@@ -61,7 +61,7 @@ double probability_above(const Contest& contest, double threshold) {
       }
     }
   }
-  return sum;
+  return std::min(1.0, sum);  // of weights that sum to 1 but for rounding
 }
 
 double exclusion_threshold(int more) {

@@ -9,7 +9,8 @@
 namespace dcnn::design {
 namespace {
 
-/// The length of the vectors below which all but one in a thousand lie: the noise of derivatives has tails.
+/// The length of the vectors below which all but one in a thousand lie: the noise of derivatives
+/// has tails.
 double usual_most(const Eigen::MatrixXd& vectors) {
   constexpr double kShare = 0.999;
   Eigen::VectorXd length = vectors.rowwise().norm();
@@ -20,7 +21,8 @@ double usual_most(const Eigen::MatrixXd& vectors) {
 
 }  // namespace
 
-std::optional<Limits> driven_limits(const std::vector<Recording>& recordings, const ToolModel& model) {
+std::optional<Limits> driven_limits(const std::vector<Recording>& recordings,
+                                    const ToolModel& model) {
   constexpr double kLeast = 1e-6;  // of any limit: a motion at rest gives no room
   Eigen::VectorXd low, high;
   PoseLimits pose;
@@ -32,7 +34,8 @@ std::optional<Limits> driven_limits(const std::vector<Recording>& recordings, co
     if (m.is_static() || m.p_B.rows() == 0 || m.v_B.rows() == 0 || m.a_B.rows() == 0) continue;
     Eigen::MatrixXd coordinates(m.samples(), 6);
     coordinates << m.p_B, m.euler;
-    const Eigen::VectorXd least = coordinates.colwise().minCoeff(), most = coordinates.colwise().maxCoeff();
+    const Eigen::VectorXd least = coordinates.colwise().minCoeff(),
+                          most = coordinates.colwise().maxCoeff();
     low = low.size() == 0 ? least : Eigen::VectorXd(low.cwiseMin(least));
     high = high.size() == 0 ? most : Eigen::VectorXd(high.cwiseMax(most));
     pose.speed = std::max(pose.speed, usual_most(m.v_B));
@@ -67,12 +70,14 @@ Json next_motion(const DiagnosisRequest& request, const Diagnosis& diagnosis) {
     const Recording first = read_recording(request.fit.front(), request.read, System());
     const auto limits = driven_limits({first}, diagnosis.corrected.model);
     if (!limits) return nullptr;
-    DesignRequest wanted{diagnosis.report, diagnosis.model, "report.json", *limits, kSeconds, kEvaluations, 1};
+    DesignRequest wanted{
+        diagnosis.report, diagnosis.model, "report.json", *limits, kSeconds, kEvaluations, 1};
     Json next = next_motion(make_design(wanted, {}), kSeconds);
     if (!next.is_null()) next["limits"] = to_json(*limits);
     return next;
   } catch (const Error&) {
-    return nullptr;  // too short to be differentiated, or an effect needs a signal that no design has: the rest stands
+    return nullptr;  // too short to be differentiated, or an effect needs a signal that no design
+                     // has: the rest stands
   }
 }
 

@@ -15,11 +15,12 @@ Eigen::Matrix3d turned(const Eigen::Vector3d& axis, double angle) {
 
 }  // namespace
 
-FlangeState flange_state(const JointChain& chain, const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
-                         const Eigen::VectorXd& qdd) {
+FlangeState flange_state(const JointChain& chain, const Eigen::VectorXd& q,
+                         const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd) {
   FlangeState s{Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
-                Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  // A point fixed to the frame at p: v += w x Rp, a += dw x Rp + w x (w x Rp), with w, dw in the frame.
+                Eigen::Vector3d::Zero(),     Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  // A point fixed to the frame at p: v += w x Rp, a += dw x Rp + w x (w x Rp), with w, dw in the
+  // frame.
   const auto carry = [&](const Eigen::Vector3d& p) {
     const Eigen::Vector3d spin = s.w_E.cross(p);
     s.p += s.R * p;

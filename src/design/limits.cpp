@@ -14,7 +14,7 @@ namespace dcnn::design {
 namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-constexpr double kLargest = 1e6;  // of any limit, in SI: beyond it a file is in other units
+constexpr double kLargest = 1e6;   // of any limit, in SI: beyond it a file is in other units
 constexpr double kSteepest = 1.5;  // rad, |beta|: at pi/2 alpha and gamma are one angle
 
 Range read_range(Options& options, const std::string& key, double most) {
@@ -31,7 +31,8 @@ double read_most(Options& options, const std::string& key, bool needed) {
     return kUnlimited;
   }
   const double value = options.get<double>(key);
-  if (!(value > 0.0 && value <= kLargest)) options.reject(key, "must be above 0 and at most ", kLargest);
+  if (!(value > 0.0 && value <= kLargest))
+    options.reject(key, "must be above 0 and at most ", kLargest);
   return value;
 }
 
@@ -55,7 +56,8 @@ PoseLimits read_pose(Options& options, bool of_joints) {
   for (std::size_t g = 0; g < 2; ++g) {
     const auto& [key, names] = groups[g];
     if (!options.has(key) && !of_joints) {
-      options.reject(key, "is missing; it holds the ranges ", names[0], ", ", names[1], " and ", names[2]);
+      options.reject(key, "is missing; it holds the ranges ", names[0], ", ", names[1], " and ",
+                     names[2]);
     }
     Options ranges = options.child(key);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -78,23 +80,28 @@ PoseLimits read_pose(Options& options, bool of_joints) {
   return pose;
 }
 
-Eigen::VectorXd read_per_joint(Options& options, const std::string& key, Index joints, bool needed) {
+Eigen::VectorXd read_per_joint(Options& options, const std::string& key, Index joints,
+                               bool needed) {
   if (!needed && !options.has(key)) return Eigen::VectorXd::Constant(joints, kUnlimited);
   const auto list = options.get<std::vector<double>>(key);
-  const bool right = static_cast<Index>(list.size()) == joints &&
-                     std::all_of(list.begin(), list.end(), [](double v) { return v > 0.0 && v <= kLargest; });
+  const bool right =
+      static_cast<Index>(list.size()) == joints &&
+      std::all_of(list.begin(), list.end(), [](double v) { return v > 0.0 && v <= kLargest; });
   if (!right) options.reject(key, "must have a number above 0 for each of the ", joints, " joints");
   return Eigen::Map<const Eigen::VectorXd>(list.data(), joints);
 }
 
-JointLimits read_joints(Options options, const std::string& where, const std::filesystem::path& folder,
-                        Eigen::VectorXd& start) {
+JointLimits read_joints(Options options, const std::string& where,
+                        const std::filesystem::path& folder, Eigen::VectorXd& start) {
   JointLimits joints;
-  if (options.has("urdf") == options.has("dh")) options.reject("urdf", "or 'dh' must say what the arm is, one of them");
+  if (options.has("urdf") == options.has("dh"))
+    options.reject("urdf", "or 'dh' must say what the arm is, one of them");
   if (options.has("urdf")) {
-    joints.chain = read_urdf_chain(folder / options.get<std::string>("urdf"), options.get("tip", std::string()));
+    joints.chain = read_urdf_chain(folder / options.get<std::string>("urdf"),
+                                   options.get("tip", std::string()));
   } else {
-    const Json dh{{"convention", options.get("convention", std::string("modified"))}, {"dh", options.raw("dh")}};
+    const Json dh{{"convention", options.get("convention", std::string("modified"))},
+                  {"dh", options.raw("dh")}};
     joints.chain = parse_chain(dh, where, Exit::kUsage);
   }
   const auto count = static_cast<Index>(joints.chain.joints.size());
@@ -116,7 +123,8 @@ JointLimits read_joints(Options options, const std::string& where, const std::fi
   }
   if (options.has("start")) {
     const auto list = options.get<std::vector<double>>("start");
-    if (static_cast<Index>(list.size()) != count) options.reject("start", "must have ", count, " numbers");
+    if (static_cast<Index>(list.size()) != count)
+      options.reject("start", "must have ", count, " numbers");
     start = Eigen::Map<const Eigen::VectorXd>(list.data(), count);
   }
   options.finish();
@@ -151,7 +159,8 @@ void check_start(const Limits& limits, Options& options) {
   const char* const names[] = {"x", "y", "z", "alpha", "beta", "gamma"};
   for (std::size_t k = 0; k < 6; ++k) {
     if (!inside(limits.pose.range[k], pose(static_cast<Index>(k)))) {
-      options.reject("start", "has ", names[k], " = ", pose(static_cast<Index>(k)), ", outside of its range");
+      options.reject("start", "has ", names[k], " = ", pose(static_cast<Index>(k)),
+                     ", outside of its range");
     }
   }
   if (!inside(limits.pose.radius, (pose.head<3>() - limits.pose.center).norm())) {
@@ -161,8 +170,10 @@ void check_start(const Limits& limits, Options& options) {
 
 }  // namespace
 
-Limits parse_limits(const Json& json, const std::string& where, const std::filesystem::path& folder) {
-  require(json.is_object(), Exit::kUsage, where, ": must hold an object of limits, such as {\"speed_mps\": 0.25, ...}");
+Limits parse_limits(const Json& json, const std::string& where,
+                    const std::filesystem::path& folder) {
+  require(json.is_object(), Exit::kUsage, where,
+          ": must hold an object of limits, such as {\"speed_mps\": 0.25, ...}");
   Options options(json, where, Exit::kUsage);
   Limits limits;
   limits.rate_hz = options.number("rate_hz", limits.rate_hz, 20.0, 10000.0);

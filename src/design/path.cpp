@@ -13,8 +13,8 @@ namespace {
 constexpr Index kDegree = 5;
 const char* const kPoseNames[] = {"x", "y", "z", "alpha", "beta", "gamma"};
 
-/// Weights of the points of a segment, `degree` + 1, at u in [0,1): w_j = (u + d - j)/d w_(j-1) + (1 - u + j)/d w_j of one
-/// degree less (Cox and de Boor).
+/// Weights of the points of a segment, `degree` + 1, at u in [0,1): w_j = (u + d - j)/d w_(j-1) +
+/// (1 - u + j)/d w_j of one degree less (Cox and de Boor).
 Eigen::Matrix<double, kDegree + 1, 1> spline_weights(Index degree, double u) {
   Eigen::Matrix<double, kDegree + 1, 1> w = Eigen::Matrix<double, kDegree + 1, 1>::Unit(0);
   for (Index d = 1; d <= degree; ++d) {
@@ -40,7 +40,8 @@ Eigen::MatrixXd rates_of(const Eigen::MatrixXd& rows, double dt) {
 Eigen::MatrixXd in_base(const Motion& motion, const Eigen::MatrixXd& vectors_S) {
   Eigen::MatrixXd out(vectors_S.rows(), 3);
   for (Index k = 0; k < out.rows(); ++k) {
-    out.row(k) = (motion.R_BS[static_cast<std::size_t>(k)] * vectors_S.row(k).transpose()).transpose();
+    out.row(k) =
+        (motion.R_BS[static_cast<std::size_t>(k)] * vectors_S.row(k).transpose()).transpose();
   }
   return out;
 }
@@ -55,11 +56,13 @@ double share_of_range(const Range& range, double start, double low, double high)
   return share;
 }
 
-Motion arm_motion(const SplineSamples& q, const JointChain& chain, const ToolModel& model, Eigen::MatrixXd& pose) {
+Motion arm_motion(const SplineSamples& q, const JointChain& chain, const ToolModel& model,
+                  Eigen::MatrixXd& pose) {
   const Index n = q.t.size();
   Motion motion;
   const Eigen::Matrix3d R_ES = model.R_ES();
-  for (auto* block : {&motion.v_B, &motion.a_B, &motion.p_B, &motion.w_S, &motion.dw_S}) block->resize(n, 3);
+  for (auto* block : {&motion.v_B, &motion.a_B, &motion.p_B, &motion.w_S, &motion.dw_S})
+    block->resize(n, 3);
   pose.resize(n, 6);
   for (Index k = 0; k < n; ++k) {
     const FlangeState s = flange_state(chain, q.value.row(k), q.first.row(k), q.second.row(k));
@@ -106,13 +109,15 @@ SplineSamples sample(const Spline& spline, double rate_hz) {
     const double u = place - static_cast<double>(segment);
     for (Index d = 0; d < 4; ++d) {
       const Index points = kDegree + 1 - d;
-      blocks[d]->row(i) = spline_weights(kDegree - d, u).head(points).transpose() * difference[d].middleRows(segment, points);
+      blocks[d]->row(i) = spline_weights(kDegree - d, u).head(points).transpose() *
+                          difference[d].middleRows(segment, points);
     }
   }
   return out;
 }
 
-Played play(const Spline& spline, const Limits& limits, const ToolModel& model, double rate_hz, double start_s) {
+Played play(const Spline& spline, const Limits& limits, const ToolModel& model, double rate_hz,
+            double start_s) {
   Played out;
   out.coordinates = sample(spline, rate_hz);
   if (limits.joints) {
@@ -135,12 +140,14 @@ std::vector<Usage> usage(const Played& played, const Limits& limits) {
   };
   const Motion& m = played.motion;
   const PoseLimits& pose = limits.pose;
-  const auto add_range = [&](const std::string& name, const Range& range, const Eigen::VectorXd& x, bool turning) {
+  const auto add_range = [&](const std::string& name, const Range& range, const Eigen::VectorXd& x,
+                             bool turning) {
     if (!std::isfinite(range.high - range.low)) return;
     all.push_back({name, share_of_range(range, x(0), x.minCoeff(), x.maxCoeff()), turning});
   };
   for (Index k = 0; k < 6; ++k) {
-    add_range(std::string("range of ") + kPoseNames[k], pose.range[static_cast<std::size_t>(k)], played.pose.col(k), k > 2);
+    add_range(std::string("range of ") + kPoseNames[k], pose.range[static_cast<std::size_t>(k)],
+              played.pose.col(k), k > 2);
   }
   add("speed_mps", longest(m.v_B), pose.speed);
   add("acceleration_mps2", longest(m.a_B), pose.acceleration);
@@ -148,9 +155,11 @@ std::vector<Usage> usage(const Played& played, const Limits& limits) {
   add("rate_radps", longest(m.w_S), pose.rate, true);
   add("acceleration_radps2", longest(m.dw_S), pose.angular_acceleration, true);
   add("jerk_radps3", longest(rates_of(in_base(m, m.dw_S), m.dt)), pose.angular_jerk, true);
-  const Eigen::VectorXd radius = (played.pose.leftCols(3).rowwise() - pose.center.transpose()).rowwise().norm();
+  const Eigen::VectorXd radius =
+      (played.pose.leftCols(3).rowwise() - pose.center.transpose()).rowwise().norm();
   add("work_space", radius.maxCoeff(), pose.radius.high);
-  if (pose.radius.low > 0.0) add("inner work_space", pose.radius.low, std::max(1e-300, radius.minCoeff()));
+  if (pose.radius.low > 0.0)
+    add("inner work_space", pose.radius.low, std::max(1e-300, radius.minCoeff()));
   if (!limits.joints) return all;
   const JointLimits& joints = *limits.joints;
   const SplineSamples& q = played.coordinates;
@@ -165,8 +174,10 @@ std::vector<Usage> usage(const Played& played, const Limits& limits) {
 }
 
 Spline within(Spline spline, const Limits& limits, double rate_hz) {
-  // A maximum between two samples of what swings with the spacing of the points exceeds theirs by this share at most.
-  const double swing = std::numbers::pi / (rate_hz * spline.spacing), most = 1.0 / (1.0 + 0.25 * swing * swing);
+  // A maximum between two samples of what swings with the spacing of the points exceeds theirs by
+  // this share at most.
+  const double swing = std::numbers::pi / (rate_hz * spline.spacing),
+               most = 1.0 / (1.0 + 0.25 * swing * swing);
   const auto shrink = [&](Index first, Index count, double factor) {
     auto block = spline.points.middleCols(first, count);
     const Eigen::RowVectorXd start = limits.start.segment(first, count).transpose();

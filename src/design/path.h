@@ -10,8 +10,9 @@
 
 namespace dcnn::design {
 
-/// Control points (N, coordinates) `spacing` s apart. The first and the last five are the start: there position, velocity,
-/// acceleration and jerk are those of rest (de Boor 1978). Every value lies within the range of the points.
+/// Control points (N, coordinates) `spacing` s apart. The first and the last five are the start:
+/// there position, velocity, acceleration and jerk are those of rest (de Boor 1978). Every value
+/// lies within the range of the points.
 struct Spline {
   double spacing = 1.0;
   Eigen::MatrixXd points;
@@ -32,7 +33,8 @@ struct Played {
   Eigen::MatrixXd pose;       ///< (T, 6) x,y,z,alpha,beta,gamma, angles continuous
   Motion motion;              ///< exact, of the sensor mounted as `model` says; t from `start_s` on
 };
-Played play(const Spline& spline, const Limits& limits, const ToolModel& model, double rate_hz, double start_s);
+Played play(const Spline& spline, const Limits& limits, const ToolModel& model, double rate_hz,
+            double start_s);
 
 /// How much of a limit a motion uses: 1 is all of it.
 struct Usage {
@@ -43,8 +45,9 @@ struct Usage {
 /// Of every limit that is set, at the samples played.
 std::vector<Usage> usage(const Played& played, const Limits& limits);
 
-/// The spline shrunk towards the start as far as the limits need: positions and angles of a pose each by a factor of
-/// their own. Limits hold between samples too, by a margin for what lies between them.
+/// The spline shrunk towards the start as far as the limits need: positions and angles of a pose
+/// each by a factor of their own. Limits hold between samples too, by a margin for what lies
+/// between them.
 Spline within(Spline spline, const Limits& limits, double rate_hz);
 
 }  // namespace dcnn::design

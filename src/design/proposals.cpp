@@ -9,9 +9,9 @@
 namespace dcnn::design {
 namespace {
 
-constexpr Index kEnds = 5;            // points at either end that are the start
-constexpr Index kFewestPoints = 11;   // one of them is free
-constexpr double kShortest = 0.05;    // s between points: a robot's path follows no faster
+constexpr Index kEnds = 5;           // points at either end that are the start
+constexpr Index kFewestPoints = 11;  // one of them is free
+constexpr double kShortest = 0.05;   // s between points: a robot's path follows no faster
 
 /// The range in which a coordinate moves; that of an unlimited one is nothing.
 Range range_of(const Limits& limits, Index k) {
@@ -19,11 +19,12 @@ Range range_of(const Limits& limits, Index k) {
   return limits.joints ? limits.joints->range[i] : limits.pose.range[i];
 }
 
-/// Seconds that a stroke of `size` takes under limits of speed, acceleration and jerk, as a sine of that amplitude:
-/// speed s/T·pi, acceleration 2 s (pi/T)², jerk 4 s (pi/T)³ for a half period T.
+/// Seconds that a stroke of `size` takes under limits of speed, acceleration and jerk, as a sine of
+/// that amplitude: speed s/T·pi, acceleration 2 s (pi/T)², jerk 4 s (pi/T)³ for a half period T.
 double stroke_seconds(double size, double speed, double acceleration, double jerk) {
   const double pi = std::numbers::pi, half = 0.5 * size;
-  return pi * std::max({half / speed, std::sqrt(half / acceleration), elementary::pow(half / jerk, 1.0 / 3.0)});
+  return pi * std::max({half / speed, std::sqrt(half / acceleration),
+                        elementary::pow(half / jerk, 1.0 / 3.0)});
 }
 
 /// Seconds for the whole range of a coordinate.
@@ -31,7 +32,8 @@ double natural_seconds(const Limits& limits, Index k) {
   const Range range = range_of(limits, k);
   const double size = range.high - range.low;
   if (limits.joints) {
-    return stroke_seconds(size, limits.joints->speed(k), limits.joints->acceleration(k), limits.joints->jerk(k));
+    return stroke_seconds(size, limits.joints->speed(k), limits.joints->acceleration(k),
+                          limits.joints->jerk(k));
   }
   const PoseLimits& pose = limits.pose;
   return k < 3 ? stroke_seconds(size, pose.speed, pose.acceleration, pose.jerk)
@@ -52,8 +54,10 @@ void draw_piece(Spline& spline, Index k, Index first, Index count, const Limits&
   double phase = rng.uniform(0.0, 2.0 * std::numbers::pi);
   while (i < first + count) {
     const double length = stroke();
-    const Index end = std::min(first + count, i + std::max<Index>(1, std::llround(length * rng.uniform(1.0, 4.0))));
-    const double target = rng.uniform(range.low, range.high), size = half * rng.uniform(), pace = std::numbers::pi / length;
+    const Index end = std::min(
+        first + count, i + std::max<Index>(1, std::llround(length * rng.uniform(1.0, 4.0))));
+    const double target = rng.uniform(range.low, range.high), size = half * rng.uniform(),
+                 pace = std::numbers::pi / length;
     for (; i < end; ++i) {
       double& value = spline.points(i, k);
       if (manner == 0) {  // to a target, and rest there
@@ -113,12 +117,16 @@ Spline changed(const Spline& spline, const Limits& limits, Rng& rng) {
       const Range range = range_of(limits, k);
       const double factor = elementary::pow(2.0, rng.uniform(-1.0, 1.0));
       for (Index i = 0; i < points; ++i) {
-        out.points(i, k) = std::clamp(limits.start(k) + factor * (out.points(i, k) - limits.start(k)), range.low, range.high);
+        out.points(i, k) = std::clamp(
+            limits.start(k) + factor * (out.points(i, k) - limits.start(k)), range.low, range.high);
       }
       continue;
     }
-    const Index count = 1 + static_cast<Index>(rng.below(static_cast<std::uint64_t>(std::max<Index>(1, points / 2))));
-    const Index first = static_cast<Index>(rng.below(static_cast<std::uint64_t>(points - count + 1)));
+    const Index count =
+        1 +
+        static_cast<Index>(rng.below(static_cast<std::uint64_t>(std::max<Index>(1, points / 2))));
+    const Index first =
+        static_cast<Index>(rng.below(static_cast<std::uint64_t>(points - count + 1)));
     draw_piece(out, k, first, count, limits, rng);
   }
   rest_at_ends(out, limits);

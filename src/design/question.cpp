@@ -13,23 +13,28 @@ constexpr std::size_t kMostHypotheses = 6;  // the cost of a design grows with t
 constexpr double kPause = 5.0;              // s between the recordings at hand and the next
 
 /// The same law along the same axis, whatever its numbers.
-bool same_place(const EffectSpec& a, const EffectSpec& b) { return a.effect == b.effect && a.axis == b.axis; }
+bool same_place(const EffectSpec& a, const EffectSpec& b) {
+  return a.effect == b.effect && a.axis == b.axis;
+}
 
 bool holds(const std::vector<EffectSpec>& list, const EffectSpec& effect) {
-  return std::any_of(list.begin(), list.end(), [&](const EffectSpec& e) { return same_place(e, effect); });
+  return std::any_of(list.begin(), list.end(),
+                     [&](const EffectSpec& e) { return same_place(e, effect); });
 }
 
 bool same_effects(const Hypothesis& a, const Hypothesis& b) {
   return a.effects.size() == b.effects.size() &&
-         std::all_of(a.effects.begin(), a.effects.end(), [&](const EffectSpec& e) { return holds(b.effects, e); });
+         std::all_of(a.effects.begin(), a.effects.end(),
+                     [&](const EffectSpec& e) { return holds(b.effects, e); });
 }
 
-/// What acts in one recording, or for some time that is over, is absent from the next; what follows a temperature no
-/// motion shows.
+/// What acts in one recording, or for some time that is over, is absent from the next; what follows
+/// a temperature no motion shows.
 void leave_past(std::vector<EffectSpec>& effects) {
   std::erase_if(effects, [](const EffectSpec& e) {
     const EffectKind* kind = find_effect(e.effect);
-    return !e.recording.empty() || e.parameters.contains("t_ref_degc") || (e.interval_s && kind && kind->interval != IntervalRule::kOnset);
+    return !e.recording.empty() || e.parameters.contains("t_ref_degc") ||
+           (e.interval_s && kind && kind->interval != IntervalRule::kOnset);
   });
 }
 
@@ -56,7 +61,8 @@ int channel_of(const std::string& target, const std::string& where) {
 
 std::string Question::chosen() const {
   std::string names;
-  for (const EffectSpec& e : hypotheses.front().effects) names += (names.empty() ? "" : " + ") + e.effect;
+  for (const EffectSpec& e : hypotheses.front().effects)
+    names += (names.empty() ? "" : " + ") + e.effect;
   return names.empty() ? "nothing" : names;
 }
 
@@ -74,19 +80,23 @@ std::string Question::name_of(std::size_t one, std::size_t other) const {
 
 Question question_of(const Json& report, const Json& model, const std::string& where) {
   for (const char* key : {"targets", "fit", "rivals"}) {
-    require(report.contains(key), Exit::kData, where, ": has no '", key, "'; make it with this version's dcnn-diagnose");
+    require(report.contains(key), Exit::kData, where, ": has no '", key,
+            "'; make it with this version's dcnn-diagnose");
   }
   Question question;
-  for (const Json& target : report["targets"]) question.channels.push_back(channel_of(target, where));
+  for (const Json& target : report["targets"])
+    question.channels.push_back(channel_of(target, where));
   const Simulator simulator = parse_simulator(model, where, Exit::kData);
   question.tool = simulator.model;
   question.sample_rate_hz = simulator.model.sample_rate_hz;
   question.noise = report["fit"]["noise_floor"].get<std::vector<double>>();
-  const bool noisy = std::all_of(question.noise.begin(), question.noise.end(), [](double s) { return s > 0.0; });
+  const bool noisy =
+      std::all_of(question.noise.begin(), question.noise.end(), [](double s) { return s > 0.0; });
   require(noisy && question.noise.size() == question.channels.size(), Exit::kData, where,
           ": has no noise floor for each target");
   if (const Json* posterior = report.find("posterior")) {
-    question.unknown = posterior->value("unknown", 0.0) + posterior->value("named_and_unknown", 0.0);
+    question.unknown =
+        posterior->value("unknown", 0.0) + posterior->value("named_and_unknown", 0.0);
   }
   if (report.contains("clock_end_s") && report["clock_end_s"].is_number()) {
     question.start_s = report["clock_end_s"].get<double>() + kPause;
@@ -98,8 +108,8 @@ Question question_of(const Json& report, const Json& model, const std::string& w
     if (!e.law.is_null()) laws.push_back(e);
   }
   for (const Json& rival : report["rivals"]) {
-    Hypothesis one{parse_effects(rival.at("effects"), where, Exit::kData), 0.0, rival.value("chi2_above", 0.0),
-                   rival.value("more_numbers", 0)};
+    Hypothesis one{parse_effects(rival.at("effects"), where, Exit::kData), 0.0,
+                   rival.value("chi2_above", 0.0), rival.value("more_numbers", 0)};
     for (const EffectSpec& law : laws) {
       if (!holds(one.effects, law)) one.effects.push_back(law);
     }

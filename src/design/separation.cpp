@@ -69,7 +69,8 @@ Eigen::VectorXd Predictor::force_of(const Effects& effects, const Motion& motion
     const int channel = question_.channels[j];
     const Eigen::MatrixXd& block = channel < 3 ? wrench.force : wrench.torque;
     require(block.rows() == n, Exit::kData, "model.json: has no inertia for torques");
-    out.segment(static_cast<Index>(j) * n, n) = block.col(channel % 3) * (weight_ / question_.noise[j]);
+    out.segment(static_cast<Index>(j) * n, n) =
+        block.col(channel % 3) * (weight_ / question_.noise[j]);
   }
   return out;
 }
@@ -83,7 +84,8 @@ void Predictor::move(const Number& number, double by, Effects& effects) {
 double Predictor::step_of(const Number& number, const Effects& effects) const {
   constexpr double kRelative = 1e-4, kLeast = 1e-3;  // of a number in SI units
   if (number.logarithmic) return kRelative;
-  return kRelative * std::max(kLeast, std::abs(effects[number.effect].parameters[number.name].get<double>()));
+  return kRelative *
+         std::max(kLeast, std::abs(effects[number.effect].parameters[number.name].get<double>()));
 }
 
 Prediction Predictor::around(std::size_t k, const Effects& effects, const Motion& motion) const {
@@ -108,7 +110,8 @@ Prediction Predictor::predict(std::size_t k, const Motion& motion) const {
   return out;
 }
 
-double Predictor::fitted_square(std::size_t k, const Motion& motion, const Eigen::VectorXd& target) const {
+double Predictor::fitted_square(std::size_t k, const Motion& motion,
+                                const Eigen::VectorXd& target) const {
   constexpr int kMostSteps = 30;
   constexpr double kEnough = 1e-6, kLargestStep = 1.0;  // relative fall; of a logarithm
   Effects best = question_.hypotheses[k].effects;

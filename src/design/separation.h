@@ -1,4 +1,5 @@
-// How far apart structures are on a motion, once the rival's numbers have been fitted to the other's forces.
+// How far apart structures are on a motion, once the rival's numbers have been fitted to the
+// other's forces.
 #pragma once
 
 #include "dcnn/physics/motion.h"
@@ -6,21 +7,23 @@
 
 namespace dcnn::design {
 
-/// One structure on one motion, in deviations of the noise: what it predicts, and its derivatives by its numbers.
+/// One structure on one motion, in deviations of the noise: what it predicts, and its derivatives
+/// by its numbers.
 struct Prediction {
   Eigen::VectorXd force;    ///< samples of all channels, one channel after the other
   Eigen::MatrixXd tangent;  ///< (rows, numbers), of unit length each
 };
 
-/// Predictions of the hypotheses of a question on motions of one rate. Positive numbers that a law refuses below zero
-/// are fitted on a logarithmic scale.
+/// Predictions of the hypotheses of a question on motions of one rate. Positive numbers that a law
+/// refuses below zero are fitted on a logarithmic scale.
 class Predictor {
  public:
   Predictor(const Question& question, double rate_hz);
 
   /// Of hypothesis `k`. Error(kData) where it needs what the motion does not have.
   Prediction predict(std::size_t k, const Motion& motion) const;
-  /// Least |target - prediction|² over the numbers of hypothesis k, from its own on (Levenberg and Marquardt).
+  /// Least |target - prediction|² over the numbers of hypothesis k, from its own on (Levenberg and
+  /// Marquardt).
   double fitted_square(std::size_t k, const Motion& motion, const Eigen::VectorXd& target) const;
 
  private:
@@ -41,8 +44,8 @@ class Predictor {
   std::vector<std::vector<Number>> numbers_;
 };
 
-/// |D|² - |P D|², D = a.force - b.force and P the projection on b's tangent: the separation of a from the refitted b, to
-/// first order in b's numbers.
+/// |D|² - |P D|², D = a.force - b.force and P the projection on b's tangent: the separation of a
+/// from the refitted b, to first order in b's numbers.
 double separation(const Prediction& a, const Prediction& b);
 /// Dimension that two tangent spaces share: trace of the product of their projections.
 double shared_dimension(const Prediction& a, const Prediction& b);

@@ -20,7 +20,8 @@ std::string percent(double share) {
   return text;
 }
 
-/// Changes of direction of a coordinate that has moved by more than a hundredth of its range since the last.
+/// Changes of direction of a coordinate that has moved by more than a hundredth of its range since
+/// the last.
 int reversals(const Eigen::VectorXd& x) {
   constexpr double kPart = 0.01;
   const double least = kPart * (x.maxCoeff() - x.minCoeff());
@@ -29,7 +30,9 @@ int reversals(const Eigen::VectorXd& x) {
   for (const double now : x) {
     low = std::min(low, now);
     high = std::max(high, now);
-    const int turned = now > low + least && direction <= 0 ? 1 : now < high - least && direction >= 0 ? -1 : 0;
+    const int turned = now > low + least && direction <= 0    ? 1
+                       : now < high - least && direction >= 0 ? -1
+                                                              : 0;
     if (turned == 0) continue;
     if (direction != 0) ++count;
     direction = turned;
@@ -56,11 +59,12 @@ std::vector<std::string> coordinate_words(const Played& played) {
     const double speed = (x.tail(x.size() - 1) - x.head(x.size() - 1)).cwiseAbs().maxCoeff() / dt;
     const std::string unit = k < 3 ? "m" : "rad";
     std::ostringstream words;
-    words << names[k] << " over " << three_digits(range) << " " << unit << " at up to " << three_digits(speed) << " "
-          << unit << "/s with " << reversals(x) << " reversals";
+    words << names[k] << " over " << three_digits(range) << " " << unit << " at up to "
+          << three_digits(speed) << " " << unit << "/s with " << reversals(x) << " reversals";
     list.emplace_back(-range / largest[k / 3], words.str());
   }
-  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(list.begin(), list.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::string> words;
   for (const auto& entry : list) words.push_back(entry.second);
   return words;
@@ -78,11 +82,13 @@ std::string motion_words(const Played& played, const Question& question, const D
   if (parts.empty()) out << "nothing: the limits leave no room";
   if (!design.verdicts.empty()) {
     const Verdict& first = design.verdicts.front();
-    out << "; if " << first.one << " is right, " << first.other << " is then " << three_digits(first.separation)
-        << " deviations of the noise away";
-    if (design.probability) out << ", and with probability " << three_digits(*design.probability) << " one model is left";
+    out << "; if " << first.one << " is right, " << first.other << " is then "
+        << three_digits(first.separation) << " deviations of the noise away";
+    if (design.probability)
+      out << ", and with probability " << three_digits(*design.probability) << " one model is left";
   }
-  if (question.unknown > 0.5) out << "; what no name describes is seen in all directions and speeds of these limits";
+  if (question.unknown > 0.5)
+    out << "; what no name describes is seen in all directions and speeds of these limits";
   return out.str();
 }
 
@@ -104,7 +110,10 @@ Json next_motion(const Design& design, double seconds) {
 Json to_json(const Design& design, double seconds) {
   Json pairs = Json::array();
   for (const Verdict& v : design.verdicts) {
-    pairs.push_back({{"right", v.one}, {"rival", v.other}, {"separation", v.separation}, {"probability", v.probability}});
+    pairs.push_back({{"right", v.one},
+                     {"rival", v.other},
+                     {"separation", v.separation},
+                     {"probability", v.probability}});
   }
   return {{"next_motion", next_motion(design, seconds)},
           {"pairs", pairs},
@@ -116,15 +125,18 @@ Json to_json(const Design& design, double seconds) {
 std::string to_text(const Design& design) {
   std::ostringstream out;
   for (const Verdict& v : design.verdicts) {
-    out << "if          " << v.one << " is right, not " << v.other << ": " << three_digits(v.separation)
-        << " deviations apart, left alone with probability " << three_digits(v.probability) << "\n";
+    out << "if          " << v.one << " is right, not " << v.other << ": "
+        << three_digits(v.separation) << " deviations apart, left alone with probability "
+        << three_digits(v.probability) << "\n";
   }
-  out << "unknown     probability " << three_digits(design.unknown) << ", " << three_digits(design.information)
-      << " nats for each state that a law may depend on\n";
+  out << "unknown     probability " << three_digits(design.unknown) << ", "
+      << three_digits(design.information) << " nats for each state that a law may depend on\n";
   out << "limits      ";
-  for (std::size_t k = 0; k < design.limits.size(); ++k) out << (k > 0 ? ", " : "") << design.limits[k];
+  for (std::size_t k = 0; k < design.limits.size(); ++k)
+    out << (k > 0 ? ", " : "") << design.limits[k];
   out << "\nmotion      " << design.words << "\n";
-  if (design.probability) out << "decides     with probability " << three_digits(*design.probability) << "\n";
+  if (design.probability)
+    out << "decides     with probability " << three_digits(*design.probability) << "\n";
   return out.str();
 }
 

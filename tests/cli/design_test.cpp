@@ -1,10 +1,11 @@
+#include "support/design.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "dcnn/core/file.h"
 #include "dcnn/data/csv.h"
-#include "support/design.h"
 #include "support/process.h"
 
 namespace dcnn {
@@ -23,8 +24,9 @@ class DesignTool : public testing::Test {
   }
   std::string path(const char* name) const { return (folder_ / name).string(); }
   test::Result design(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments{"--report", path("report"), "--limits", path("limits.json"), "--out", path("motion.csv"),
-                                       "--seconds", "6", "--evaluations", "5"};
+    std::vector<std::string> arguments{
+        "--report",         path("report"), "--limits", path("limits.json"), "--out",
+        path("motion.csv"), "--seconds",    "6",        "--evaluations",     "5"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run("design", arguments);
   }
@@ -36,7 +38,8 @@ TEST_F(DesignTool, WritesTheMotionAndAddsItToTheReport) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("decides     with probability"), std::string::npos) << result.out;
   const Table motion = read_csv(path("motion.csv"));
-  EXPECT_EQ(motion.columns, (std::vector<std::string>{"t", "x", "y", "z", "alpha", "beta", "gamma"}));
+  EXPECT_EQ(motion.columns,
+            (std::vector<std::string>{"t", "x", "y", "z", "alpha", "beta", "gamma"}));
   EXPECT_EQ(motion.values.rows(), 3001);
   EXPECT_LT((motion.values.row(0) - motion.values.row(3000)).tail(6).norm(), 1e-12);
   const Json report = read_json(folder_ / "report" / "report.json", Exit::kData);

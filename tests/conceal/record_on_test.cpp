@@ -27,7 +27,8 @@ TEST(RecordOn, IsTheSameToolWithTheSameEffectsOnThatMotion) {
   }
   EXPECT_LT((next.pose.topRows(4000) - first.pose.topRows(4000)).cwiseAbs().maxCoeff(), 0.01);
   // The mean over the inner rows of what the force differs by: that of the smoothed pose alone.
-  const Eigen::MatrixXd difference = (next.clean - first.clean.topRows(next.clean.rows())).middleRows(500, 4000);
+  const Eigen::MatrixXd difference =
+      (next.clean - first.clean.topRows(next.clean.rows())).middleRows(500, 4000);
   EXPECT_LT(difference.colwise().mean().norm(), 0.01);
   EXPECT_LT(difference.cwiseAbs().maxCoeff(), 0.5);
   EXPECT_NE(next.measured, next.clean);

@@ -20,7 +20,8 @@ TEST(Design, SeparatesTwoFrictionsFartherThanArbitraryMotionsDo) {
   double mean = 0.0;
   constexpr int kMotions = 20;
   for (int k = 0; k < kMotions; ++k) {
-    const Spline s = within(draw_spline(request.limits, request.seconds, rng), request.limits, 100.0);
+    const Spline s =
+        within(draw_spline(request.limits, request.seconds, rng), request.limits, 100.0);
     const Motion m = play(s, request.limits, question.tool, 100.0, 0.0).motion;
     mean += std::sqrt(separation(predictor.predict(0, m), predictor.predict(1, m))) / kMotions;
   }
@@ -52,21 +53,26 @@ TEST(Design, NextMotionNamesThePairAndSaysHowProbableADecisionIs) {
   EXPECT_EQ(next["probability"].get<double>(), *design.probability);
   EXPECT_NE(next["words"].get<std::string>().find("reversals"), std::string::npos);
   request.report["rivals"] = Json::array();
-  EXPECT_TRUE(next_motion(make_design(request, {}), 10.0).is_null());  // nothing is left to be decided
+  EXPECT_TRUE(
+      next_motion(make_design(request, {}), 10.0).is_null());  // nothing is left to be decided
 }
 
 TEST(Design, LeavesOutWhatTheNextRecordingCannotHold) {
   DesignRequest request = test::friction_request();
-  Json contact = test::effect_json("contact", "", {{"force_x_n", 1.0}, {"force_y_n", 0.0}, {"force_z_n", 0.0}});
+  Json contact = test::effect_json("contact", "",
+                                   {{"force_x_n", 1.0}, {"force_y_n", 0.0}, {"force_z_n", 0.0}});
   contact["axis"] = nullptr;
   contact["interval_s"] = {3.0, 5.0};
-  Json drift = test::effect_json("thermal_drift", "", {{"k_x_npk", 0.1}, {"k_y_npk", 0.0}, {"k_z_npk", 0.0}, {"t_ref_degc", 20.0}});
+  Json drift = test::effect_json(
+      "thermal_drift", "",
+      {{"k_x_npk", 0.1}, {"k_y_npk", 0.0}, {"k_z_npk", 0.0}, {"t_ref_degc", 20.0}});
   drift["axis"] = nullptr;
   request.model["effects"].push_back(contact);
   request.model["effects"].push_back(drift);
   const Question question = question_of(request.report, request.model, "report.json");
   EXPECT_EQ(question.hypotheses[0].effects.size(), 1U);
-  EXPECT_NEAR(question.hypotheses[0].mass + question.hypotheses[1].mass + question.unknown, 1.0, 1e-12);
+  EXPECT_NEAR(question.hypotheses[0].mass + question.hypotheses[1].mass + question.unknown, 1.0,
+              1e-12);
 }
 
 TEST(Design, RefusesReportsOfOtherMachinesAndOlderOnes) {
@@ -90,7 +96,8 @@ TEST(DesignSeparation, IsWhatARefittedRivalLeaves) {
   const double fitted = predictor.fitted_square(1, m, dry.force);
   EXPECT_NEAR(separation(dry, viscous), fitted, 1e-4 * fitted);
   EXPECT_GT(fitted, 1.0);
-  // Dry friction can spread its turning point until it is viscous: fitting its width leaves less than a line does.
+  // Dry friction can spread its turning point until it is viscous: fitting its width leaves less
+  // than a line does.
   EXPECT_LT(predictor.fitted_square(0, m, viscous.force), 0.5 * separation(viscous, dry));
   EXPECT_EQ(separation(dry, dry), 0.0);
 }
@@ -105,9 +112,12 @@ TEST(DesignDecision, ProbabilityIsTheShareOfSimulatedRecordingsThatDecide) {
   const Spline s = within(draw_spline(request.limits, 6.0, rng), request.limits, kHz);
   const Motion m = play(s, request.limits, question.tool, kHz, 0.0).motion;
   const Prediction dry = predictor.predict(0, m), viscous = predictor.predict(1, m);
-  const double square = predictor.fitted_square(1, m, dry.force), shared = shared_dimension(dry, viscous);
-  const Contest contest{square, static_cast<double>(dimension(dry)) - shared, static_cast<double>(dimension(viscous)) - shared};
-  // At thresholds below, at and above the mean the share of simulated recordings is the probability.
+  const double square = predictor.fitted_square(1, m, dry.force),
+               shared = shared_dimension(dry, viscous);
+  const Contest contest{square, static_cast<double>(dimension(dry)) - shared,
+                        static_cast<double>(dimension(viscous)) - shared};
+  // At thresholds below, at and above the mean the share of simulated recordings is the
+  // probability.
   constexpr int kRecordings = 300;
   std::vector<double> differences;
   for (int k = 0; k < kRecordings; ++k) {
@@ -127,7 +137,8 @@ TEST(DesignDecision, ProbabilityIsTheShareOfSimulatedRecordingsThatDecide) {
 
 TEST(DesignDecision, ProbabilityIsThatOfDrawnChiSquares) {
   Rng rng({6});
-  for (const Contest& c : {Contest{0.0, 2.0, 0.0}, Contest{9.0, 1.0, 0.0}, Contest{16.0, 1.0, 2.0}, Contest{0.0, 0.0, 3.0}}) {
+  for (const Contest& c : {Contest{0.0, 2.0, 0.0}, Contest{9.0, 1.0, 0.0}, Contest{16.0, 1.0, 2.0},
+                           Contest{0.0, 0.0, 3.0}}) {
     constexpr int kDraws = 20000;
     for (const double threshold : {-5.0, 2.0, 6.0, 20.0}) {
       double share = 0.0;
@@ -143,7 +154,8 @@ TEST(DesignDecision, ProbabilityIsThatOfDrawnChiSquares) {
         }
         share += difference > threshold ? 1.0 / kDraws : 0.0;
       }
-      EXPECT_NEAR(probability_above(c, threshold), share, 0.015) << c.separation << " " << c.own << " " << threshold;
+      EXPECT_NEAR(probability_above(c, threshold), share, 0.015)
+          << c.separation << " " << c.own << " " << threshold;
     }
   }
 }

@@ -34,7 +34,8 @@ TEST(DesignSpline, DerivativesAreThoseOfFiniteDifferences) {
     const Eigen::MatrixXd central = (f.bottomRows(n - 2) - f.topRows(n - 2)) * (0.5 * kHz);
     const double scale = blocks[d + 1]->cwiseAbs().maxCoeff();
     ASSERT_GT(scale, 0.0);
-    EXPECT_LT((central - blocks[d + 1]->middleRows(1, n - 2)).cwiseAbs().maxCoeff(), 1e-3 * scale) << d;
+    EXPECT_LT((central - blocks[d + 1]->middleRows(1, n - 2)).cwiseAbs().maxCoeff(), 1e-3 * scale)
+        << d;
   }
 }
 
@@ -42,7 +43,8 @@ TEST(DesignSpline, PlayedMotionHasTheDerivativesOfItsPose) {
   const Limits limits = test::tool_limits();
   const Played p = play(some_spline(5), limits, ToolModel(), 5000.0, 0.0);
   const Index n = p.pose.rows();
-  const Eigen::MatrixXd v = (p.pose.leftCols(3).bottomRows(n - 2) - p.pose.leftCols(3).topRows(n - 2)) * 2500.0;
+  const Eigen::MatrixXd v =
+      (p.pose.leftCols(3).bottomRows(n - 2) - p.pose.leftCols(3).topRows(n - 2)) * 2500.0;
   EXPECT_LT((v - p.motion.v_B.middleRows(1, n - 2)).cwiseAbs().maxCoeff(), 1e-4);
 }
 

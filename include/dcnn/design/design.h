@@ -1,4 +1,5 @@
-// The next experiment: the motion within a robot's limits that best tells apart what a report leaves open.
+// The next experiment: the motion within a robot's limits that best tells apart what a report
+// leaves open.
 #pragma once
 
 #include <cstdint>
@@ -15,19 +16,20 @@
 namespace dcnn::design {
 
 struct DesignRequest {
-  Json report, model;        ///< report.json and model.json of dcnn-diagnose
-  std::string where;         ///< names them in errors
+  Json report, model;  ///< report.json and model.json of dcnn-diagnose
+  std::string where;   ///< names them in errors
   Limits limits;
-  double seconds = 30.0;     ///< of the motion
-  int evaluations = 300;     ///< motions that are judged: what the search costs
+  double seconds = 30.0;  ///< of the motion
+  int evaluations = 300;  ///< motions that are judged: what the search costs
   std::uint64_t seed = 1;
 };
 
 /// Two structures on the designed motion.
 struct Verdict {
-  std::string one, other;     ///< what the one holds and the other does not
-  double separation = 0.0;    ///< deviations of the noise, with the other's numbers refitted to the one's forces
-  double probability = 0.0;   ///< that dcnn-diagnose lists the other no more where the one is true
+  std::string one, other;  ///< what the one holds and the other does not
+  double separation =
+      0.0;  ///< deviations of the noise, with the other's numbers refitted to the one's forces
+  double probability = 0.0;  ///< that dcnn-diagnose lists the other no more where the one is true
 };
 
 struct Design {
@@ -38,7 +40,8 @@ struct Design {
   std::vector<Verdict> verdicts;    ///< of the chosen structure and its likeliest rival first
   double unknown = 0.0;             ///< probability that no name describes what is left
   double information = 0.0;         ///< nats about a law linear in the states, for each of these
-  /// That one structure is left, and the right one, if one of those weighed is true; none without a rival.
+  /// That one structure is left, and the right one, if one of those weighed is true; none without a
+  /// rival.
   std::optional<double> probability;
   std::string words;
 };
@@ -48,8 +51,9 @@ Design make_design(const DesignRequest& request, const std::function<void(double
 
 /// `next_motion` of report.json; null where nothing is left to be decided.
 Json next_motion(const Design& design, double seconds);
-/// The same of a diagnosis of a tool with a simulator of its own, in every direction as far and as fast as its first
-/// recording moved in one; null for other machines, poses at rest and where nothing is left to be decided.
+/// The same of a diagnosis of a tool with a simulator of its own, in every direction as far and as
+/// fast as its first recording moved in one; null for other machines, poses at rest and where
+/// nothing is left to be decided.
 Json next_motion(const DiagnosisRequest& request, const Diagnosis& diagnosis);
 std::string to_text(const Design& design);
 Json to_json(const Design& design, double seconds);

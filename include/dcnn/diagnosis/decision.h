@@ -5,7 +5,8 @@ namespace dcnn {
 
 /// Chi-square that a fitted number must gain.
 constexpr double kNumberPrice = 10.0;
-/// Chi-square by which a model with as many numbers may fit worse and still be listed: e^6, 400 to 1.
+/// Chi-square by which a model with as many numbers may fit worse and still be listed: e^6, 400
+/// to 1.
 constexpr double kAsLikely = 12.0;
 /// Share of the price of each further number that a model with more of them must gain to be listed.
 constexpr double kLeastOfMore = 0.5;
