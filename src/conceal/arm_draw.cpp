@@ -17,6 +17,21 @@ using Eigen::Vector3d;
 
 constexpr int kPerReading = 16;     // of the 4000 Hz world: 250 Hz
 
+/// Torques at the world's rate, on straight lines between those of every fourth row: motion is slow beside 1 kHz.
+MatrixXd torques_of(const std::vector<Limb>& limbs, const MatrixXd& angles) {
+  constexpr Index kEvery = 4;
+  const Index coarse = (angles.rows() - 1) / kEvery + 1;
+  MatrixXd q(coarse, angles.cols()), fine(angles.rows(), angles.cols());
+  for (Index i = 0; i < coarse; ++i) q.row(i) = angles.row(kEvery * i);
+  const MatrixXd torque = drive_torques(limbs, q, kEvery * kStep, kGravity);
+  for (Index i = 0; i < fine.rows(); ++i) {
+    const Index k = std::min(i / kEvery, coarse - 2);
+    const double part = static_cast<double>(i - kEvery * k) / kEvery;
+    fine.row(i) = torque.row(k) + part * (torque.row(k + 1) - torque.row(k));
+  }
+  return fine;
+}
+
 /// Effects that one joint of an arm can have: its log has one clock and nobody pushes at a single joint.
 const std::vector<std::string>& joint_effects() {
   static const std::vector<std::string> ids{
@@ -207,8 +222,8 @@ ArmScenario draw_arm(const std::string& id, std::uint64_t seed) {
   std::vector<MatrixXd> angles, torques;
   for (int k = 0; k < 3; ++k) {
     angles.push_back(draw_angles(joints, rng));
-    const MatrixXd nominal = drive_torques(s.limbs, angles.back(), kStep, kGravity);
-    torques.push_back(s.hidden.empty() ? nominal : drive_torques(loaded, angles.back(), kStep, kGravity));
+    const MatrixXd nominal = torques_of(s.limbs, angles.back());
+    torques.push_back(s.hidden.empty() ? nominal : torques_of(loaded, angles.back()));
     ArmLog log;
     log.holdout = k == 2;
     log.name = log.holdout ? "holdout_0" : "fit_" + std::to_string(k);
