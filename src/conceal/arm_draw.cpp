@@ -200,7 +200,9 @@ std::vector<std::string> arm_plan(int scenarios, std::uint64_t seed) {
       ids.push_back("single:1/" + joint_effects()[single++ % joint_effects().size()] + number);
     }
   }
-  return ids;
+  std::vector<std::string> drawn;  // their order tells nothing
+  for (const auto k : permutation(scenarios, rng)) drawn.push_back(ids[static_cast<std::size_t>(k)]);
+  return drawn;
 }
 
 ArmScenario draw_arm(const std::string& id, std::uint64_t seed) {
