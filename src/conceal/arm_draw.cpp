@@ -104,6 +104,21 @@ Hidden draw_joint_effect(const std::string& effect, Rng& rng) {
   return h;
 }
 
+/// In the terms of the joint's drive, which the tool's force is the reaction to: one component, and the sign of the
+/// reading where the effect adds to it.
+Hidden of_joint(Hidden h, std::size_t joint) {
+  h.axis = "joint" + std::to_string(joint + 1);
+  const bool adds = has("bias linear_drift step_bias hum", h.effect);
+  std::erase_if(h.parameters, [](const auto& p) {
+    return p.first == "gain_y" || p.first == "gain_z" || p.first.find("_y_") != std::string::npos ||
+           p.first.find("_z_") != std::string::npos;
+  });
+  for (auto& [name, value] : h.parameters) {
+    if (adds && name.find("_x_") != std::string::npos) value = -value;
+  }
+  return h;
+}
+
 std::vector<std::pair<std::size_t, std::string>> wanted_effects(const ArmRequestId& r, std::size_t joints,
                                                                 Rng& rng) {
   std::vector<std::pair<std::size_t, std::string>> list;
@@ -162,8 +177,7 @@ void read_joint(ArmScenario& s, std::size_t joint, const std::vector<std::string
     }
     require(strong.has_value(), Exit::kUsage, s.id, ": ", effect, " changes nothing; give another seed");
     one.hidden.push_back(*strong);
-    s.hidden.push_back(*strong);
-    s.hidden.back().axis = "joint" + std::to_string(joint + 1);
+    s.hidden.push_back(of_joint(*strong, joint));
   }
   for (std::size_t k = 0; k < s.logs.size(); ++k) {
     ArmLog& log = s.logs[k];
