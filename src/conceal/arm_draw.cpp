@@ -17,6 +17,21 @@ using Eigen::Vector3d;
 
 constexpr int kPerReading = 16;     // of the 4000 Hz world: 250 Hz
 
+/// Torques at the world's rate, on straight lines between those of every fourth row: motion is slow beside 1 kHz.
+MatrixXd torques_of(const std::vector<Limb>& limbs, const MatrixXd& angles) {
+  constexpr Index kEvery = 4;
+  const Index coarse = (angles.rows() - 1) / kEvery + 1;
+  MatrixXd q(coarse, angles.cols()), fine(angles.rows(), angles.cols());
+  for (Index i = 0; i < coarse; ++i) q.row(i) = angles.row(kEvery * i);
+  const MatrixXd torque = drive_torques(limbs, q, kEvery * kStep, kGravity);
+  for (Index i = 0; i < fine.rows(); ++i) {
+    const Index k = std::min(i / kEvery, coarse - 2);
+    const double part = static_cast<double>(i - kEvery * k) / kEvery;
+    fine.row(i) = torque.row(k) + part * (torque.row(k + 1) - torque.row(k));
+  }
+  return fine;
+}
+
 /// Effects that one joint of an arm can have: its log has one clock and nobody pushes at a single joint.
 const std::vector<std::string>& joint_effects() {
   static const std::vector<std::string> ids{
@@ -89,6 +104,21 @@ Hidden draw_joint_effect(const std::string& effect, Rng& rng) {
   return h;
 }
 
+/// In the terms of the joint's drive, which the tool's force is the reaction to: one component, and the sign of the
+/// reading where the effect adds to it.
+Hidden of_joint(Hidden h, std::size_t joint) {
+  h.axis = "joint" + std::to_string(joint + 1);
+  const bool adds = has("bias linear_drift step_bias hum", h.effect);
+  std::erase_if(h.parameters, [](const auto& p) {
+    return p.first == "gain_y" || p.first == "gain_z" || p.first.find("_y_") != std::string::npos ||
+           p.first.find("_z_") != std::string::npos;
+  });
+  for (auto& [name, value] : h.parameters) {
+    if (adds && name.find("_x_") != std::string::npos) value = -value;
+  }
+  return h;
+}
+
 std::vector<std::pair<std::size_t, std::string>> wanted_effects(const ArmRequestId& r, std::size_t joints,
                                                                 Rng& rng) {
   std::vector<std::pair<std::size_t, std::string>> list;
@@ -147,8 +177,7 @@ void read_joint(ArmScenario& s, std::size_t joint, const std::vector<std::string
     }
     require(strong.has_value(), Exit::kUsage, s.id, ": ", effect, " changes nothing; give another seed");
     one.hidden.push_back(*strong);
-    s.hidden.push_back(*strong);
-    s.hidden.back().axis = "joint" + std::to_string(joint + 1);
+    s.hidden.push_back(of_joint(*strong, joint));
   }
   for (std::size_t k = 0; k < s.logs.size(); ++k) {
     ArmLog& log = s.logs[k];
@@ -185,7 +214,9 @@ std::vector<std::string> arm_plan(int scenarios, std::uint64_t seed) {
       ids.push_back("single:1/" + joint_effects()[single++ % joint_effects().size()] + number);
     }
   }
-  return ids;
+  std::vector<std::string> drawn;  // their order tells nothing
+  for (const auto k : permutation(scenarios, rng)) drawn.push_back(ids[static_cast<std::size_t>(k)]);
+  return drawn;
 }
 
 ArmScenario draw_arm(const std::string& id, std::uint64_t seed) {
@@ -207,8 +238,8 @@ ArmScenario draw_arm(const std::string& id, std::uint64_t seed) {
   std::vector<MatrixXd> angles, torques;
   for (int k = 0; k < 3; ++k) {
     angles.push_back(draw_angles(joints, rng));
-    const MatrixXd nominal = drive_torques(s.limbs, angles.back(), kStep, kGravity);
-    torques.push_back(s.hidden.empty() ? nominal : drive_torques(loaded, angles.back(), kStep, kGravity));
+    const MatrixXd nominal = torques_of(s.limbs, angles.back());
+    torques.push_back(s.hidden.empty() ? nominal : torques_of(loaded, angles.back()));
     ArmLog log;
     log.holdout = k == 2;
     log.name = log.holdout ? "holdout_0" : "fit_" + std::to_string(k);

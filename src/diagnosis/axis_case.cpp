@@ -175,9 +175,12 @@ Signals unfiltered_left(const Case& study, const std::vector<Member>& members) {
   return left;
 }
 
+bool is_corrected(const Case& study) {
+  return study.axis && (study.axis->payload || study.axis->given.size() > 0);
+}
+
 Case as_given(Case study) {
   AxisPlan plan = *study.axis;
-  if (!plan.payload && plan.given.size() == 0) return study;
   plan.payload.reset();
   if (plan.given.size() > 0) study.base_coefficients = plan.sense * plan.given;
   study.axis = std::make_shared<const AxisPlan>(std::move(plan));

@@ -14,7 +14,8 @@ struct LoadedAxes {
 /// Error(kData) for what cannot be used.
 LoadedAxes load_axes(const DiagnosisRequest& request);
 
-/// The case with the simulator that was given, without what was found for the whole arm.
+/// Whether something was found for the whole arm, and the case without it, with the simulator that was given.
+bool is_corrected(const Case& study);
 Case as_given(Case study);
 
 /// Motion and base simulator of all logs by the case's estimator.

@@ -140,10 +140,11 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   if (!search.knocking()) refuted = holdout.excess(search);
   report["verdict"] =
       verdict_of(!report["findings"].empty(), search.remains() || refuted.has_value());
-  Case simulator = study.axis ? as_given(study) : study;
+  const bool corrected = is_corrected(study);
+  Case simulator = corrected ? as_given(study) : study;
   if (given.base.size() > 0) set_base(simulator, given.base);
   const Signals before = difference(study, predict(simulator, {}));
-  const HoldOut first(simulator, study.axis ? as_given(loaded.holdout) : loaded.holdout);
+  const HoldOut first = corrected ? HoldOut(simulator, as_given(loaded.holdout)) : holdout;
   report["where"] = locate(study, before, search.floors());
   report["where"]["budget"] =
       budget(search.setting(), before, own_parameters(study), report["where"]["segments"]);
@@ -179,7 +180,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   diagnosis.portraits = portraits(search);
   CaseDiagnosis result{std::move(diagnosis),
                        fit.base.size() > 0 ? fit.base : study.base_coefficients, {}};
-  if (!first.empty()) result.uncorrected = first.rmse(fit.members, fit.base);
+  if (corrected && !first.empty()) result.uncorrected = first.rmse(fit.members, fit.base);
   return result;
 }
 

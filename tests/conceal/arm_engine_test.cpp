@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "dcnn/conceal/arm.h"
+#include "dcnn/conceal/challenge.h"
 #include "dcnn/core/file.h"
 #include "dcnn/core/random.h"
 #include "dcnn/physics/chain.h"
@@ -92,6 +93,22 @@ TEST(ArmEngine, TheSameSeedSealsTheSameBytesAndAnotherOthers) {
   EXPECT_NE(first, sealed("c", 2));
   EXPECT_THROW(conceal::conceal_arms({"single:1/mass/0"}, 1, folder / "d", folder / "d.json", [](int, int) {}),
                Error);
+}
+
+/// Joints share the names of their effects: each finding is held against the one on its joint.
+TEST(ArmEngine, FindingsAreScoredByJoint) {
+  const auto effect = [](const char* joint) {
+    return Json{{"effect", "coulomb_friction"}, {"axis", joint},     {"interval_s", nullptr}, {"amplitude", 1.0},
+                {"parameters", Json::object()}, {"listed", true},    {"foreign", false},      {"alternatives", Json::array()}};
+  };
+  Json answer{{"id", "s0001"}, {"drawn", "x"}, {"group", "loaded"}, {"motion", ""}, {"noise", ""}, {"oracle_rmse", nullptr}};
+  answer["hidden"] = {effect("joint1"), effect("joint2"), effect("joint3")};
+  Json report{{"verdict", "explained"}};
+  report["findings"] = {effect("joint3"), effect("joint1"), effect("joint4")};
+  const Json scores = conceal::score(answer, report)["effects"];
+  EXPECT_TRUE(scores[0]["axis_right"].get<bool>());
+  EXPECT_FALSE(scores[1]["axis_right"].get<bool>());
+  EXPECT_TRUE(scores[2]["axis_right"].get<bool>());
 }
 
 TEST(ArmEngine, APlanHasEveryGroup) {

@@ -11,7 +11,7 @@ namespace dcnn::conceal {
 
 /// What conceal_arms() is to make, ids "group:value/effect/number": `null` (nothing), `single:A` (one
 /// effect in one joint, A times its noise), `payload` (a body at the flange), `loaded` (a payload, and dry and
-/// viscous friction in every joint at 1 times the noise and more), in turn, for 6 and 7 joints.
+/// viscous friction in every joint at twice the noise): 1, 5, 1 and 1 of eight, for 6 and 7 joints, in an order that tells nothing.
 std::vector<std::string> arm_plan(int scenarios, std::uint64_t seed);
 
 /// Writes FOLDER/s0001/{system.json,fit_*.csv,holdout_*.csv}, … and the sealed answers, as
