@@ -141,6 +141,7 @@ void read_pack(const fs::path& pack, const std::function<bool(const std::string&
       CellResult verified;
       if (read_files(in, packed, verified)) {
         take(std::move(packed), index);
+        continue;  // the next record begins here
       } else {
         index.broken.push_back(pack.string() +
                                ": the bytes of a result are damaged; its cell is run again");
