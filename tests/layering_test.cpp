@@ -24,10 +24,12 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"teleop", {"core", "data", "physics", "models", "calibration", "runtime"}},
     {"discovery", {"core", "data", "physics"}},  // laws for a residual, whoever left it
     {"diagnosis", {"core", "data", "physics", "discovery"}},
-    {"design", {"core", "data", "physics", "identification", "diagnosis"}},  // motions for what a report leaves open
+    {"design",
+     {"core", "data", "physics", "identification",
+      "diagnosis"}},                // motions for what a report leaves open
     {"conceal", {"core", "data"}},  // shares no physics with what it examines
     {"rivals", {"core", "data", "physics"}},
-    {"cells", {"core"}},  // commands and files, whatever they are about
+    {"cells", {"core"}},           // commands and files, whatever they are about
     {"import", {"core", "data"}},  // makes recordings, knows nothing of what is done with them
     {"runtime", {"core", "nn", "data", "physics", "models", "calibration"}},
     {"experiment",
@@ -37,7 +39,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"tools",
      {"core", "nn", "data", "physics", "models", "diagnosis", "conceal", "rivals", "runtime",
       "experiment", "calibration", "teleop", "check", "identification", "import", "cells",
-       "design"}}};
+      "design"}}};
 
 /// The includes in `text` that a file of `room` may not have.
 std::vector<std::string> wrong_includes(const std::string& room, const std::string& text) {
@@ -112,8 +114,10 @@ std::vector<std::string> types_of(const std::string& text) {
     std::smatch match;
     if (line == "}  // namespace") unnamed = false;
     if (std::regex_search(line, match, space)) {
-      if (match[1].length() == 0) unnamed = true;
-      else inside = match[1];
+      if (match[1].length() == 0)
+        unnamed = true;
+      else
+        inside = match[1];
     }
     if (!unnamed && std::regex_search(line, match, type)) {
       found.push_back(inside + "::" + std::string(match[1]));
@@ -129,8 +133,8 @@ TEST(Layering, CheckerSeesTypes) {
   EXPECT_EQ(types, std::vector<std::string>{"dcnn::Shared"});
 }
 
-// Two types of one name in two files that never meet in one compile: the linker keeps the members of
-// either for both (C++20 [basic.def.odr]).
+// Two types of one name in two files that never meet in one compile: the linker keeps the members
+// of either for both (C++20 [basic.def.odr]).
 TEST(Layering, NoTwoFilesDefineATypeOfOneName) {
   std::map<std::string, fs::path> defined;
   for (const auto& source : sources()) {

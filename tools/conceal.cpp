@@ -102,7 +102,8 @@ int main(int argc, char** argv) {
           "0.05 of the noise, and some of every other group (8: 1,600 scenarios)")
       .excludes(many);
   const Option whole_arms =
-      tool.option("--arms", arms, "so many arms of 6 or 7 joints: payloads, effects in their joints")
+      tool.option("--arms", arms,
+                  "so many arms of 6 or 7 joints: payloads, effects in their joints")
           .excludes(many);
   tool.option("--laws", laws,
               "so many laws that no catalogue has, in turn, at 1, 3 and 10 times the noise")
@@ -114,10 +115,12 @@ int main(int argc, char** argv) {
           "with laws that hardware has: load friction, creep), all (in turn)")
       .with_default();
   tool.option("--on", on,
-              "motions (t, x,y,z, alpha,beta,gamma) on which every scenario is recorded once more, after its own "
+              "motions (t, x,y,z, alpha,beta,gamma) on which every scenario is recorded once more, "
+              "after its own "
               "recordings: same tool, effects and sensor");
   const Option opening =
-      tool.flag("--score", score, "score OUT/reports/*/report.json against the seal").excludes(many);
+      tool.flag("--score", score, "score OUT/reports/*/report.json against the seal")
+          .excludes(many);
   tool.flag("--list-faults", list, "prints the names for --fault");
   tool.output("--out", out, "folder of the scenarios",
               {"s[0-9][0-9][0-9][0-9]", "seal.sha256", "sim.json", "system.json", "*.csv"})
@@ -128,7 +131,8 @@ int main(int argc, char** argv) {
                           "effect, effect@axis or a JSON file of effects to hide in --motion");
   const Option motion = tool.option("--motion", injection.motion, "recordings of a tool");
   what.excludes(many).needs(motion);
-  tool.option("--fault", fault, "a log with this fault (for dcnn-check), in --motion or in one of its own")
+  tool.option("--fault", fault,
+              "a log with this fault (for dcnn-check), in --motion or in one of its own")
       .one_of(conceal::faulty_kinds())
       .excludes(many)
       .excludes(what);

@@ -2,9 +2,9 @@
 
 #include "dcnn/design/design.h"
 #include "dcnn/experiment/diagnosis_report.h"
+#include "dcnn/experiment/least_sizes.h"
 #include "dcnn/identification/urdf.h"
 #include "support/doctor.h"
-#include "dcnn/experiment/least_sizes.h"
 #include "support/file_kind.h"
 #include "support/progress.h"
 #include "support/tool.h"
@@ -31,8 +31,10 @@ Json with_check(const std::vector<std::string>& lines, const Json& report) {
   return out;
 }
 
-std::vector<std::string> checked(const Tool& tool, const Doctor& doctor, const DiagnosisRequest& request) {
-  CheckRequest logs{request.fit, request.read, request.simulator.value_or(""), request.system.value_or("")};
+std::vector<std::string> checked(const Tool& tool, const Doctor& doctor,
+                                 const DiagnosisRequest& request) {
+  CheckRequest logs{request.fit, request.read, request.simulator.value_or(""),
+                    request.system.value_or("")};
   logs.logs.insert(logs.logs.end(), request.holdout.begin(), request.holdout.end());
   return doctor.examine(tool, logs);
 }
@@ -51,16 +53,20 @@ int main(int argc, char** argv) {
       tool.option("--sim", request.simulator,
                   "simulator of the tool (JSON); without it the recordings need columns *_sim");
   const auto system =
-      tool.option("--system", request.system,
+      tool.option(
+              "--system", request.system,
               "system description of another machine (JSON, \"kind\": \"axes\"), instead of --sim")
-      .excludes(sim);
+          .excludes(sim);
   std::filesystem::path urdf;
   std::string tip;
-  const auto arm = tool.option("--urdf", urdf,
-                               "URDF of the arm whose joints --system lists, instead of a DH table; "
-                               "its inertias are the simulator at hand");
+  const auto arm =
+      tool.option("--urdf", urdf,
+                  "URDF of the arm whose joints --system lists, instead of a DH table; "
+                  "its inertias are the simulator at hand");
   arm.needs(system).group("Arms");
-  tool.option("--tip", tip, "last link of the arm in the URDF (else its end)").needs(arm).group("Arms");
+  tool.option("--tip", tip, "last link of the arm in the URDF (else its end)")
+      .needs(arm)
+      .group("Arms");
   tool.option("--fit", request.fit, "recordings to learn from").required();
   tool.option("--holdout", request.holdout,
               "recordings to judge by (default: every fifth block of 5 s of the others)");

@@ -1,8 +1,9 @@
+#include "dcnn/identification/identify.h"
+
 #include <iostream>
 
 #include "dcnn/core/file.h"
 #include "dcnn/identification/arm.h"
-#include "dcnn/identification/identify.h"
 #include "dcnn/identification/payload.h"
 #include "dcnn/physics/simulator.h"
 #include "support/tool.h"
@@ -14,17 +15,22 @@ using Path = std::filesystem::path;
 
 constexpr const char* kExamples =
     "  dcnn-identify log.csv --out sim.json                      # moving, force (and torque)\n"
-    "  dcnn-identify poses.csv --out sim.json                    # poses at rest, with or without t\n"
+    "  dcnn-identify poses.csv --out sim.json                    # poses at rest, with or without "
+    "t\n"
     "  dcnn-identify a.csv b.csv --out sim.json --report report --mounting 0 0 -0.52\n"
     "  dcnn-identify log.csv --out sim.json --export urdf franka --export-to payload\n"
     "  dcnn-identify --from sim.json --export ur --export-to payload\n"
-    "  dcnn-identify a.csv b.csv --system arm.json --holdout c.csv --out found.json   # a whole arm\n"
-    "  dcnn-identify empty.csv --loaded with_tool.csv --system arm.json --urdf robot.urdf --out o.json\n"
+    "  dcnn-identify a.csv b.csv --system arm.json --holdout c.csv --out found.json   # a whole "
+    "arm\n"
+    "  dcnn-identify empty.csv --loaded with_tool.csv --system arm.json --urdf robot.urdf --out "
+    "o.json\n"
     "\n"
     "Finds mass, centre of mass, inertia (where torques are logged), the sensor's offset and its\n"
     "mounting, with 95 % intervals, and says which motion would show what these logs do not.\n"
-    "sim.json is the simulator that dcnn-diagnose compares with recordings. With --system it finds\n"
-    "the links, the friction and the payload of an arm from joint torques or currents; --out is then\n"
+    "sim.json is the simulator that dcnn-diagnose compares with recordings. With --system it "
+    "finds\n"
+    "the links, the friction and the payload of an arm from joint torques or currents; --out is "
+    "then\n"
     "the description with these links, which dcnn-diagnose takes as --system.";
 
 struct Command {
@@ -53,7 +59,8 @@ std::string quoted(const std::string& word) {
 }
 
 /// The command that goes on from what was found.
-std::string diagnosis_of(const std::string& option, const Path& found, const std::vector<Path>& logs) {
+std::string diagnosis_of(const std::string& option, const Path& found,
+                         const std::vector<Path>& logs) {
   std::string text = "dcnn-diagnose " + option + " " + quoted(found.string()) + " --fit";
   for (const Path& log : logs) text += " " + quoted(log.string());
   return text + " --out report";
@@ -108,7 +115,8 @@ Exit identify_joints(Command& command, const Tool& tool) {
 
 /// The options of an arm; they have no meaning for a tool.
 void add_arm_options(Tool& tool, Command& command, const Option& system) {
-  tool.option("--urdf", command.arm.urdf, "the arm's URDF instead of a DH table; its inertias are "
+  tool.option("--urdf", command.arm.urdf,
+              "the arm's URDF instead of a DH table; its inertias are "
               "the prior")
       .needs(system)
       .group("Arms");
@@ -136,11 +144,13 @@ int main(int argc, char** argv) {
             kExamples);
   Command command;
   bool rigid_alone = false;
-  const auto logs = tool.option("logs", command.request.logs,
-                                "recordings: poses with fx,fy,fz (and tx,ty,tz), moving or at rest");
+  const auto logs =
+      tool.option("logs", command.request.logs,
+                  "recordings: poses with fx,fy,fz (and tx,ty,tz), moving or at rest");
   const auto from = tool.option("--from", command.from,
                                 "export the tool of this sim.json; nothing is identified");
-  const auto out = tool.output("--out", command.out, "sim.json to write (of an arm: its description)");
+  const auto out =
+      tool.output("--out", command.out, "sim.json to write (of an arm: its description)");
   tool.output("--report", command.report, "folder for all numbers with their intervals",
               {"identify.json", "identify.txt"});
   tool.option("--mounting", command.mounting,

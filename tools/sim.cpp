@@ -61,13 +61,16 @@ Json simulate_motion(const std::filesystem::path& sim, const std::filesystem::pa
 
 int main(int argc, char** argv) {
   Tool tool("dcnn-sim",
-            "Simulates recordings of a tool on a wrist sensor, with effects hidden in them, and the joint "
+            "Simulates recordings of a tool on a wrist sensor, with effects hidden in them, and "
+            "the joint "
             "torques of arms.",
             kExamples);
   std::filesystem::path config, sim, motion, out;
   auto from_config = tool.option("--config", config, "what to simulate (JSON)");
-  auto from_sim = tool.option("--sim", sim, "simulator: sim.json, a corrected model.json, or an arm's description with the "
-                              "bodies of its links");
+  auto from_sim =
+      tool.option("--sim", sim,
+                  "simulator: sim.json, a corrected model.json, or an arm's description with the "
+                  "bodies of its links");
   auto with_motion = tool.option("--motion", motion, "recording whose motion is simulated");
   from_sim.needs(with_motion).excludes(from_config);
   with_motion.needs(from_sim);

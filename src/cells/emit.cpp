@@ -118,8 +118,8 @@ std::string parallel_script(const EngineRequest& request) {
   std::ostringstream out;
   if (request.hosts.empty()) {
     for (int k = 1; k <= tasks.count; ++k) {
-      out << in_quotes(request.program) << " --quiet --plan " << in_quotes(folder) << " --shard " << k
-          << "/" << tasks.count << "\n";
+      out << in_quotes(request.program) << " --quiet --plan " << in_quotes(folder) << " --shard "
+          << k << "/" << tasks.count << "\n";
     }
     return out.str();
   }

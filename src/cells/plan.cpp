@@ -113,7 +113,7 @@ std::string Cell::command_line() const {
 }
 
 CellPlan make_plan(const Json& description, const std::string& where, const fs::path& root,
-               const fs::path& programs) {
+                   const fs::path& programs) {
   CellPlan plan;
   plan.root = fs::absolute(root).lexically_normal();
   Json cells = description;

@@ -12,15 +12,15 @@ namespace {
 using Eigen::Index;
 constexpr int kReweightings = 8;
 constexpr Index kStretches = 8;
-constexpr Index kFewestRows = 12;  // of a stretch
+constexpr Index kFewestRows = 12;           // of a stretch
 constexpr double kChiSquareMedian = 2.366;  // of three degrees of freedom
-constexpr double kOwnScale = 3.0;  // Cauchy's weights halve at so many deviations
+constexpr double kOwnScale = 3.0;           // Cauchy's weights halve at so many deviations
 
-constexpr double kFrictionSpeed = 0.02;     // m/s, over which dry friction changes its sign
+constexpr double kFrictionSpeed = 0.02;  // m/s, over which dry friction changes its sign
 
 struct Design {
   std::vector<Eigen::MatrixXd> rows;  // (3,7) of mass, moment, bias; (3,14) with friction
-  Eigen::MatrixXd force, field;                   // (n,3) in S
+  Eigen::MatrixXd force, field;       // (n,3) in S
 };
 
 /// Dry and viscous friction along the base's axes, dry friction along the sensor's z, (3,7).
@@ -38,10 +38,12 @@ Eigen::MatrixXd friction_columns(const Eigen::Matrix3d& R, const Eigen::Vector3d
 Design design_of(const Log& log, const Sampled& rows, const Kinematics& motion,
                  const Reading& reading, const FitOptions& options) {
   const auto n = static_cast<Index>(rows.centres.size());
-  Design design{{}, rows.smoothed(log.block({"fx", "fy", "fz"}), rows.value, options.shift),
+  Design design{{},
+                rows.smoothed(log.block({"fx", "fy", "fz"}), rows.value, options.shift),
                 Eigen::MatrixXd(n, 3)};
   const bool known = log.declared.model.has_value();
-  const Eigen::Matrix3d R_ES = known ? log.declared.model->R_ES() : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  const Eigen::Matrix3d R_ES =
+      known ? log.declared.model->R_ES() : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
   const Eigen::Vector3d g = known ? log.declared.model->gravity : Eigen::Vector3d(0.0, 0.0, -9.81);
   const double rate = log.step > 0.0 ? 1.0 / (log.step * reading.clock) : 0.0;
   const bool with_friction = options.friction && motion.has_position && rate > 0.0;
@@ -57,12 +59,14 @@ Design design_of(const Log& log, const Sampled& rows, const Kinematics& motion,
     A.leftCols(7) << field, -cross_matrix(dw) - cross_matrix(w) * cross_matrix(w),
         Eigen::Matrix3d::Identity();
     if (with_friction) {
-      const Eigen::Vector3d v = rate * reading.position * (reading.position_axes * motion.velocity.row(i).transpose());
+      const Eigen::Vector3d v =
+          rate * reading.position * (reading.position_axes * motion.velocity.row(i).transpose());
       A.rightCols(7) = friction_columns(R, v);
     }
     design.rows.push_back(std::move(A));
     design.field.row(i) = field;
-    const Eigen::Vector3d F = reading.force * (reading.force_axes * design.force.row(i).transpose());
+    const Eigen::Vector3d F =
+        reading.force * (reading.force_axes * design.force.row(i).transpose());
     design.force.row(i) = reading.force_in_base ? Eigen::Vector3d(R.transpose() * F) : F;
   }
   return design;

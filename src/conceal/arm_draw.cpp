@@ -15,9 +15,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-constexpr int kPerReading = 16;     // of the 4000 Hz world: 250 Hz
+constexpr int kPerReading = 16;  // of the 4000 Hz world: 250 Hz
 
-/// Torques at the world's rate, on straight lines between those of every fourth row: motion is slow beside 1 kHz.
+/// Torques at the world's rate, on straight lines between those of every fourth row: motion is slow
+/// beside 1 kHz.
 MatrixXd torques_of(const std::vector<Limb>& limbs, const MatrixXd& angles) {
   constexpr Index kEvery = 4;
   const Index coarse = (angles.rows() - 1) / kEvery + 1;
@@ -32,13 +33,26 @@ MatrixXd torques_of(const std::vector<Limb>& limbs, const MatrixXd& angles) {
   return fine;
 }
 
-/// Effects that one joint of an arm can have: its log has one clock and nobody pushes at a single joint.
+/// Effects that one joint of an arm can have: its log has one clock and nobody pushes at a single
+/// joint.
 const std::vector<std::string>& joint_effects() {
-  static const std::vector<std::string> ids{
-      "coulomb_friction", "viscous_friction", "stribeck_friction", "quadratic_drag", "lugre_friction",
-      "hysteresis",       "cable_spring",     "cogging",           "bias",           "gain",
-      "lowpass",          "linear_drift",     "step_bias",         "hum",            "load_friction",
-      "gear_friction",    "asymmetric_friction"};
+  static const std::vector<std::string> ids{"coulomb_friction",
+                                            "viscous_friction",
+                                            "stribeck_friction",
+                                            "quadratic_drag",
+                                            "lugre_friction",
+                                            "hysteresis",
+                                            "cable_spring",
+                                            "cogging",
+                                            "bias",
+                                            "gain",
+                                            "lowpass",
+                                            "linear_drift",
+                                            "step_bias",
+                                            "hum",
+                                            "load_friction",
+                                            "gear_friction",
+                                            "asymmetric_friction"};
   return ids;
 }
 
@@ -46,7 +60,8 @@ const std::vector<std::string>& joint_effects() {
 Path joint_path(const Eigen::VectorXd& q, const Eigen::VectorXd& torque, double start) {
   MatrixXd pose = MatrixXd::Zero(q.size(), 6);
   pose.col(0) = pose.col(3) = q;
-  std::vector<Eigen::Matrix3d> still(static_cast<std::size_t>(q.size()), Eigen::Matrix3d::Identity());
+  std::vector<Eigen::Matrix3d> still(static_cast<std::size_t>(q.size()),
+                                     Eigen::Matrix3d::Identity());
   Path path = follow(start, pose, std::move(still), Vector3d::Zero());
   path.load = path.rigid = MatrixXd::Zero(q.size(), 3);
   path.load.col(0) = torque;
@@ -67,9 +82,10 @@ ArmRequestId parse_arm_id(const std::string& id) {
   const std::string value = id.substr(colon + 1, first - colon - 1), number = id.substr(second + 1);
   std::from_chars(value.data(), value.data() + value.size(), r.amplitude);
   std::from_chars(number.data(), number.data() + number.size(), r.number);
-  require(has("null single payload loaded", r.group), Exit::kUsage, id, ": no group of arms is called ",
-          r.group);
-  require(r.group != "single" || std::count(joint_effects().begin(), joint_effects().end(), r.effect) == 1,
+  require(has("null single payload loaded", r.group), Exit::kUsage, id,
+          ": no group of arms is called ", r.group);
+  require(r.group != "single" ||
+              std::count(joint_effects().begin(), joint_effects().end(), r.effect) == 1,
           Exit::kUsage, id, ": no effect of a joint is called ", r.effect);
   return r;
 }
@@ -77,7 +93,8 @@ ArmRequestId parse_arm_id(const std::string& id) {
 /// A body at the flange, hidden as the report names it.
 Hidden draw_payload(const ArmScenario& s, std::vector<Limb>& loaded, Rng& rng) {
   const double mass = logarithmic(rng, 0.5, 5.0);
-  const Vector3d centre(rng.uniform(-0.06, 0.06), rng.uniform(-0.06, 0.06), rng.uniform(0.02, 0.12));
+  const Vector3d centre(rng.uniform(-0.06, 0.06), rng.uniform(-0.06, 0.06),
+                        rng.uniform(0.02, 0.12));
   const Vector3d radii(rng.uniform(0.02, 0.06), rng.uniform(0.02, 0.06), rng.uniform(0.02, 0.06));
   for (const PointMass& m : solid(mass, s.flange + centre, radii, drawn_turn(rng))) {
     loaded.back().masses.push_back(m);
@@ -99,13 +116,15 @@ Hidden draw_joint_effect(const std::string& effect, Rng& rng) {
   if (has("cable_spring hysteresis cogging gear_friction", effect)) h.axis = "alpha:base_x";
   h.parameters = draw_parameters(effect, h.axis, rng);
   for (auto& [name, value] : h.parameters) {  // a joint has one component, x
-    if (name == "gain_y" || name == "gain_z" || name.find("_y_") != std::string::npos || name.find("_z_") != std::string::npos) value = 0.0;
+    if (name == "gain_y" || name == "gain_z" || name.find("_y_") != std::string::npos ||
+        name.find("_z_") != std::string::npos)
+      value = 0.0;
   }
   return h;
 }
 
-/// In the terms of the joint's drive, which the tool's force is the reaction to: one component, and the sign of the
-/// reading where the effect adds to it.
+/// In the terms of the joint's drive, which the tool's force is the reaction to: one component, and
+/// the sign of the reading where the effect adds to it.
 Hidden of_joint(Hidden h, std::size_t joint) {
   h.axis = "joint" + std::to_string(joint + 1);
   const bool adds = has("bias linear_drift step_bias hum", h.effect);
@@ -119,8 +138,8 @@ Hidden of_joint(Hidden h, std::size_t joint) {
   return h;
 }
 
-std::vector<std::pair<std::size_t, std::string>> wanted_effects(const ArmRequestId& r, std::size_t joints,
-                                                                Rng& rng) {
+std::vector<std::pair<std::size_t, std::string>> wanted_effects(const ArmRequestId& r,
+                                                                std::size_t joints, Rng& rng) {
   std::vector<std::pair<std::size_t, std::string>> list;
   if (r.group == "single") list.emplace_back(rng.below(joints), r.effect);
   for (std::size_t j = 0; j < joints && r.group == "loaded"; ++j) {
@@ -154,8 +173,9 @@ MatrixXd torque_noise(const ArmScenario& s, std::size_t joint, Index rows, Rng& 
 double digits(double value) { return std::round(value * 1e8) / 1e8; }
 
 /// Effects of one joint drawn and scaled, then its readings of all recordings.
-void read_joint(ArmScenario& s, std::size_t joint, const std::vector<std::string>& effects, double amplitude,
-                const std::vector<MatrixXd>& angles, const std::vector<MatrixXd>& torques, Rng& rng) {
+void read_joint(ArmScenario& s, std::size_t joint, const std::vector<std::string>& effects,
+                double amplitude, const std::vector<MatrixXd>& angles,
+                const std::vector<MatrixXd>& torques, Rng& rng) {
   const auto column = static_cast<Index>(joint);
   Scenario one;
   one.tool = {0.0, Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero(), "none"};
@@ -175,7 +195,8 @@ void read_joint(ArmScenario& s, std::size_t joint, const std::vector<std::string
       place(h, one, paths, rng);
       strong = of_amplitude(paths, one, h, amplitude * s.sigma[joint]);
     }
-    require(strong.has_value(), Exit::kUsage, s.id, ": ", effect, " changes nothing; give another seed");
+    require(strong.has_value(), Exit::kUsage, s.id, ": ", effect,
+            " changes nothing; give another seed");
     one.hidden.push_back(*strong);
     s.hidden.push_back(of_joint(*strong, joint));
   }
@@ -183,7 +204,8 @@ void read_joint(ArmScenario& s, std::size_t joint, const std::vector<std::string
     ArmLog& log = s.logs[k];
     const MatrixXd noise = torque_noise(s, joint, log.t.size(), rng);
     if (effects.empty()) {
-      for (Index i = 0; i < log.t.size(); ++i) log.clean(i, column) = torques[k](i * kPerReading, column);
+      for (Index i = 0; i < log.t.size(); ++i)
+        log.clean(i, column) = torques[k](i * kPerReading, column);
       log.measured.col(column) = (log.clean.col(column) + noise.col(0)).unaryExpr(&digits);
       continue;
     }
@@ -196,8 +218,8 @@ void read_joint(ArmScenario& s, std::size_t joint, const std::vector<std::string
 }  // namespace
 
 std::vector<std::string> arm_plan(int scenarios, std::uint64_t seed) {
-  require(scenarios > 0 && scenarios <= 9999, Exit::kUsage, "a challenge has 1 to 9999 scenarios, not ",
-          scenarios);
+  require(scenarios > 0 && scenarios <= 9999, Exit::kUsage,
+          "a challenge has 1 to 9999 scenarios, not ", scenarios);
   Rng rng({seed, 21});
   const auto start = static_cast<std::size_t>(rng.below(joint_effects().size()));
   std::vector<std::string> ids;
@@ -215,7 +237,8 @@ std::vector<std::string> arm_plan(int scenarios, std::uint64_t seed) {
     }
   }
   std::vector<std::string> drawn;  // their order tells nothing
-  for (const auto k : permutation(scenarios, rng)) drawn.push_back(ids[static_cast<std::size_t>(k)]);
+  for (const auto k : permutation(scenarios, rng))
+    drawn.push_back(ids[static_cast<std::size_t>(k)]);
   return drawn;
 }
 

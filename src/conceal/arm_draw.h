@@ -15,13 +15,13 @@ struct ArmLog {
 
 struct ArmScenario {
   std::string id, group;
-  std::vector<Limb> limbs;                  ///< as the simulator at hand has them
-  Eigen::Vector3d flange{0.0, 0.0, 0.0};    ///< origin of the flange in the last limb's frame
-  bool described = true;                    ///< the limbs' bodies are in system.json
-  std::vector<double> sigma;                ///< N·m, noise of each joint's torque
+  std::vector<Limb> limbs;                ///< as the simulator at hand has them
+  Eigen::Vector3d flange{0.0, 0.0, 0.0};  ///< origin of the flange in the last limb's frame
+  bool described = true;                  ///< the limbs' bodies are in system.json
+  std::vector<double> sigma;              ///< N·m, noise of each joint's torque
   std::string noise = "white";
-  double encoder = 1e-6;                    ///< rad
-  std::vector<Hidden> hidden;               ///< axis: joint1, …, or empty for the arm
+  double encoder = 1e-6;       ///< rad
+  std::vector<Hidden> hidden;  ///< axis: joint1, …, or empty for the arm
   std::vector<ArmLog> logs;
 };
 
@@ -29,7 +29,8 @@ constexpr double kArmSeconds = 40.0;  ///< of a recording
 
 /// An arm of six joints like those of common cobots, or of seven in a row that turn and bend.
 std::vector<Limb> draw_limbs(std::size_t joints, Rng& rng);
-/// (T, joints) at the world's rate: five tones in each joint, under a clock that stands still at pauses.
+/// (T, joints) at the world's rate: five tones in each joint, under a clock that stands still at
+/// pauses.
 Eigen::MatrixXd draw_angles(std::size_t joints, Rng& rng);
 Eigen::Matrix3d drawn_turn(Rng& rng);
 

@@ -27,7 +27,8 @@ Json body_of(const std::vector<PointMass>& masses) {
     inertia += point.mass * (point.at.squaredNorm() * Eigen::Matrix3d::Identity() -
                              point.at * point.at.transpose());
   }
-  const Json six{inertia(0, 0), inertia(0, 1), inertia(0, 2), inertia(1, 1), inertia(1, 2), inertia(2, 2)};
+  const Json six{inertia(0, 0), inertia(0, 1), inertia(0, 2),
+                 inertia(1, 1), inertia(1, 2), inertia(2, 2)};
   return {{"mass_kg", m}, {"moment_kgm", three(moment)}, {"inertia_kgm2", six}};
 }
 
@@ -35,20 +36,26 @@ Json system_of(const ArmScenario& s) {
   Json axes = Json::array(), joints = Json::array();
   for (std::size_t j = 0; j < s.limbs.size(); ++j) {
     const std::string number = std::to_string(j + 1);
-    Json axis{{"name", "joint" + number}, {"measured", "tau_" + number}, {"unit", "N*m"},
+    Json axis{{"name", "joint" + number},
+              {"measured", "tau_" + number},
+              {"unit", "N*m"},
               {"position", "q_" + number}};
     if (!s.described) axis["simulated"] = "tau_" + number + "_sim";
     axes.push_back(axis);
     const Limb& limb = s.limbs[j];
     // Limbs are turned about x alone.
     const double roll = std::atan2(limb.turned(2, 1), limb.turned(2, 2));
-    Json joint{{"name", "joint" + number}, {"xyz_m", three(limb.origin)}, {"rpy_rad", {roll, 0.0, 0.0}}};
+    Json joint{
+        {"name", "joint" + number}, {"xyz_m", three(limb.origin)}, {"rpy_rad", {roll, 0.0, 0.0}}};
     if (s.described) joint["body"] = body_of(limb.masses);
     joints.push_back(joint);
   }
-  return {{"kind", "axes"}, {"axes", axes},
-          {"arm", {{"joints", joints}, {"flange", {{"xyz_m", three(s.flange)}}},
-                   {"gravity_mps2", three(kGravity)}}}};
+  return {{"kind", "axes"},
+          {"axes", axes},
+          {"arm",
+           {{"joints", joints},
+            {"flange", {{"xyz_m", three(s.flange)}}},
+            {"gravity_mps2", three(kGravity)}}}};
 }
 
 Table table_of(const ArmScenario& s, const ArmLog& log) {
@@ -61,22 +68,26 @@ Table table_of(const ArmScenario& s, const ArmLog& log) {
   for (const char* stem : {"q_", "tau_", "sim"}) {
     const bool simulated = std::string(stem) == "sim";
     for (Index j = 1; j <= n && (!simulated || !s.described); ++j) {
-      table.columns.push_back(simulated ? "tau_" + std::to_string(j) + "_sim" : stem + std::to_string(j));
+      table.columns.push_back(simulated ? "tau_" + std::to_string(j) + "_sim"
+                                        : stem + std::to_string(j));
     }
   }
   return table;
 }
 
 Json arm_truth(const ArmScenario& s) {
-  Json all{{"drawn", s.id}, {"group", s.group}, {"family", "arm"},
+  Json all{{"drawn", s.id},
+           {"group", s.group},
+           {"family", "arm"},
            {"motion", std::to_string(s.limbs.size()) + " joints"}};
   all["noise"] = {{"kind", s.noise}, {"sigma_nm", s.sigma}, {"encoder_rad", s.encoder}};
   all["described"] = s.described;
   all["hidden"] = Json::array();
   for (const Hidden& h : s.hidden) {
-    Json one{{"effect", h.effect}, {"axis", h.axis.empty() ? Json() : Json(h.axis)},
-             {"interval_s", nullptr}, {"parameters", Json::object()},
-             {"listed", true}, {"foreign", false}, {"amplitude", h.amplitude}};
+    Json one{{"effect", h.effect},      {"axis", h.axis.empty() ? Json() : Json(h.axis)},
+             {"interval_s", nullptr},   {"parameters", Json::object()},
+             {"listed", true},          {"foreign", false},
+             {"amplitude", h.amplitude}};
     if (h.interval_s) one["interval_s"] = {h.interval_s->first, h.interval_s->second};
     for (const auto& [name, value] : h.parameters) one["parameters"][name] = value;
     all["hidden"].push_back(one);
@@ -108,8 +119,9 @@ Json write_arm(const ArmScenario& s, const fs::path& folder) {
 
 }  // namespace
 
-std::string conceal_arms(const std::vector<std::string>& ids, std::uint64_t seed, const fs::path& folder,
-                         const fs::path& seal, const std::function<void(int, int)>& progress) {
+std::string conceal_arms(const std::vector<std::string>& ids, std::uint64_t seed,
+                         const fs::path& folder, const fs::path& seal,
+                         const std::function<void(int, int)>& progress) {
   Json answers{{"seed", seed}, {"scenarios", Json::array()}};
   for (std::size_t k = 0; k < ids.size(); ++k) {
     char name[32];

@@ -40,8 +40,8 @@ Request parse(const std::string& whole) {
     return std::find(list.begin(), list.end(), name) != list.end();
   };
   require(known(r.family, families()), Exit::kUsage, whole, ": no family is called ", r.family);
-  require(has("any none", r.effect) || is_listed(r.effect) ||
-              known(r.effect, unlisted_effects()) || known(r.effect, drawn_laws()),
+  require(has("any none", r.effect) || is_listed(r.effect) || known(r.effect, unlisted_effects()) ||
+              known(r.effect, drawn_laws()),
           Exit::kUsage, id, ": no effect is called ", r.effect);
   return r;
 }

@@ -143,8 +143,8 @@ Hidden draw_hidden(const Injection& request, const Scenario& s, const std::vecto
   const auto known = [&](const std::vector<std::string>& list) {
     return std::find(list.begin(), list.end(), h.effect) != list.end();
   };
-  require(is_listed(h.effect) || known(unlisted_effects()), Exit::kUsage, "--inject ",
-          request.what, ": neither an effect nor a JSON file");
+  require(is_listed(h.effect) || known(unlisted_effects()), Exit::kUsage, "--inject ", request.what,
+          ": neither an effect nor a JSON file");
   h.axis = draw_axis(h.effect, rng);
   if (at != std::string::npos) h.axis = request.what.substr(at + 1);
   do {

@@ -106,7 +106,8 @@ void record(const Scenario& s, const Path& path, bool thermometer, Recorded& r, 
 }
 
 void record(Scenario& s, const std::vector<Path>& paths, bool thermometer, Rng& rng) {
-  for (std::size_t k = 0; k < paths.size(); ++k) record(s, paths[k], thermometer, s.recordings[k], rng);
+  for (std::size_t k = 0; k < paths.size(); ++k)
+    record(s, paths[k], thermometer, s.recordings[k], rng);
 }
 
 void record_on(Scenario& scenario, const Recording& motion, std::uint64_t seed) {

@@ -13,8 +13,8 @@ bool holds(const Json& list, const std::string& id) {
   return std::find(list.begin(), list.end(), id) != list.end();
 }
 
-/// For every hidden effect the finding that names it (on its axis before others), or has it among the alternatives where no
-/// finding names it; each finding serves once.
+/// For every hidden effect the finding that names it (on its axis before others), or has it among
+/// the alternatives where no finding names it; each finding serves once.
 std::vector<const Json*> matched(const Json& hidden, const Json& findings) {
   std::vector<const Json*> match(hidden.size(), nullptr);
   std::vector<bool> used(findings.size(), false);

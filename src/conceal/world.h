@@ -18,7 +18,7 @@ struct Path {
   std::vector<Eigen::Matrix3d> rotation;   // sensor to base
   Eigen::MatrixXd velocity, acceleration;  // (T, 3), base
   Eigen::MatrixXd rate, rate_derivative;   // (T, 3), sensor
-  Eigen::MatrixXd load;  // (T, 3) N, what an axis of a machine transmits; no rows: a tool
+  Eigen::MatrixXd load;   // (T, 3) N, what an axis of a machine transmits; no rows: a tool
   Eigen::MatrixXd rigid;  // (T, 3) N, reaction of an arm's rigid body; no rows: the tool's alone
   Eigen::Index samples() const { return pose.rows(); }
   double time(Eigen::Index i) const { return start + kStep * static_cast<double>(i); }
@@ -29,8 +29,8 @@ struct Path {
 Path follow(double start, const Eigen::MatrixXd& pose, std::vector<Eigen::Matrix3d> rotation,
             const Eigen::Vector3d& mounting);
 
-/// The motion of a recording without gaps, smoothed over some 20 ms. Orientations pass through quaternions, so that no
-/// Euler singularity matters but to the angles.
+/// The motion of a recording without gaps, smoothed over some 20 ms. Orientations pass through
+/// quaternions, so that no Euler singularity matters but to the angles.
 Path path_of(const Recording& recording, const Eigen::Vector3d& mounting);
 
 /// Motions: human, multisine, points, scan, repeats; poor: harmonic, planar. With the conditions'

@@ -8,9 +8,9 @@
 namespace dcnn {
 
 std::vector<std::vector<Alternative>> Search::alternatives() const {
-  constexpr double kAkaike = 0.2;       // the same for a faint effect (Akaike 1974)
-  constexpr double kFaint = 15.0;       // prices
-  constexpr double kBend = 0.06;        // of a gain: what another bend of a law is worth
+  constexpr double kAkaike = 0.2;  // the same for a faint effect (Akaike 1974)
+  constexpr double kFaint = 15.0;  // prices
+  constexpr double kBend = 0.06;   // of a gain: what another bend of a law is worth
   const double price = setting_->price, loud = rest_loudness();
   std::optional<evidence::Grid> grid;  // made where there is an alternative
   double log_own = 0.0;
@@ -52,7 +52,8 @@ std::vector<std::vector<Alternative>> Search::alternatives() const {
         return a.name == trial.member.name();
       });
       if (fit_.chi2 - other.chi2 > least && rest.chi2 - other.chi2 > noise && !listed) {
-        all[m].push_back({trial.member.name(), other.members, log_odds_of(other), other.chi2 - fit_.chi2});
+        all[m].push_back(
+            {trial.member.name(), other.members, log_odds_of(other), other.chi2 - fit_.chi2});
       }
     }
   }

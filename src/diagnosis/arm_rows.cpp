@@ -42,7 +42,8 @@ Eigen::MatrixXd alias_columns(const Motion& motion, const Eigen::VectorXd& given
   columns.col(2) = motion.a_B.col(0);
   columns.col(3) = given;
   for (Index i = 1; i + 1 < n; ++i) {
-    columns(i, 4) = (given(i + 1) - given(i - 1)) / std::max(1e-12, motion.t(i + 1) - motion.t(i - 1));
+    columns(i, 4) =
+        (given(i + 1) - given(i - 1)) / std::max(1e-12, motion.t(i + 1) - motion.t(i - 1));
   }
   const double size = std::max(1e-12, kDryWidths[1] * std::sqrt(v.square().mean()));
   columns.col(5) = (given.array().abs() * elementary::tanh(v / size)).matrix();
@@ -67,9 +68,9 @@ LogRows rows_of_log(const Case& study, const Log& log, const Eigen::VectorXd& bo
   rows.target = -plan.sense * log.measured.col(0);
   const std::string& simulated = plan.axis().simulated;
   if (simulated.empty() && bodies.size() == 0) return rows;
-  const Eigen::VectorXd given =
-      simulated.empty() ? Eigen::VectorXd(rows.arm * bodies)
-                        : Eigen::VectorXd(filtered(log.recording.column(simulated)));
+  const Eigen::VectorXd given = simulated.empty()
+                                    ? Eigen::VectorXd(rows.arm * bodies)
+                                    : Eigen::VectorXd(filtered(log.recording.column(simulated)));
   rows.target -= given;
   rows.own.conservativeResize(Eigen::NoChange, kOwnFriction + kOwnAliases);
   rows.own.rightCols(kOwnAliases) = filtered(alias_columns(log.motion, given));

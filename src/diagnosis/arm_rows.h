@@ -8,18 +8,20 @@ namespace dcnn {
 /// Own terms of a joint that are fitted beside an arm's base: an offset, viscous friction, and dry
 /// friction of three widths; then those that only a given base is tested against.
 constexpr Index kOwnFriction = 5;
-constexpr Index kOwnAliases = 6;  ///< spring, drag, inertia, and the given torque, its rate, and its friction
+constexpr Index kOwnAliases =
+    6;  ///< spring, drag, inertia, and the given torque, its rate, and its friction
 
 /// Thinned rows of one joint, in the sense and unit of what was measured.
 struct JointRows {
-  Eigen::MatrixXd arm;       ///< (n, 10·joints) of every link's inertial parameters
-  Eigen::MatrixXd own;       ///< (n, kOwnFriction), with a given base (n, kOwnFriction + kOwnAliases)
-  Eigen::VectorXd target;    ///< measured less what is given
+  Eigen::MatrixXd arm;     ///< (n, 10·joints) of every link's inertial parameters
+  Eigen::MatrixXd own;     ///< (n, kOwnFriction), with a given base (n, kOwnFriction + kOwnAliases)
+  Eigen::VectorXd target;  ///< measured less what is given
   std::vector<Index> piece;  ///< of time: a sixth of a recording, counted over all of them
 };
 
-/// Of the fitted recordings, less what is held out within them. `bodies` (10·joints) or no rows: those of
-/// a description with all bodies; columns `simulated` are taken off where the axis has one.
+/// Of the fitted recordings, less what is held out within them. `bodies` (10·joints) or no rows:
+/// those of a description with all bodies; columns `simulated` are taken off where the axis has
+/// one.
 JointRows rows_of(const LoadedCase& loaded, const Eigen::VectorXd& bodies);
 
 }  // namespace dcnn

@@ -35,7 +35,8 @@ ArmSums::ArmSums(const std::vector<JointRows>& joints) : links_(joints.front().a
 }
 
 ArmRegression::ArmRegression(const ArmSums& sums, ArmModel model)
-    : shared_(model.shared.cols()), variance_(Eigen::VectorXd::Ones(static_cast<Index>(sums.joints()))) {
+    : shared_(model.shared.cols()),
+      variance_(Eigen::VectorXd::Ones(static_cast<Index>(sums.joints()))) {
   size_ = shared_;
   for (std::size_t j = 0; j < sums.joints(); ++j) {
     const std::vector<Index>& own = model.own[j];
@@ -43,7 +44,8 @@ ArmRegression::ArmRegression(const ArmSums& sums, ArmModel model)
     const Index all = sums.sums_[j].front().gram.rows();
     Eigen::MatrixXd T = Eigen::MatrixXd::Zero(all, shared_ + more);
     T.topLeftCorner(sums.links_, shared_) = model.shared;
-    for (Index k = 0; k < more; ++k) T(sums.links_ + own[static_cast<std::size_t>(k)], shared_ + k) = 1.0;
+    for (Index k = 0; k < more; ++k)
+      T(sums.links_ + own[static_cast<std::size_t>(k)], shared_ + k) = 1.0;
     std::vector<ArmSums::Piece> pieces;
     for (const auto& piece : sums.sums_[j]) {
       pieces.push_back(

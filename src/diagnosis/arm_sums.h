@@ -1,4 +1,5 @@
-// One regression for all joints of an arm, and what it predicts of pieces of time that were left out.
+// One regression for all joints of an arm, and what it predicts of pieces of time that were left
+// out.
 #pragma once
 
 #include "diagnosis/arm_rows.h"
@@ -41,7 +42,8 @@ class ArmRegression {
 
   /// The shared parameters fitted to all pieces but one (-1: to all).
   Eigen::VectorXd shared(Index left_out) const;
-  /// (pieces, joints): squared error, in units of the joints' variances, on pieces that were left out.
+  /// (pieces, joints): squared error, in units of the joints' variances, on pieces that were left
+  /// out.
   Eigen::MatrixXd left_out() const;
   /// (pieces): the same of one joint with shared parameters of its own.
   Eigen::VectorXd left_out_alone(std::size_t joint) const;

@@ -11,12 +11,18 @@ namespace {
 /// What an effect is called where its numbers are not given.
 std::string noun_of(const std::string& effect) {
   static const std::map<std::string, std::string> kNouns{
-      {"coulomb_friction", "dry friction"},     {"lugre_friction", "presliding friction"},
-      {"cable_spring", "a spring"},             {"bias", "an offset"},
-      {"gain", "a scale error"},                {"lowpass", "a lag"},
-      {"contact", "a force from outside"},      {"quantisation", "coarse steps"},
-      {"step_bias", "an offset that jumps"},    {"time_delay", "a delay"},
-      {"quadratic_drag", "drag"},               {"cogging", "a torque periodic in the position"}};
+      {"coulomb_friction", "dry friction"},
+      {"lugre_friction", "presliding friction"},
+      {"cable_spring", "a spring"},
+      {"bias", "an offset"},
+      {"gain", "a scale error"},
+      {"lowpass", "a lag"},
+      {"contact", "a force from outside"},
+      {"quantisation", "coarse steps"},
+      {"step_bias", "an offset that jumps"},
+      {"time_delay", "a delay"},
+      {"quadratic_drag", "drag"},
+      {"cogging", "a torque periodic in the position"}};
   const auto found = kNouns.find(effect);
   if (found != kNouns.end()) return found->second;
   std::string noun = effect;
@@ -30,8 +36,8 @@ std::string joined(const std::vector<std::string>& nouns) {
   std::string text;
   for (std::size_t k = 0; k < nouns.size(); ++k) {
     if (k > 0) text += k + 1 == nouns.size() ? " and " : ", ";
-    const bool again = k + 1 < nouns.size() && nouns[k].ends_with(shared) &&
-                       nouns[k + 1].ends_with(shared);
+    const bool again =
+        k + 1 < nouns.size() && nouns[k].ends_with(shared) && nouns[k + 1].ends_with(shared);
     text += again ? nouns[k].substr(0, nouns[k].size() - shared.size()) : nouns[k];
   }
   return text;

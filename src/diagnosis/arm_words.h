@@ -9,8 +9,8 @@ namespace dcnn {
 /// [{axis, verdict, words}] from the report of each axis.
 Json joints_json(const std::vector<Json>& reports, const System& system);
 
-/// {verdict, words} of the machine: "payload of 2.6 kg, centre 4 cm off; dry and viscous friction on joint1 to
-/// joint6; nothing else".
+/// {verdict, words} of the machine: "payload of 2.6 kg, centre 4 cm off; dry and viscous friction
+/// on joint1 to joint6; nothing else".
 Json arm_json(const Json& report, const System& system);
 
 }  // namespace dcnn

@@ -195,9 +195,10 @@ Diagnosis diagnose_axes(const DiagnosisRequest& request,
   Diagnosis all;
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const auto plan = cases[k].fit.axis;
-    auto [diagnosis, base, given] = diagnose_case(std::move(cases[k]), [&](const std::string& text) {
-      if (progress) progress(plan->axis().name + ": " + text);
-    });
+    auto [diagnosis, base, given] =
+        diagnose_case(std::move(cases[k]), [&](const std::string& text) {
+          if (progress) progress(plan->axis().name + ": " + text);
+        });
     machine.axes.push_back({plan->columns, base, diagnosis.corrected.effects,
                             *diagnosis.corrected.derivative, plan->sense});
     translate(diagnosis, *plan);

@@ -8,7 +8,8 @@ namespace dcnn {
 struct CaseDiagnosis {
   Diagnosis diagnosis;
   Eigen::VectorXd base;  ///< coefficients of the linear simulator where the case has one
-  std::vector<double> uncorrected;  ///< held-out RMSE of the findings on the simulator as it was given
+  std::vector<double>
+      uncorrected;  ///< held-out RMSE of the findings on the simulator as it was given
 };
 CaseDiagnosis diagnose_case(LoadedCase loaded,
                             const std::function<void(const std::string&)>& progress);

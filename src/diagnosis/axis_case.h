@@ -14,7 +14,8 @@ struct LoadedAxes {
 /// Error(kData) for what cannot be used.
 LoadedAxes load_axes(const DiagnosisRequest& request);
 
-/// Whether something was found for the whole arm, and the case without it, with the simulator that was given.
+/// Whether something was found for the whole arm, and the case without it, with the simulator that
+/// was given.
 bool is_corrected(const Case& study);
 Case as_given(Case study);
 

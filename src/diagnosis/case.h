@@ -21,7 +21,7 @@ struct AxisPlan {
   /// 1 where what is measured drives the axis, -1 where it is the reaction to that.
   double sense = 1.0;
   bool base_is_known = false;  ///< its coefficients are those of the whole arm, and not fitted
-  Eigen::VectorXd given;       ///< of an arm whose links are described: their parameters (10·joints)
+  Eigen::VectorXd given;  ///< of an arm whose links are described: their parameters (10·joints)
   std::optional<BodyVector> payload = std::nullopt;  ///< found at an arm's flange
   const Axis& axis() const { return system.axes[index]; }
 };

@@ -10,8 +10,8 @@
 #include "diagnosis/budget.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/confidence.h"
-#include "diagnosis/discovered.h"
 #include "diagnosis/dead_channels.h"
+#include "diagnosis/discovered.h"
 #include "diagnosis/evidence/posterior_json.h"
 #include "diagnosis/findings.h"
 #include "diagnosis/holdout.h"
@@ -64,9 +64,9 @@ Json unnamed_part(const Search& search, const std::vector<BandTest>& bands, cons
                     " times the noise on " + study.targets[refuted->channel];
   }
   if (!search.remains()) return part;
-  const auto most = std::max_element(
-      bands.begin(), bands.end(),
-      [](const BandTest& a, const BandTest& b) { return a.excess < b.excess; });
+  const auto most =
+      std::max_element(bands.begin(), bands.end(),
+                       [](const BandTest& a, const BandTest& b) { return a.excess < b.excess; });
   part["words"] = "something that no effect of the catalogue explains, mostly between " +
                   brief(most->from_hz) + " and " + brief(most->to_hz) + " Hz";
   std::string formula;
@@ -83,7 +83,8 @@ std::vector<std::string> names_of(const Case& study) {
   return names;
 }
 
-/// RMSE on what was held out, before (of the simulator as it was given), with own numbers refitted, and after.
+/// RMSE on what was held out, before (of the simulator as it was given), with own numbers refitted,
+/// and after.
 Json errors_json(const Search& search, const HoldOut& simulator, const HoldOut& holdout,
                  const JointFit& given) {
   const Case& study = search.study();
@@ -134,7 +135,8 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   report["findings"] = findings_json(search, holdout, alternatives);
   report["refuted"] = refuted_names;
   report["rivals"] = rivals_json(search, alternatives);
-  report["clock_end_s"] = study.shared_clock && study.has_clock() ? Json(study.end_of_clock) : Json();
+  report["clock_end_s"] =
+      study.shared_clock && study.has_clock() ? Json(study.end_of_clock) : Json();
   // What a loose load's impacts are is not predicted.
   std::optional<HoldOut::Excess> refuted;
   if (!search.knocking()) refuted = holdout.excess(search);
@@ -163,7 +165,8 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   report["fit"]["noise_floor_source"] = sources;
   report["fit"]["oracle"] = nullptr;
   if (study.lowpass_hz > 0.0) {
-    report["fit"]["unfiltered"] = errors_json(search, first.unfiltered(), holdout.unfiltered(), given);
+    report["fit"]["unfiltered"] =
+        errors_json(search, first.unfiltered(), holdout.unfiltered(), given);
   }
   add_limits(search, holdout, report);
   report["next_motion"] = nullptr;  // the design's, above this room
@@ -178,8 +181,8 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
     diagnosis.holdout[k].before = given_records[k].before;
   }
   diagnosis.portraits = portraits(search);
-  CaseDiagnosis result{std::move(diagnosis),
-                       fit.base.size() > 0 ? fit.base : study.base_coefficients, {}};
+  CaseDiagnosis result{
+      std::move(diagnosis), fit.base.size() > 0 ? fit.base : study.base_coefficients, {}};
   if (corrected && !first.empty()) result.uncorrected = first.rmse(fit.members, fit.base);
   return result;
 }

@@ -231,8 +231,8 @@ void prefer_one_law(Search& search) {
     std::vector<Member> other = rest;
     other.push_back(member_of(laws.front().law, law_json(laws.front())));
     const auto own = static_cast<int>((laws.front().deviation.array() > 0.0).count());
-    const double better = fit.chi2 - joint_fit(setting, other).chi2 -
-                          setting.price * std::max(0, own - numbers);
+    const double better =
+        fit.chi2 - joint_fit(setting, other).chi2 - setting.price * std::max(0, own - numbers);
     if (better < discovery::prior::kAccepted) continue;
     search.leave_out(names);
     return;

@@ -9,9 +9,9 @@ namespace dcnn {
 /// The findings, in the order of the model, with Search::alternatives().
 Json findings_json(const Search& search, const HoldOut& holdout,
                    const std::vector<std::vector<Alternative>>& alternatives);
-/// The models that the recordings cannot exclude beside the one chosen, alternatives and subsets of the names: their
-/// effects as model.json has them, the log of their odds against the chosen, their chi-square above it, and how many
-/// numbers more they have.
+/// The models that the recordings cannot exclude beside the one chosen, alternatives and subsets of
+/// the names: their effects as model.json has them, the log of their odds against the chosen, their
+/// chi-square above it, and how many numbers more they have.
 Json rivals_json(const Search& search, const std::vector<std::vector<Alternative>>& alternatives);
 /// What would have been named from which size on, and what these recordings cannot show.
 void add_limits(const Search& search, const HoldOut& holdout, Json& report);

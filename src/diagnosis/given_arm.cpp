@@ -93,7 +93,8 @@ class PayloadText {
     const Jackknifed mass = jackknife(without_, all_, [](const VectorXd& x) { return x[0]; });
     const bool has_mass = std::abs(mass.value) > mass.half;
     for (Index i = 1; i < 4; ++i) {
-      const std::string name = std::string(has_mass ? "delta_com_" : "delta_moment_") + "xyz"[i - 1];
+      const std::string name =
+          std::string(has_mass ? "delta_com_" : "delta_moment_") + "xyz"[i - 1];
       put(name + (has_mass ? "_m" : "_kgm"), has_mass ? "m" : "kg*m",
           [=](const VectorXd& x) { return has_mass ? x[i] / x[0] : x[i]; });
     }
@@ -102,11 +103,10 @@ class PayloadText {
       put(std::string("delta_inertia_") + kMoments[k] + "_kgm2", "kg*m^2",
           [=](const VectorXd& x) { return central_inertia(x, k); });
     }
-    return {{"effect", "payload"},     {"kind", "parameter"},
-            {"axis", nullptr},         {"interval_s", nullptr},
-            {"parameters", numbers_},  {"words", words(has_mass)},
-            {"confidence", nullptr},   {"p_value", nullptr},
-            {"alternatives", Json::array()}, {"holdout_gain", nullptr}};
+    return {{"effect", "payload"},    {"kind", "parameter"},    {"axis", nullptr},
+            {"interval_s", nullptr},  {"parameters", numbers_}, {"words", words(has_mass)},
+            {"confidence", nullptr},  {"p_value", nullptr},     {"alternatives", Json::array()},
+            {"holdout_gain", nullptr}};
   }
 
  private:
@@ -118,7 +118,8 @@ class PayloadText {
   }
   std::string words(bool has_mass) const {
     const double m = all_[0], h = all_.segment<3>(1).norm();
-    if (!has_mass) return "a moment of " + brief(h) + " kg*m at the flange, without a mass that is told";
+    if (!has_mass)
+      return "a moment of " + brief(h) + " kg*m at the flange, without a mass that is told";
     const std::string centre = ", centre " + brief(100.0 * h / std::abs(m)) + " cm off";
     if (m > 0.0) return "payload of " + brief(m) + " kg" + centre;
     return brief(-m) + " kg less at the flange than simulated" + centre;

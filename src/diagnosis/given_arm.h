@@ -1,5 +1,5 @@
-// An arm whose simulator is given (simulated torques, or links whose bodies are described): whether a body at
-// its flange is missing, or the links are others than those described.
+// An arm whose simulator is given (simulated torques, or links whose bodies are described): whether
+// a body at its flange is missing, or the links are others than those described.
 #pragma once
 
 #include <optional>
@@ -13,13 +13,14 @@ struct GivenArm {
   Missing missing = Missing::kNothing;
   BodyVector payload = BodyVector::Zero();  ///< in the flange's frame
   Eigen::VectorXd links;                    ///< (10·joints): of links that differ, fitted
-  Json finding;                             ///< null where nothing is missing; holdout_gain is not set
+  Json finding;  ///< null where nothing is missing; holdout_gain is not set
 };
 
-/// Fitted to what the given simulator leaves on all joints at once, beside terms of each joint: nothing; mass and
-/// centre of a payload (4 numbers); with its inertia (10); the links' base parameters where `bodies` are
-/// described (else no rows). On pieces of time that were left out, the simpler stands unless the other is
-/// significantly better (paired, 97.5 %). Intervals are jackknife over the pieces.
+/// Fitted to what the given simulator leaves on all joints at once, beside terms of each joint:
+/// nothing; mass and centre of a payload (4 numbers); with its inertia (10); the links' base
+/// parameters where `bodies` are described (else no rows). On pieces of time that were left out,
+/// the simpler stands unless the other is significantly better (paired, 97.5 %). Intervals are
+/// jackknife over the pieces.
 GivenArm what_is_missing(const std::vector<JointRows>& rows, const JointChain& chain,
                          const Eigen::VectorXd& bodies);
 

@@ -19,9 +19,9 @@ constexpr double kLeastGrowth = 0.001;     // of what the model explains already
 constexpr double kLeastOfMotion = 0.0003;  // the same for a mode: it mends errors of the motion
 constexpr int kMostRounds = 6;             // of exchanges
 constexpr int kMostGrowth = 30;            // of growth: what is added may be left out again
-constexpr int kMostSettled = 300;          // fits of everything: where laws only take turns, it ends
-constexpr double kLinearError = 0.01;      // of a gain that is estimated along a tangent
-constexpr double kRoundedError = 0.4;      // the same where rounding bends every tangent
+constexpr int kMostSettled = 300;      // fits of everything: where laws only take turns, it ends
+constexpr double kLinearError = 0.01;  // of a gain that is estimated along a tangent
+constexpr double kRoundedError = 0.4;  // the same where rounding bends every tangent
 constexpr double kDegenerateError = 0.05;  // the same beside a law whose shape is at its bound
 // More only ever fed what is not in the catalogue; but friction acts in every direction.
 constexpr int kMostMembers = 5, kMostFrictions = 14;
@@ -210,7 +210,8 @@ void Search::explore() {
     }
     if (fit_.members.empty() || fit_.members.size() == apart_.size()) return;
     say("trying other effects in place of those found");
-    if (!study_.without.exchange && (swap() || split() || replace_pairs() || merge_pair())) continue;
+    if (!study_.without.exchange && (swap() || split() || replace_pairs() || merge_pair()))
+      continue;
     if (recut || study_.is_static()) return;
     recut = true;
     const bool lag = std::any_of(fit_.members.begin(), fit_.members.end(),

@@ -13,7 +13,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Lets both cases of a joint have another plan, with these parameters of its base simulator's columns.
+/// Lets both cases of a joint have another plan, with these parameters of its base simulator's
+/// columns.
 void give_plan(LoadedCase& joint, const AxisPlan& plan, const VectorXd& parameters) {
   for (Case* study : {&joint.fit, &joint.holdout}) {
     study->axis = std::make_shared<const AxisPlan>(plan);

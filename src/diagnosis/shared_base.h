@@ -5,14 +5,14 @@
 
 namespace dcnn {
 
-/// Of an arm whose simulator is given: adds to it a payload, or corrects its links, where that is missing
-/// (given_arm.h), and returns the finding of the whole arm, else null.
+/// Of an arm whose simulator is given: adds to it a payload, or corrects its links, where that is
+/// missing (given_arm.h), and returns the finding of the whole arm, else null.
 ///
-/// Else gives the cases of an arm's joints one set of base parameters: least squares over all joints, each
-/// weighted by what it leaves, beside an offset, dry and viscous friction of each joint (what else
-/// acts is found later). A joint that another set of its own predicts better on sixths of the
-/// recordings that were left out (its scale may be wrong) keeps parameters of its own, which stay
-/// free. Does nothing for machines without an arm.
+/// Else gives the cases of an arm's joints one set of base parameters: least squares over all
+/// joints, each weighted by what it leaves, beside an offset, dry and viscous friction of each
+/// joint (what else acts is found later). A joint that another set of its own predicts better on
+/// sixths of the recordings that were left out (its scale may be wrong) keeps parameters of its
+/// own, which stay free. Does nothing for machines without an arm.
 Json share_base(std::vector<LoadedCase>& cases);
 
 }  // namespace dcnn

@@ -100,9 +100,10 @@ std::string headline(const Json& report) {
     return "Nothing is missing: the simulator leaves " + at("holdout_rmse_before") + " " + unit +
            " on held-out data, the sensor's noise is " + at("noise_floor") + " " + unit + ".";
   }
-  return what_is_missing(report) + ". The hold-out error of " + report["targets"][j].get<std::string>() +
-         " " + change_of(report, j) + ", the sensor's noise is " + at("noise_floor") + " " + unit +
-         other_channels(report, j) + ".";
+  return what_is_missing(report) + ". The hold-out error of " +
+         report["targets"][j].get<std::string>() + " " + change_of(report, j) +
+         ", the sensor's noise is " + at("noise_floor") + " " + unit + other_channels(report, j) +
+         ".";
 }
 
 std::string to_text(const Diagnosis& diagnosis) {

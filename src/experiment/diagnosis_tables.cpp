@@ -100,8 +100,10 @@ void add_findings(const Json& report, HtmlReport& page) {
                (axis.empty() ? "" : " (" + axis + ")");
   }
   if (!refuted.empty()) {
-    page.paragraph("Found in the fitted recordings and taken back, because the held-out data speak "
-                   "against it: " + refuted + ".");
+    page.paragraph(
+        "Found in the fitted recordings and taken back, because the held-out data speak "
+        "against it: " +
+        refuted + ".");
   }
   if (rows.empty()) {
     page.paragraph("No effect is named.");
@@ -112,7 +114,8 @@ void add_findings(const Json& report, HtmlReport& page) {
              rows);
   page.paragraph(
       "Confidence: the probability that the finding is true, after the search over the whole "
-      "catalogue and given the held-out data; empty where a test of its own found it. Hold-out gain: the share of the held-out "
+      "catalogue and given the held-out data; empty where a test of its own found it. Hold-out "
+      "gain: the share of the held-out "
       "RMSE that would come back without this finding, 1 - after / (after without it). Names and "
       "numbers for programs are in report.json.");
 }

@@ -182,9 +182,8 @@ void compare_with_references(const std::filesystem::path& out, const Identifier&
     references.rigid_file = rigid_file(out).string();
   }
   outcome.summary["references"] = to_json(references);
-  outcome.summary["warnings"] =
-      warnings(out.filename().string(), outcome.summary["validation_rmse"], references,
-               identifier.targets);
+  outcome.summary["warnings"] = warnings(
+      out.filename().string(), outcome.summary["validation_rmse"], references, identifier.targets);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ JointChain chain_for(const ArmRequest& request, const System& system) {
 }
 
 IdentifiedNumber normal_estimate(const std::string& name, const std::string& unit, double value,
-                         double deviation) {
+                                 double deviation) {
   return {name, unit, value, value - kArm95 * deviation, value + kArm95 * deviation};
 }
 
@@ -109,8 +109,7 @@ std::vector<IdentifiedNumber> payload_estimates(const ArmFit& fit) {
   all.front().shown = std::abs(p[0]) > kArm95 * std::sqrt(C(0, 0));
   for (Index i = 1; i < 4; ++i) {
     const double com = p[i] / p[0];
-    const double variance =
-        (C(i, i) - 2.0 * com * C(i, 0) + com * com * C(0, 0)) / (p[0] * p[0]);
+    const double variance = (C(i, i) - 2.0 * com * C(i, 0) + com * com * C(0, 0)) / (p[0] * p[0]);
     const std::string name = std::string("com_") + "xyz"[i - 1] + "_m";
     all.push_back(normal_estimate(name, "m", com, std::sqrt(std::max(variance, 0.0))));
   }

@@ -86,9 +86,9 @@ JointChain read_urdf_chain(const std::filesystem::path& path, const std::string&
     if (joint.type == urdf::Joint::FIXED) continue;
     ChainJoint next;
     next.slides = joint.type == urdf::Joint::PRISMATIC;
-    require(next.slides || joint.type == urdf::Joint::REVOLUTE ||
-                joint.type == urdf::Joint::CONTINUOUS,
-            Exit::kData, file, ": joint '", joint.name, "' neither turns nor slides");
+    require(
+        next.slides || joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS,
+        Exit::kData, file, ": joint '", joint.name, "' neither turns nor slides");
     next.name = joint.name;
     next.R = at.R;
     next.p = at.p;

@@ -71,8 +71,8 @@ WristColumns columns_of(const WristLog& log, bool torque) {
     Vector3d felt = g;
     if (!log.at_rest && log.accelerated) felt -= motion.a_B.row(k).transpose();
     raw.row(k).head(3) = (motion.R_BS[static_cast<std::size_t>(k)].transpose() * felt).transpose();
-    // Where the acceleration of the origin is unknown, that of turning is, too: a turn about a point
-    // that is not the origin has the same terms.
+    // Where the acceleration of the origin is unknown, that of turning is, too: a turn about a
+    // point that is not the origin has the same terms.
     if (log.at_rest || !log.accelerated) continue;
     const Vector3d w = motion.w_S.row(k), dw = motion.dw_S.row(k);
     const Matrix3d W = cross_matrix(w);
@@ -166,8 +166,7 @@ MatrixXd jacobian(const WristColumns& columns, const WristState& state, const La
   }
   for (Index a = 0; a < layout.amplitudes; ++a) {
     for (Index c = 0; c < channels; ++c) {
-      J.col(layout.first_amplitude() + a).segment(c * n, n) =
-          columns.laws.col(channels * a + c);
+      J.col(layout.first_amplitude() + a).segment(c * n, n) = columns.laws.col(channels * a + c);
     }
   }
   return J;

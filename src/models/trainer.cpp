@@ -220,9 +220,9 @@ void Trainer::finish_epoch() {
   save_checkpoint();
 }
 
-/// Batch norm's inference statistics (Ioffe and Szegedy 2015): one pass over the clean training set,
-/// in shuffled batches as in training, since neighbouring rows resemble each other too much to make
-/// a batch.
+/// Batch norm's inference statistics (Ioffe and Szegedy 2015): one pass over the clean training
+/// set, in shuffled batches as in training, since neighbouring rows resemble each other too much to
+/// make a batch.
 void Trainer::collect_statistics() {
   NoGradient guard;
   Rng rng({model_.seed_, kCollectOrder});

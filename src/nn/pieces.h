@@ -9,8 +9,8 @@
 
 namespace dcnn {
 
-/// Calls work(piece, first sample, number of samples) for the fixed pieces of a batch of n, those of
-/// this process where several train together.
+/// Calls work(piece, first sample, number of samples) for the fixed pieces of a batch of n, those
+/// of this process where several train together.
 template <class Work>
 void for_each_part(Index n, const Work& work) {
   const Index pieces = piece_count(n);
@@ -30,8 +30,8 @@ void for_each_range(const Tensor& x, const Work& work) {
   });
 }
 
-/// An array per piece, which work on it writes, to be added up in the order of the pieces once it is
-/// shared: the same sum for any number of threads and processes.
+/// An array per piece, which work on it writes, to be added up in the order of the pieces once it
+/// is shared: the same sum for any number of threads and processes.
 class PieceSums {
  public:
   PieceSums(Index n, Index size)

@@ -91,7 +91,8 @@ JointChain chain_of(const System& system) {
 MatrixXd payload_columns(const Recording& recording, const System& system, std::size_t axis,
                          const DerivativeSpec& derivative) {
   const JointChain chain = chain_of(system);
-  return arm_columns(chain, recording, system, axis, derivative).rightCols(10) * flange_to_link(chain);
+  return arm_columns(chain, recording, system, axis, derivative).rightCols(10) *
+         flange_to_link(chain);
 }
 
 Motion axis_motion(const Recording& recording, const Axis& axis, const DerivativeSpec& derivative) {

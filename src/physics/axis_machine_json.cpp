@@ -18,11 +18,10 @@ struct Suffix {
 /// Units of an axis: U of what is measured, P of its position.
 std::string axis_unit(const std::string& suffix, const Axis& axis) {
   static const std::vector<Suffix> kUnits{
-      {"n", "U"},        {"mps", "P/s"},   {"nspm", "U*s/P"}, {"ns2pm2", "U*s^2/P^2"},
-      {"npm", "U/P"},    {"nprad", "U/P"}, {"nprad3", "U/P^3"}, {"rad", "P"},
-      {"nprad2", "U/P^2"},
-      {"hz", "Hz"},      {"s", "s"},       {"nps", "U/s"},    {"npk", "U/K"},
-      {"degc", "degC"},  {"kg", "U*s^2/P"}};
+      {"n", "U"},          {"mps", "P/s"},   {"nspm", "U*s/P"},   {"ns2pm2", "U*s^2/P^2"},
+      {"npm", "U/P"},      {"nprad", "U/P"}, {"nprad3", "U/P^3"}, {"rad", "P"},
+      {"nprad2", "U/P^2"}, {"hz", "Hz"},     {"s", "s"},          {"nps", "U/s"},
+      {"npk", "U/K"},      {"degc", "degC"}, {"kg", "U*s^2/P"}};
   const std::string position = axis.position_unit.empty() ? "1" : axis.position_unit;
   for (const Suffix& entry : kUnits) {
     if (suffix != entry.end) continue;
@@ -139,7 +138,8 @@ std::vector<EffectSpec> effects_from(const Json& list, const Axis& axis, double 
     Json translated = entry;
     const std::string axis_name = inner_axis(*kind);
     translated["axis"] = axis_name.empty() ? Json() : Json(axis_name);
-    translated["parameters"] = inner_parameters(*kind, entry["parameters"], axis, sense, where, exit);
+    translated["parameters"] =
+        inner_parameters(*kind, entry["parameters"], axis, sense, where, exit);
     inner.push_back(translated);
   }
   return parse_effects(inner, where, exit);
@@ -175,7 +175,8 @@ CorrectedAxis parse_corrected(const Json& json, const System& system, std::size_
   if (!base.is_null()) {
     corrected.coefficients = VectorXd::Map(values.data(), static_cast<Index>(values.size()));
   }
-  if (options.has("derivative")) corrected.derivative = parse_derivative(options.child("derivative"));
+  if (options.has("derivative"))
+    corrected.derivative = parse_derivative(options.child("derivative"));
   corrected.sense = options.choice("measured", "drive", {"drive", "reaction"}) == "drive" ? 1 : -1;
   const Json effects = options.raw("effects");
   corrected.effects = effects_from(effects.is_null() ? Json::array() : effects, system.axes[k],
@@ -214,8 +215,9 @@ AxisMachine machine_of(const System& system) {
   for (std::size_t k = 0; k < system.axes.size(); ++k) {
     machine.axes.emplace_back();
     set_described(system, k, machine.axes.back());
-    require(!machine.axes.back().columns.empty(), Exit::kData, "system: axis '", system.axes[k].name,
-            "': nothing simulates it; describe the bodies of all links in 'arm', or give a model.json");
+    require(
+        !machine.axes.back().columns.empty(), Exit::kData, "system: axis '", system.axes[k].name,
+        "': nothing simulates it; describe the bodies of all links in 'arm', or give a model.json");
   }
   return machine;
 }

@@ -18,9 +18,8 @@ Eigen::VectorXd parse_numbers(Options& options, const std::string& key, std::siz
                               const std::vector<double>& fallback) {
   const auto list = fallback.empty() ? options.get<std::vector<double>>(key)
                                      : options.get<std::vector<double>>(key, fallback);
-  const bool good = list.size() == count && std::all_of(list.begin(), list.end(), [](double v) {
-    return std::isfinite(v);
-  });
+  const bool good = list.size() == count && std::all_of(list.begin(), list.end(),
+                                                        [](double v) { return std::isfinite(v); });
   if (!good) options.reject(key, "must be a list of ", count, " numbers");
   return Eigen::VectorXd::Map(list.data(), static_cast<Eigen::Index>(count));
 }

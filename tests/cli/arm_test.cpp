@@ -29,7 +29,9 @@ constexpr const char* kUrdf = R"(<robot name="two"><link name="base"/>
 Json two_axes() {
   Json axes = Json::array();
   for (const char* k : {"1", "2"}) {
-    axes.push_back({{"name", std::string("joint") + k}, {"measured", std::string("tau_") + k}, {"unit", "N*m"},
+    axes.push_back({{"name", std::string("joint") + k},
+                    {"measured", std::string("tau_") + k},
+                    {"unit", "N*m"},
                     {"position", std::string("q_") + k}});
   }
   return {{"kind", "axes"}, {"axes", axes}};
@@ -73,8 +75,8 @@ TEST_F(ArmPrograms, TorquesOfAUrdfAreSimulatedAndThenNothingIsMissing) {
     log.values(i, 4) = second + 0.05 * rng.normal();
   }
   write_csv(folder_ / "gravity.csv", log);
-  const auto first = run("diagnose", {"--system", at("joints.json"), "--urdf", at("robot.urdf"), "--fit",
-                                      at("gravity.csv"), "--out", at("first"), "-q"});
+  const auto first = run("diagnose", {"--system", at("joints.json"), "--urdf", at("robot.urdf"),
+                                      "--fit", at("gravity.csv"), "--out", at("first"), "-q"});
   if (contains(first.err, "reads no URDF")) GTEST_SKIP() << first.err;
   ASSERT_EQ(first.exit_code, 0) << first.err;
   const Json model = read_json(folder_ / "first" / "model.json", Exit::kData);
@@ -82,7 +84,8 @@ TEST_F(ArmPrograms, TorquesOfAUrdfAreSimulatedAndThenNothingIsMissing) {
 
   // The description that model.json holds is a simulator of its own.
   write_file(folder_ / "arm.json", model["system"].dump(1));
-  const auto simulated = run("sim", {"--sim", at("arm.json"), "--motion", at("motion.csv"), "--out", at("torques.csv")});
+  const auto simulated = run(
+      "sim", {"--sim", at("arm.json"), "--motion", at("motion.csv"), "--out", at("torques.csv")});
   ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
   Table torques = read_csv(folder_ / "torques.csv");
   const auto column = [&](const std::string& name) {
@@ -94,8 +97,8 @@ TEST_F(ArmPrograms, TorquesOfAUrdfAreSimulatedAndThenNothingIsMissing) {
     for (double& value : torques.values.col(column(name))) value += 0.05 * rng.normal();
   }
   write_csv(folder_ / "log.csv", torques);
-  const auto right = run("diagnose", {"--system", at("joints.json"), "--urdf", at("robot.urdf"), "--fit",
-                                      at("log.csv"), "--out", at("right"), "-q"});
+  const auto right = run("diagnose", {"--system", at("joints.json"), "--urdf", at("robot.urdf"),
+                                      "--fit", at("log.csv"), "--out", at("right"), "-q"});
   ASSERT_EQ(right.exit_code, 0) << right.err;
   const Json report = read_json(folder_ / "right" / "report.json", Exit::kData);
   EXPECT_EQ(report["verdict"], "consistent") << report["findings"].dump(1);
@@ -106,12 +109,14 @@ TEST_F(ArmPrograms, AnArmWithoutBodiesIsNoSimulator) {
   Json system = two_axes();
   system["arm"] = {{"dh", {{0.0, 1.57, 0.3, 0.0}, {0.4, 0.0, 0.0, 0.0}}}};
   write_file(folder_ / "dh.json", system.dump(1));
-  const auto result = run("sim", {"--sim", at("dh.json"), "--motion", at("motion.csv"), "--out", at("no.csv")});
+  const auto result =
+      run("sim", {"--sim", at("dh.json"), "--motion", at("motion.csv"), "--out", at("no.csv")});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_TRUE(contains(result.err, "describe the bodies of all links")) << result.err;
   system["arm"] = {{"joints", {{{"axis", {0, 0, 0}}}, Json::object()}}};
   write_file(folder_ / "bad.json", system.dump(1));
-  const auto bad = run("sim", {"--sim", at("bad.json"), "--motion", at("motion.csv"), "--out", at("no.csv")});
+  const auto bad =
+      run("sim", {"--sim", at("bad.json"), "--motion", at("motion.csv"), "--out", at("no.csv")});
   EXPECT_EQ(bad.exit_code, 3);
   EXPECT_TRUE(contains(bad.err, "has no direction")) << bad.err;
 }

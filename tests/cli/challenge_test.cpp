@@ -127,7 +127,8 @@ int processes_of(const std::filesystem::path& folder) {
     if (std::stoi(id) == ::getpid()) continue;
     std::error_code gone;
     const auto at = std::filesystem::read_symlink(entry.path() / "cwd", gone).string();
-    count += (test::slurp(entry.path() / "cmdline") + at).find(folder.string()) != std::string::npos;
+    count +=
+        (test::slurp(entry.path() / "cmdline") + at).find(folder.string()) != std::string::npos;
   }
   return count;
 }
@@ -138,7 +139,8 @@ int diagnoses_in(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
     std::error_code gone;
     const auto at = std::filesystem::read_symlink(entry.path() / "cwd", gone).string();
-    count += at.starts_with(folder.string()) && test::slurp(entry.path() / "comm") == "dcnn-diagnose\n";
+    count +=
+        at.starts_with(folder.string()) && test::slurp(entry.path() / "comm") == "dcnn-diagnose\n";
   }
   return count;
 }
@@ -162,7 +164,8 @@ TEST(ChallengeScript, StoppedItLeavesNothingRunningAndGoesOn) {
                               DCNN_BIN_DIR + " " + arguments;
   const pid_t script = ::fork();
   if (script == 0) {
-    if (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr)) ::_exit(1);
+    if (!std::freopen("/dev/null", "w", stdout) || !std::freopen("/dev/null", "w", stderr))
+      ::_exit(1);
     ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     ::_exit(127);
   }

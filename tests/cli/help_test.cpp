@@ -31,9 +31,7 @@ Names matches(const std::string& text, const std::string& pattern) {
 }
 
 /// Long names at the beginning of a help's line: "  --out FILE" or "  -q, --quiet".
-Names in_help(const std::string& text) {
-  return matches(text, "\n  (?:-[a-z], )?(--[a-z-]+)");
-}
+Names in_help(const std::string& text) { return matches(text, "\n  (?:-[a-z], )?(--[a-z-]+)"); }
 
 TEST(Help, NamesTheSameOptionsAsManualAndCompletions) {
   for (const std::string& verb : verbs()) {
@@ -54,7 +52,8 @@ TEST(Help, NamesTheSameOptionsAsManualAndCompletions) {
     EXPECT_EQ(matches(words, "(--[a-z][a-z-]*)"), options);
     EXPECT_EQ(matches(test::slurp(folder / ("zsh/_" + name)), "\n  '\\*?(--[a-z-]+)\\["), options);
     Names fish;
-    for (const auto& word : matches(test::slurp(folder / ("fish/" + name + ".fish")), " -l ([a-z-]+)")) {
+    for (const auto& word :
+         matches(test::slurp(folder / ("fish/" + name + ".fish")), " -l ([a-z-]+)")) {
       fish.insert("--" + word);
     }
     EXPECT_EQ(fish, options);
@@ -93,7 +92,8 @@ TEST(Dispatch, ListsEveryProgramAndRunsIt) {
   };
   const std::string list = dcnn("").second;
   for (const std::string& verb : verbs()) {
-    EXPECT_TRUE(std::regex_search(list, std::regex("\n  " + verb + " +[A-Z]"))) << verb << "\n" << list;
+    EXPECT_TRUE(std::regex_search(list, std::regex("\n  " + verb + " +[A-Z]"))) << verb << "\n"
+                                                                                << list;
   }
   EXPECT_EQ(dcnn("help train").second, test::run("train", {"--help"}).out);
   EXPECT_EQ(dcnn("train --help").second, test::run("train", {"--help"}).out);
@@ -109,8 +109,9 @@ TEST(Scripts, PrintTheirHelpAndDoNothing) {
        {"accuracy", "challenge", "check-rooms", "demo", "hybrid", "install-deps", "package", "real",
         "real-identifiers", "reproduce", "teleop-live", "test", "test-engines", "test-neon"}) {
     const std::string out = folder / "out.txt";
-    const std::string command = "cd '" + folder.path().string() + "' && timeout 10 '" DCNN_SOURCE_DIR
-                                "/tools/" + script + "' --help > out.txt 2>&1";
+    const std::string command = "cd '" + folder.path().string() +
+                                "' && timeout 10 '" DCNN_SOURCE_DIR "/tools/" + script +
+                                "' --help > out.txt 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0) << script;
     const std::string text = test::slurp(out);
     EXPECT_GE(std::count(text.begin(), text.end(), '\n'), 2) << script;

@@ -12,9 +12,9 @@ using Arguments = std::vector<std::string>;
 
 struct Case {
   const char* verb;
-  Arguments arguments;      ///< "@x" is x in the test's folder
-  const char* precious;     ///< the file that must survive
-  const char* words;        ///< of the refusal
+  Arguments arguments;   ///< "@x" is x in the test's folder
+  const char* precious;  ///< the file that must survive
+  const char* words;     ///< of the refusal
 };
 
 class Outputs : public ::testing::TestWithParam<Case> {
@@ -85,10 +85,13 @@ TEST_F(Outputs, OfAPredictionAreReplacedByANewerOneLinksFollowedStreamsWritten) 
   }
   EXPECT_TRUE(std::filesystem::is_symlink(at("link.csv")));
   const std::string rows = test::slurp(at("p.csv"));
-  const auto piped = test::Process("predict", {kSim, "--data", "-", "--out", "-"}, {.input = kLog}).wait();
+  const auto piped =
+      test::Process("predict", {kSim, "--data", "-", "--out", "-"}, {.input = kLog}).wait();
   EXPECT_EQ(piped.exit_code, 0) << piped.err;
   EXPECT_EQ(piped.out, rows);
-  EXPECT_EQ(test::run("predict", {kSim, "--data", kLog, "--out", "/dev/stdout"}).out.substr(0, rows.size()), rows);
+  EXPECT_EQ(test::run("predict", {kSim, "--data", kLog, "--out", "/dev/stdout"})
+                .out.substr(0, rows.size()),
+            rows);
   EXPECT_EQ(test::run("predict", {kSim, "--data", kLog, "--out", "/dev/null"}).exit_code, 0);
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }

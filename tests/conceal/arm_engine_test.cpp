@@ -1,4 +1,5 @@
-// The hidden arms' own mechanics, against closed forms and against the recursion of the physics room.
+// The hidden arms' own mechanics, against closed forms and against the recursion of the physics
+// room.
 #include "conceal/arm_engine.h"
 
 #include <gtest/gtest.h>
@@ -50,11 +51,13 @@ TEST(ArmEngine, AgreesWithTheRecursionOfNewtonAndEulerWithWhichItSharesNothing) 
     limb.turned = Eigen::Quaterniond(rng.normal(), rng.normal(), rng.normal(), rng.normal())
                       .normalized()
                       .toRotationMatrix();
-    limb.masses = conceal::solid(1.0 + rng.uniform(), 0.1 * Vector3d(rng.normal(), rng.normal(), rng.normal()),
+    limb.masses = conceal::solid(1.0 + rng.uniform(),
+                                 0.1 * Vector3d(rng.normal(), rng.normal(), rng.normal()),
                                  {0.05, 0.08, 0.03}, limb.turned.transpose());
     BodyVector body = BodyVector::Zero();
     for (const conceal::PointMass& m : limb.masses) {
-      const Matrix3d I = m.mass * (m.at.squaredNorm() * Matrix3d::Identity() - m.at * m.at.transpose());
+      const Matrix3d I =
+          m.mass * (m.at.squaredNorm() * Matrix3d::Identity() - m.at * m.at.transpose());
       BodyVector point;
       point << m.mass, m.mass * m.at, I(0, 0), I(0, 1), I(0, 2), I(1, 1), I(1, 2), I(2, 2);
       body += point;
@@ -91,17 +94,25 @@ TEST(ArmEngine, TheSameSeedSealsTheSameBytesAndAnotherOthers) {
   const std::string first = sealed("a", 1);
   EXPECT_EQ(first, sealed("b", 1));
   EXPECT_NE(first, sealed("c", 2));
-  EXPECT_THROW(conceal::conceal_arms({"single:1/mass/0"}, 1, folder / "d", folder / "d.json", [](int, int) {}),
+  EXPECT_THROW(conceal::conceal_arms({"single:1/mass/0"}, 1, folder / "d", folder / "d.json",
+                                     [](int, int) {}),
                Error);
 }
 
 /// Joints share the names of their effects: each finding is held against the one on its joint.
 TEST(ArmEngine, FindingsAreScoredByJoint) {
   const auto effect = [](const char* joint) {
-    return Json{{"effect", "coulomb_friction"}, {"axis", joint},     {"interval_s", nullptr}, {"amplitude", 1.0},
-                {"parameters", Json::object()}, {"listed", true},    {"foreign", false},      {"alternatives", Json::array()}};
+    return Json{{"effect", "coulomb_friction"},
+                {"axis", joint},
+                {"interval_s", nullptr},
+                {"amplitude", 1.0},
+                {"parameters", Json::object()},
+                {"listed", true},
+                {"foreign", false},
+                {"alternatives", Json::array()}};
   };
-  Json answer{{"id", "s0001"}, {"drawn", "x"}, {"group", "loaded"}, {"motion", ""}, {"noise", ""}, {"oracle_rmse", nullptr}};
+  Json answer{{"id", "s0001"}, {"drawn", "x"}, {"group", "loaded"},
+              {"motion", ""},  {"noise", ""},  {"oracle_rmse", nullptr}};
   answer["hidden"] = {effect("joint1"), effect("joint2"), effect("joint3")};
   Json report{{"verdict", "explained"}};
   report["findings"] = {effect("joint3"), effect("joint1"), effect("joint4")};
@@ -114,8 +125,9 @@ TEST(ArmEngine, FindingsAreScoredByJoint) {
 TEST(ArmEngine, APlanHasEveryGroup) {
   const auto ids = conceal::arm_plan(24, 5);
   for (const std::string group : {"null:", "single:", "payload:", "loaded:"}) {
-    EXPECT_TRUE(std::any_of(ids.begin(), ids.end(), [&](const auto& id) { return id.starts_with(group); }))
-        << group;
+    EXPECT_TRUE(std::any_of(ids.begin(), ids.end(), [&](const auto& id) {
+      return id.starts_with(group);
+    })) << group;
   }
 }
 

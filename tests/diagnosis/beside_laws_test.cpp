@@ -47,20 +47,18 @@ TEST(BesideLaws, OneLawTakesThePlaceOfTwoNamesThatImitateIt) {
 
 TEST(BesideLaws, TwoNamesThatActStayTwo) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
-  const Bench bench(configuration(
-      {hidden("coulomb_friction", "tool_z", {{"fc_n", 0.5}, {"v0_mps", 0.01}}),
-       hidden("viscous_friction", "tool_z", {{"c_nspm", 6.0}})}));
+  const Bench bench(
+      configuration({hidden("coulomb_friction", "tool_z", {{"fc_n", 0.5}, {"v0_mps", 0.01}}),
+                     hidden("viscous_friction", "tool_z", {{"c_nspm", 6.0}})}));
   const Json report = bench.diagnose().report;
-  EXPECT_EQ(test::found(report),
-            (std::set<std::string>{"coulomb_friction", "viscous_friction"}));
+  EXPECT_EQ(test::found(report), (std::set<std::string>{"coulomb_friction", "viscous_friction"}));
   EXPECT_EQ(report["verdict"], "explained");
   EXPECT_TRUE(report["refuted"].empty());
 }
 
 TEST(HeldOutData, TakeBackWhatTheyRefute) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
-  const Json friction =
-      Json::array({hidden("viscous_friction", "tool_z", {{"c_nspm", 4.0}})});
+  const Json friction = Json::array({hidden("viscous_friction", "tool_z", {{"c_nspm", 4.0}})});
   const Bench with(configuration(friction)), without(configuration(Json::array()));
   DiagnosisRequest request = with.request();
   request.holdout = {without / "hold.csv"};

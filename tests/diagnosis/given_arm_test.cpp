@@ -110,7 +110,8 @@ Json finding_of(const std::string& effect, const Json& axis, const std::string& 
 
 TEST(ArmWords, NameJointsTogether) {
   Json report{{"verdict", "explained"}, {"findings", Json::array()}, {"joints", Json::array()}};
-  report["findings"].push_back(finding_of("payload", nullptr, "payload of 2.6 kg, centre 4 cm off"));
+  report["findings"].push_back(
+      finding_of("payload", nullptr, "payload of 2.6 kg, centre 4 cm off"));
   for (const char* axis : {"a", "b", "c", "d"}) {
     report["findings"].push_back(finding_of("coulomb_friction", axis, ""));
     report["findings"].push_back(finding_of("viscous_friction", axis, ""));
@@ -118,7 +119,8 @@ TEST(ArmWords, NameJointsTogether) {
   }
   report["findings"].push_back(finding_of("hum", "d", ""));
   EXPECT_EQ(arm_json(report, four_axes())["words"],
-            "payload of 2.6 kg, centre 4 cm off; dry and viscous friction on a to d; hum on d; nothing else");
+            "payload of 2.6 kg, centre 4 cm off; dry and viscous friction on a to d; hum on d; "
+            "nothing else");
   report["joints"][1]["verdict"] = "partly-explained";
   const std::string words = arm_json(report, four_axes())["words"];
   EXPECT_TRUE(words.ends_with("; something without a name on b")) << words;

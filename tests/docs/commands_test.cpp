@@ -79,7 +79,8 @@ class Clone {
     const std::filesystem::path source = DCNN_SOURCE_DIR;
     for (const char* name : {"data/sample", "configs", "examples"}) {
       std::filesystem::create_directories((folder_ / name).parent_path());
-      std::filesystem::copy(source / name, folder_ / name, std::filesystem::copy_options::recursive);
+      std::filesystem::copy(source / name, folder_ / name,
+                            std::filesystem::copy_options::recursive);
     }
   }
 
@@ -100,10 +101,10 @@ class Clone {
 };
 
 /// Pages in the order in which a reader comes to them: later ones use what earlier ones wrote.
-const std::vector<const char*> kPages{
-    "first-log.md", "import.md",  "check.md",  "identify.md", "diagnose.md", "discover.md",
-    "train.md",     "export.md",  "outputs.md", "calibrate.md", "run.md",     "teleop.md",
-    "cluster.md"};
+const std::vector<const char*> kPages{"first-log.md", "import.md",    "check.md", "identify.md",
+                                      "diagnose.md",  "discover.md",  "train.md", "export.md",
+                                      "outputs.md",   "calibrate.md", "run.md",   "teleop.md",
+                                      "cluster.md"};
 
 TEST(DocumentedCommands, OfEveryPageRunOrSayWhyNot) {
   if (test::kSanitized) GTEST_SKIP() << "as any program under sanitizers, by tests of its own";

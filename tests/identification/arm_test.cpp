@@ -17,7 +17,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-const Json kDh{{0.0, 1.5707963267948966, 0.18, 0.0}, {-0.6, 0.0, 0.0, 0.0}, {0.0, 1.5707963267948966, 0.15, 0.0}};
+const Json kDh{{0.0, 1.5707963267948966, 0.18, 0.0},
+               {-0.6, 0.0, 0.0, 0.0},
+               {0.0, 1.5707963267948966, 0.15, 0.0}};
 
 Json system_json() {
   Json axes = Json::array();
@@ -27,13 +29,13 @@ Json system_json() {
                         {"unit", "N*m"},
                         {"position", std::string("q_") + k}});
   }
-  return {{"kind", "axes"}, {"lowpass_hz", 8}, {"axes", axes},
+  return {{"kind", "axes"},
+          {"lowpass_hz", 8},
+          {"axes", axes},
           {"arm", {{"convention", "standard"}, {"dh", kDh}}}};
 }
 
-JointChain arm_chain() {
-  return parse_chain(system_json()["arm"], "test", Exit::kData);
-}
+JointChain arm_chain() { return parse_chain(system_json()["arm"], "test", Exit::kData); }
 
 /// A body of mass m at c, like a ball of radius of gyration 5 cm.
 BodyVector ball(double m, const Eigen::Vector3d& c) {
@@ -70,7 +72,8 @@ void write_log(const std::filesystem::path& file, const Truth& truth, std::uint6
   VectorXd bodies(30);
   bodies << ball(8.0, {0.0, -0.1, 0.0}), ball(6.0, {-0.3, 0.0, 0.05}), ball(2.0, {0.0, 0.02, 0.1});
   const Eigen::Matrix3d back = chain.flange_R.transpose();
-  bodies.tail(10) += body_in_frame(ball(truth.payload, truth.centre), back, -(back * chain.flange_p));
+  bodies.tail(10) +=
+      body_in_frame(ball(truth.payload, truth.centre), back, -(back * chain.flange_p));
   Table table;
   table.columns = {"t"};
   table.values.resize(n, 7);
@@ -90,7 +93,8 @@ void write_log(const std::filesystem::path& file, const Truth& truth, std::uint6
   write_csv(file, table);
 }
 
-const IdentifiedNumber& of(const std::vector<IdentifiedNumber>& estimates, const std::string& name) {
+const IdentifiedNumber& of(const std::vector<IdentifiedNumber>& estimates,
+                           const std::string& name) {
   for (const IdentifiedNumber& e : estimates) {
     if (e.name == name) return e;
   }
@@ -134,8 +138,8 @@ TEST_F(ArmIdentify, FrictionAndLinksPredictHeldOutTorquesToTheNoise) {
   EXPECT_NE(to_text(id).find("dry friction on joints 1 to 3"), std::string::npos) << to_text(id);
 }
 
-/// On the joint that bears the links' weight, the description that was found leaves of a held-out log what drives add:
-/// offset, friction, rotor, noise.
+/// On the joint that bears the links' weight, the description that was found leaves of a held-out
+/// log what drives add: offset, friction, rotor, noise.
 TEST_F(ArmIdentify, TheDescriptionFoundIsASimulator) {
   const ArmRequest asked = request({}, false);
   const AxisMachine machine = machine_of(parse_system(identify_arm(asked).system, "found.json"));

@@ -1,12 +1,11 @@
 // The chain's regressor against the DH form, and against orocos-kdl where it is installed.
-#include "dcnn/identification/urdf.h"
-#include "dcnn/physics/chain.h"
-
 #include <gtest/gtest.h>
 
 #include "data/testing.h"
 #include "dcnn/core/parallel.h"
 #include "dcnn/core/random.h"
+#include "dcnn/identification/urdf.h"
+#include "dcnn/physics/chain.h"
 
 #ifdef DCNN_WITH_KDL
 #include <kdl/chain.hpp>
@@ -100,7 +99,8 @@ TEST(JointChain, IsReadBackAsItWasWritten) {
   ASSERT_TRUE(back.bodies());
   for (std::size_t j = 0; j < chain.joints.size(); ++j) {
     const VectorXd there = chain_regressor(back, q, v, a, j) * *back.bodies();
-    EXPECT_LT((chain_regressor(chain, q, v, a, j) * bodies_of(chain) - there).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((chain_regressor(chain, q, v, a, j) * bodies_of(chain) - there).cwiseAbs().maxCoeff(),
+              1e-12);
   }
   EXPECT_LT((flange_to_link(chain) - flange_to_link(back)).cwiseAbs().maxCoeff(), 1e-14);
 }
@@ -124,7 +124,8 @@ TEST(JointChain, ABodySeenFromAnotherFrameAndBackIsTheSame) {
 
 #ifdef DCNN_WITH_KDL
 KDL::Frame frame_of(const Matrix3d& R, const Vector3d& p) {
-  return {KDL::Rotation(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)),
+  return {KDL::Rotation(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1),
+                        R(2, 2)),
           KDL::Vector(p.x(), p.y(), p.z())};
 }
 
@@ -141,10 +142,10 @@ KDL::Chain kdl_of(const JointChain& chain) {
         b[0], KDL::Vector(c.x(), c.y(), c.z()),
         KDL::RotationalInertia(com[4], com[7], com[9], com[5], com[6], com[8]));
     const KDL::Vector axis(joint.axis.x(), joint.axis.y(), joint.axis.z());
-    out.addSegment(KDL::Segment(
-        KDL::Joint(KDL::Vector::Zero(), axis,
-                   joint.slides ? KDL::Joint::TransAxis : KDL::Joint::RotAxis),
-        KDL::Frame::Identity(), inertia));
+    out.addSegment(
+        KDL::Segment(KDL::Joint(KDL::Vector::Zero(), axis,
+                                joint.slides ? KDL::Joint::TransAxis : KDL::Joint::RotAxis),
+                     KDL::Frame::Identity(), inertia));
   }
   return out;
 }
@@ -158,7 +159,8 @@ TEST(JointChain, HasTheTorquesOfOrocosKdl) {
   KDL::ChainIdSolver_RNE solver(other, KDL::Vector(0.0, 0.0, -9.81));
   const VectorXd bodies = bodies_of(chain);
   for (int trial = 0; trial < 10; ++trial) {
-    const MatrixXd q = random_rows(1, 7, rng), v = random_rows(1, 7, rng), a = random_rows(1, 7, rng);
+    const MatrixXd q = random_rows(1, 7, rng), v = random_rows(1, 7, rng),
+                   a = random_rows(1, 7, rng);
     KDL::JntArray kq(7), kv(7), ka(7), torques(7);
     kq.data = q.transpose();
     kv.data = v.transpose();

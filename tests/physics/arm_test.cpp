@@ -1,11 +1,10 @@
-#include "dcnn/physics/chain.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "dcnn/core/random.h"
 #include "dcnn/physics/axis_machine.h"
+#include "dcnn/physics/chain.h"
 
 namespace dcnn {
 namespace {
@@ -54,7 +53,8 @@ TEST(Arm, IsTheTwoLinkArmOfTheTextbook) {
     Eigen::VectorXd p(20);
     p << parameters(a), parameters(b);
     for (int trial = 0; trial < 20; ++trial) {
-      const Eigen::Vector2d q = draw(), v = draw(), dd = draw(), expected = closed_form(a, b, q, v, dd);
+      const Eigen::Vector2d q = draw(), v = draw(), dd = draw(),
+                            expected = closed_form(a, b, q, v, dd);
       for (std::size_t joint = 0; joint < 2; ++joint) {
         const Eigen::MatrixXd row =
             chain_regressor(planar(modified), q.transpose(), v.transpose(), dd.transpose(), joint);
@@ -67,10 +67,10 @@ TEST(Arm, IsTheTwoLinkArmOfTheTextbook) {
 /// Power of the drives is the change of energy: any arm, both conventions, all parameters.
 TEST(Arm, DrivesOnlyPutInWhatTheEnergyGains) {
   for (const char* convention : {"modified", "standard"}) {
-    const JointChain arm = parse_chain({{"convention", convention},
-                               {"dh",
-                                {{0.1, 0.4, 0.3, 0.2}, {0.2, -1.1, 0.15, -0.3}, {0.05, 1.3, 0.1, 1.0}}}},
-                              "test", Exit::kData);
+    const JointChain arm = parse_chain(
+        {{"convention", convention},
+         {"dh", {{0.1, 0.4, 0.3, 0.2}, {0.2, -1.1, 0.15, -0.3}, {0.05, 1.3, 0.1, 1.0}}}},
+        "test", Exit::kData);
     Eigen::VectorXd p(30);
     Rng rng({4u});
     for (double& x : p) x = rng.normal();
@@ -100,13 +100,20 @@ TEST(Arm, DrivesOnlyPutInWhatTheEnergyGains) {
 TEST(Arm, APayloadIsPartOfTheLastLink) {
   Json system{{"kind", "axes"}, {"axes", Json::array()}};
   for (const char* k : {"1", "2"}) {
-    system["axes"].push_back({{"name", k}, {"measured", std::string("tau") + k}, {"unit", "N*m"},
-                              {"position", std::string("q") + k}, {"velocity", std::string("v") + k},
+    system["axes"].push_back({{"name", k},
+                              {"measured", std::string("tau") + k},
+                              {"unit", "N*m"},
+                              {"position", std::string("q") + k},
+                              {"velocity", std::string("v") + k},
                               {"acceleration", std::string("a") + k}});
   }
-  const Json link{{"mass_kg", 2.0}, {"moment_kgm", {0.2, 0.0, 0.1}}, {"inertia_kgm2", {0.1, 0, 0, 0.2, 0, 0.2}}};
-  Json first{{"rpy_rad", {0.5, 0.0, 0.0}}, {"body", link}}, second{{"xyz_m", {0.4, 0.0, 0.0}}, {"body", link}};
-  system["arm"] = {{"joints", {first, second}}, {"flange", {{"xyz_m", {0.3, 0.1, 0.0}}, {"rpy_rad", {0.1, 0.2, 0.3}}}}};
+  const Json link{{"mass_kg", 2.0},
+                  {"moment_kgm", {0.2, 0.0, 0.1}},
+                  {"inertia_kgm2", {0.1, 0, 0, 0.2, 0, 0.2}}};
+  Json first{{"rpy_rad", {0.5, 0.0, 0.0}}, {"body", link}},
+      second{{"xyz_m", {0.4, 0.0, 0.0}}, {"body", link}};
+  system["arm"] = {{"joints", {first, second}},
+                   {"flange", {{"xyz_m", {0.3, 0.1, 0.0}}, {"rpy_rad", {0.1, 0.2, 0.3}}}}};
 
   AxisMachine machine{parse_system(system, "test"), {}};
   const JointChain chain = chain_of(machine.system);
@@ -130,7 +137,8 @@ TEST(Arm, APayloadIsPartOfTheLastLink) {
   ASSERT_TRUE(lumped.payload.has_value());
   const Eigen::MatrixXd with = predict_axes(lumped, recording);
   lumped.payload.reset();
-  for (CorrectedAxis& axis : lumped.axes) axis.coefficients.tail(10) += flange_to_link(chain) * payload;
+  for (CorrectedAxis& axis : lumped.axes)
+    axis.coefficients.tail(10) += flange_to_link(chain) * payload;
   EXPECT_LT((with - predict_axes(lumped, recording)).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_GT(with.cwiseAbs().maxCoeff(), 1.0);
 }

@@ -3,7 +3,8 @@
 
 namespace dcnn {
 
-/// From now on SIGINT, SIGTERM and SIGUSR1 set a flag; a second signal ends the process with 128 + signal.
+/// From now on SIGINT, SIGTERM and SIGUSR1 set a flag; a second signal ends the process with 128 +
+/// signal.
 void catch_interrupts();
 bool interrupted();
 /// Dies of the signal that was caught: for a work that has no state to save.

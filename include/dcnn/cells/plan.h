@@ -48,8 +48,8 @@ struct Shard {
 /// Cells from a description: "commands", "grid", "list", "name", "files", "inputs", "keep", "drop",
 /// "columns", "timeout_s", "threads" (docs/use/cluster.md), or "cells", a list of such objects
 /// without grids. Inputs lie below `root`; `programs` is the folder of the toolkit's.
-CellPlan make_plan(const Json& description, const std::string& where, const std::filesystem::path& root,
-               const std::filesystem::path& programs);
+CellPlan make_plan(const Json& description, const std::string& where,
+                   const std::filesystem::path& root, const std::filesystem::path& programs);
 
 /// FOLDER/plan.jsonl. Error(kUsage) where another plan is there, unless `replace`; results stay.
 void write_plan(const CellPlan& plan, const std::filesystem::path& folder, bool replace);

@@ -30,7 +30,8 @@ std::vector<std::string> in_family(std::vector<std::string> ids, const std::stri
 /// Writes FOLDER/s0001/{sim.json,fit_*.csv,holdout_*.csv}, … and the sealed answers to the file
 /// `seal`, which must lie outside the folder; returns the SHA-256 of its bytes, which stands in
 /// FOLDER/seal.sha256 as well. The seal holds the SHA-256 of every file a scenario has.
-/// Each scenario is recorded on each of `motions` too (record_on()). `progress` is told how many are written.
+/// Each scenario is recorded on each of `motions` too (record_on()). `progress` is told how many
+/// are written.
 std::string conceal_challenge(const std::vector<std::string>& ids, std::uint64_t seed,
                               const std::filesystem::path& folder,
                               const std::filesystem::path& seal,

@@ -105,14 +105,15 @@ const std::vector<std::string>& families();
 /// a seed; the same arguments give the same bytes. Groups, A being an amplitude in sensor noises:
 /// `single:A`, `foreign:A` (the listed effect in another form), `poor:A` (on a motion that hardly
 /// excites), `faint:A`, `unlisted:A`, `mixed:A` (unlisted, and a listed one drawn) with an effect;
-/// `law:A` (one of drawn_laws()), `double:A`, `triple:A`, `collinear:A` (two neighbours) with effect `any`; `null:KIND` (a kind of
-/// noise, or `pose`) with effect `none`. What changes nothing on the motion that was drawn for it
-/// (dry friction along an axis that rests) is drawn anew, motion and all. Error(kUsage) for another
-/// id.
+/// `law:A` (one of drawn_laws()), `double:A`, `triple:A`, `collinear:A` (two neighbours) with
+/// effect `any`; `null:KIND` (a kind of noise, or `pose`) with effect `none`. What changes nothing
+/// on the motion that was drawn for it (dry friction along an axis that rests) is drawn anew,
+/// motion and all. Error(kUsage) for another id.
 Scenario draw(const std::string& id, std::uint64_t seed);
 
-/// One more recording to fit on: the same tool, effects, sensor and conditions while the robot follows the pose of
-/// `motion`. Its clock begins some 5 s after the last recording; what acts to the end of the clock goes on.
+/// One more recording to fit on: the same tool, effects, sensor and conditions while the robot
+/// follows the pose of `motion`. Its clock begins some 5 s after the last recording; what acts to
+/// the end of the clock goes on.
 void record_on(Scenario& scenario, const Recording& motion, std::uint64_t seed);
 
 /// Writes sim.json and one CSV per recording; returns the files to fit on and those held out.

@@ -18,8 +18,8 @@ std::string read_file(const std::filesystem::path& path, std::size_t max_bytes, 
 /// Replaces `path` by `bytes` atomically: a temporary name beside it, fsync, rename, fsync of the
 /// folder. After a crash at any moment the old file or the new one is there, never a part of
 /// either. Links are followed: what they name is replaced. Streams (`-` for standard output,
-/// /dev/stdout, a FIFO, a device) are written to. Of several ranks (core/ranks.h) the first writes. Throws Error(kFailure) when the disk is full or
-/// the folder is not writable; parents are made.
+/// /dev/stdout, a FIFO, a device) are written to. Of several ranks (core/ranks.h) the first writes.
+/// Throws Error(kFailure) when the disk is full or the folder is not writable; parents are made.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// The existing regular file that write_file(path, …) would replace; none where nothing is or a

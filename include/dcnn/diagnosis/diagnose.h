@@ -17,7 +17,7 @@ namespace dcnn {
 struct DiagnosisRequest {
   std::optional<std::filesystem::path> simulator;  ///< sim.json; none: columns *_sim
   std::optional<std::filesystem::path> system;     ///< system.json of another machine, instead
-  Json arm;                                        ///< kinematics instead of those of `system`; or null
+  Json arm;  ///< kinematics instead of those of `system`; or null
   std::vector<std::filesystem::path> fit, holdout;
   ReadOptions read;
   std::optional<bool> shared_clock;  ///< none: shared where the times do not overlap
@@ -51,8 +51,8 @@ struct Diagnosis {
 Diagnosis diagnose(const DiagnosisRequest& request,
                    const std::function<void(const std::string&)>& progress);
 
-/// Findings as a reader wants them: those of friction along one axis as one curve ("friction"), and a
-/// spring whose numbers mean nothing as the constant that it is.
+/// Findings as a reader wants them: those of friction along one axis as one curve ("friction"), and
+/// a spring whose numbers mean nothing as the constant that it is.
 Json in_lines(const Json& findings);
 /// What was found, in one plain sentence.
 std::string headline(const Json& report);

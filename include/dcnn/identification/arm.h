@@ -19,14 +19,16 @@ struct ArmRequest {
   std::vector<std::filesystem::path> logs;
   std::vector<std::filesystem::path> loaded;   ///< the same arm with a payload at the flange
   std::vector<std::filesystem::path> holdout;  ///< that decide nothing
-  bool drive_gains = false;  ///< the measured torque has an unknown gain in each joint (needs a URDF)
+  bool drive_gains =
+      false;  ///< the measured torque has an unknown gain in each joint (needs a URDF)
 };
 
 /// One joint: its drive.
 struct JointEstimate {
   std::string name, unit;
-  std::vector<IdentifiedNumber> parameters;  ///< offset, dry, viscous, rotor_inertia and what else is shown
-  double presliding = 0.0;           ///< rad (m): path over which dry friction turns to the other side
+  std::vector<IdentifiedNumber>
+      parameters;           ///< offset, dry, viscous, rotor_inertia and what else is shown
+  double presliding = 0.0;  ///< rad (m): path over which dry friction turns to the other side
   double creep_s = 0.0;     ///< in which dry friction falls by 1/e at rest; 0: it stays
   double torque_rms = 0.0, residual_rms = 0.0;
   std::optional<double> holdout_rms;
@@ -42,7 +44,8 @@ struct ArmIdentification {
   std::vector<JointEstimate> joints;
   std::vector<LinkEstimate> links;  ///< one of many sets with the same torques: see base_parameters
   int base_parameters = 0;          ///< combinations that these motions tell
-  std::vector<IdentifiedNumber> payload;    ///< mass_kg, com_*_m in the flange's frame; empty without `loaded`
+  std::vector<IdentifiedNumber>
+      payload;  ///< mass_kg, com_*_m in the flange's frame; empty without `loaded`
   std::vector<std::string> recordings, holdout, notes;
   double lowpass_hz = 0.0;
   Json system;  ///< description with the links found: the simulator at hand of a diagnosis

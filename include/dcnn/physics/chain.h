@@ -1,4 +1,5 @@
-// A serial arm as a chain of joints with any axes, and its rigid body linear in the inertial parameters.
+// A serial arm as a chain of joints with any axes, and its rigid body linear in the inertial
+// parameters.
 #pragma once
 
 #include <Eigen/Dense>
@@ -29,18 +30,20 @@ struct ChainJoint {
 
 struct JointChain {
   std::vector<ChainJoint> joints;
-  Eigen::Vector3d gravity{0.0, 0.0, -9.81};                 ///< m/s², in the base
-  Eigen::Matrix3d flange_R = Eigen::Matrix3d::Identity();   ///< of the flange in the last joint's frame
+  Eigen::Vector3d gravity{0.0, 0.0, -9.81};  ///< m/s², in the base
+  Eigen::Matrix3d flange_R =
+      Eigen::Matrix3d::Identity();  ///< of the flange in the last joint's frame
   Eigen::Vector3d flange_p = Eigen::Vector3d::Zero();
 
   /// (10·joints): those of all links; nothing unless every link's body is given.
   std::optional<Eigen::VectorXd> bodies() const;
 };
 
-/// `arm` of a system description: either a table of Denavit and Hartenberg (keys convention, dh [[a,
-/// alpha, d, theta0], …]), or `joints` with their bodies and a `flange`; gravity_mps2. The convention
-/// modified (Craig) is Rx(alpha)·Tx(a)·Rz(theta)·Tz(d), standard Rz(theta)·Tz(d)·Tx(a)·Rx(alpha), theta = q +
-/// theta0; a link's frame has its z on the joint's axis in both, and the flange is the last row's frame.
+/// `arm` of a system description: either a table of Denavit and Hartenberg (keys convention, dh
+/// [[a, alpha, d, theta0], …]), or `joints` with their bodies and a `flange`; gravity_mps2. The
+/// convention modified (Craig) is Rx(alpha)·Tx(a)·Rz(theta)·Tz(d), standard
+/// Rz(theta)·Tz(d)·Tx(a)·Rx(alpha), theta = q + theta0; a link's frame has its z on the joint's
+/// axis in both, and the flange is the last row's frame.
 JointChain parse_chain(const Json& json, const std::string& where, Exit exit);
 /// In the form with `joints`.
 Json to_json(const JointChain& chain);
@@ -61,8 +64,8 @@ BodyVector body_in_frame(const BodyVector& body, const Eigen::Matrix3d& R,
 /// (10, 10): parameters of a body in the flange's frame to those in the last link's.
 Eigen::MatrixXd flange_to_link(const JointChain& chain);
 
-/// Columns that span the others to one part in `tolerance` of their length, each as much by itself as
-/// possible (QR with pivots on columns of unit length): the base parameters of a motion.
+/// Columns that span the others to one part in `tolerance` of their length, each as much by itself
+/// as possible (QR with pivots on columns of unit length): the base parameters of a motion.
 std::vector<Eigen::Index> independent_columns(const Eigen::MatrixXd& columns, double tolerance);
 
 }  // namespace dcnn

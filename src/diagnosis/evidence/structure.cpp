@@ -217,7 +217,8 @@ NamedEvidence named_evidence(const Setting& setting, const Grid& grid, const Joi
   // The residual with what the nuisance columns took off put back.
   const Eigen::VectorXd target =
       fit.residual + fit.tangent.rightCols(fit.nuisance.size()) * fit.nuisance;
-  double sum = log_evidence(linear_model(fit.tangent, target, precision)) - 0.5 * target.squaredNorm();
+  double sum =
+      log_evidence(linear_model(fit.tangent, target, precision)) - 0.5 * target.squaredNorm();
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
     if (!fit.members[m].fixed) sum += log_prior(setting, fit, m);
   }
