@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnosis/support.h"
+#include "support/sanitizer.h"
 
 namespace dcnn {
 namespace {
