@@ -66,8 +66,8 @@ Json next_motion(const DiagnosisRequest& request, const Diagnosis& diagnosis) {
   constexpr double kSeconds = 30.0;
   constexpr int kEvaluations = 60;  // half a second
   if (!request.simulator || request.system) return nullptr;
+  const Recording first = read_recording(request.fit.front(), request.read, System());
   try {
-    const Recording first = read_recording(request.fit.front(), request.read, System());
     const auto limits = driven_limits({first}, diagnosis.corrected.model);
     if (!limits) return nullptr;
     DesignRequest wanted{
