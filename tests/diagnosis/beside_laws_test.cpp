@@ -37,8 +37,8 @@ TEST(BesideLaws, AListedEffectKeepsItsName) {
 // The 1.5th power of the speed lies between a viscous friction and a drag that grows as its square.
 TEST(BesideLaws, OneLawTakesThePlaceOfTwoNamesThatImitateIt) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
-  const Bench bench(configuration(
-      {drag("power", {{"amplitude_n", -3.0}, {"scale_1_mps", 0.1}, {"power_1", 1.5}})}));
+  const Bench bench(configuration(Json::array(
+      {drag("power", {{"amplitude_n", -3.0}, {"scale_1_mps", 0.1}, {"power_1", 1.5}})})));
   const Json report = bench.diagnose().report;
   EXPECT_TRUE(test::names(report).empty()) << report["findings"].dump(1);
   EXPECT_EQ(report["verdict"], "unexplained");
