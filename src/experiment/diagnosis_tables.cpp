@@ -94,7 +94,7 @@ void add_findings(const Json& report, HtmlReport& page) {
                     parameters, shown(f["confidence"]), shown(f["holdout_gain"]), alternatives});
   }
   std::string refuted;
-  for (const Json& name : report["refuted"]) {
+  for (const Json& name : report.value("refuted", Json::array())) {
     const std::string axis = words_of_axis(plain_text(name["axis"]));
     refuted += (refuted.empty() ? "" : ", ") + words_of_effect(plain_text(name["effect"])) +
                (axis.empty() ? "" : " (" + axis + ")");
