@@ -11,7 +11,7 @@ namespace dcnn {
 namespace {
 
 constexpr double kPiece = 5.0, kGuard = 0.5, kEnds = 0.5;  // s
-constexpr double kBlock = 1.0;                             // s, over which errors count as one
+constexpr double kErrorBlock = 1.0;                        // s, over which errors count as one
 constexpr int kEvery = 5;
 constexpr Index kLeastPoses = 10;  // 8 remain to fit to, as many as their floor needs
 
@@ -161,9 +161,10 @@ double HoldOut::log_support(const JointFit& with, const JointFit& without,
     const Log& log = study_.logs[k];
     for (Index i = 0; i < a[k].rows(); ++i) {
       if (!held_[k][static_cast<std::size_t>(i)]) continue;
-      const auto number = log.motion.is_static()
-                              ? i
-                              : static_cast<std::int64_t>(std::floor(log.motion.t(i) / kBlock));
+      const auto number =
+          log.motion.is_static()
+              ? i
+              : static_cast<std::int64_t>(std::floor(log.motion.t(i) / kErrorBlock));
       evidence::BlockChange& block = blocks[{k, number}];
       for (Index j = 0; j < a[k].cols(); ++j) {
         const double s = deviation[static_cast<std::size_t>(j)];
