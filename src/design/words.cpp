@@ -93,7 +93,7 @@ std::string motion_words(const Played& played, const Question& question, const D
 }
 
 Json next_motion(const Design& design, double seconds) {
-  constexpr double kDecided = 0.95;  // of the mass on one structure
+  constexpr double kDecided = 0.9;  // of the mass on one structure
   if (design.verdicts.empty() && design.unknown < 1.0 - kDecided) return nullptr;
   Json separates = Json::array();
   if (design.verdicts.empty()) {
