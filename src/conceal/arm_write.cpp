@@ -1,5 +1,3 @@
-#include <cstdio>
-
 #include "conceal/arm_draw.h"
 #include "dcnn/conceal/arm.h"
 #include "dcnn/conceal/challenge.h"
@@ -122,18 +120,12 @@ Json write_arm(const ArmScenario& s, const fs::path& folder) {
 std::string conceal_arms(const std::vector<std::string>& ids, std::uint64_t seed,
                          const fs::path& folder, const fs::path& seal,
                          const std::function<void(int, int)>& progress) {
-  Json answers{{"seed", seed}, {"scenarios", Json::array()}};
-  for (std::size_t k = 0; k < ids.size(); ++k) {
-    char name[32];
-    std::snprintf(name, sizeof name, "s%04zu", k + 1);
-    const ArmScenario scenario = draw_arm(ids[k], seed);
-    Json one{{"id", name}};
-    one.update(arm_truth(scenario));
-    one["sha256"] = write_arm(scenario, folder / name);
-    answers["scenarios"].push_back(one);
-    progress(static_cast<int>(k) + 1, static_cast<int>(ids.size()));
-  }
-  return write_seal(answers, folder, seal);
+  return seal_each(ids, seed, folder, seal, progress, [&](const auto& id, const auto& place) {
+    const ArmScenario scenario = draw_arm(id, seed);
+    Json answer = arm_truth(scenario);
+    answer["sha256"] = write_arm(scenario, place);
+    return answer;
+  });
 }
 
 }  // namespace dcnn::conceal

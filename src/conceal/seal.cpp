@@ -41,24 +41,33 @@ std::string write_seal(const Json& answers, const fs::path& folder, const fs::pa
   return digest;
 }
 
-std::string conceal_challenge(const std::vector<std::string>& ids, std::uint64_t seed,
-                              const fs::path& folder, const fs::path& seal,
-                              const std::function<void(int, int)>& progress,
-                              const std::vector<Recording>& motions) {
+std::string seal_each(const std::vector<std::string>& ids, std::uint64_t seed,
+                      const fs::path& folder, const fs::path& seal,
+                      const std::function<void(int, int)>& progress, const WriteScenario& write) {
   keep_apart(folder, seal);
   Json answers{{"seed", seed}, {"scenarios", Json::array()}};
   for (std::size_t k = 0; k < ids.size(); ++k) {
     char name[32];
     std::snprintf(name, sizeof name, "s%04zu", k + 1);
-    Scenario scenario = draw(ids[k], seed);
-    for (const Recording& motion : motions) record_on(scenario, motion, seed);
     Json one{{"id", name}};
-    one.update(truth(scenario));
-    one["sha256"] = written(scenario, folder / name);
+    one.update(write(ids[k], folder / name));
     answers["scenarios"].push_back(one);
     progress(static_cast<int>(k) + 1, static_cast<int>(ids.size()));
   }
   return write_seal(answers, folder, seal);
+}
+
+std::string conceal_challenge(const std::vector<std::string>& ids, std::uint64_t seed,
+                              const fs::path& folder, const fs::path& seal,
+                              const std::function<void(int, int)>& progress,
+                              const std::vector<Recording>& motions) {
+  return seal_each(ids, seed, folder, seal, progress, [&](const auto& id, const auto& place) {
+    Scenario scenario = draw(id, seed);
+    for (const Recording& motion : motions) record_on(scenario, motion, seed);
+    Json answer = truth(scenario);
+    answer["sha256"] = written(scenario, place);
+    return answer;
+  });
 }
 
 Json open_seal(const fs::path& folder, const fs::path& seal) {

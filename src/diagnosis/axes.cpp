@@ -126,10 +126,14 @@ Json merged(const std::vector<Json>& reports, const System& system) {
   }
   report["next_motion"] = nullptr;
   report["smoother_hz"] = Json::array();
+  Json search{{"passes", 0.0}, {"complete", true}};
   for (const Json& one : reports) {
+    search["passes"] = search["passes"].get<double>() + one["search"]["passes"].get<double>();
+    if (!one["search"]["complete"]) search["complete"] = false;
     if (report["next_motion"].is_null()) report["next_motion"] = one["next_motion"];
     report["smoother_hz"].push_back(one["smoother_hz"]);
   }
+  report["search"] = search;
   if (system.lowpass_hz > 0.0) report["lowpass_hz"] = system.lowpass_hz;
   if (system.resample_hz > 0.0) report["resample_hz"] = system.resample_hz;
   return report;

@@ -10,6 +10,7 @@
 #include "dcnn/diagnosis/ablation.h"
 #include "dcnn/physics/chain.h"
 #include "dcnn/physics/simulator.h"
+#include "diagnosis/work.h"
 
 namespace dcnn {
 
@@ -55,6 +56,7 @@ struct Case {
   /// Values on a coarse lattice: what rounding makes of the mean of a noisy force depends on both.
   double rounding_step = 0.0, rounding_noise = 0.0;
   Ablation without;
+  std::shared_ptr<Work> work = std::make_shared<Work>();  ///< shared by copies
 
   Index channel_count() const { return static_cast<Index>(channels.size()); }
   bool has_torque() const { return !channels.empty() && channels.back() > 2; }

@@ -88,6 +88,7 @@ Chain::Stages Chain::prepare(const Log& log, const std::vector<EffectSpec>& effe
 
 Eigen::MatrixXd Chain::finish(const Log& log, const Stages& stages, Wrench wrench,
                               const std::vector<EffectSpec>& effects) const {
+  study_.work->add(log.motion.samples(), effects.size());
   if (study_.without.exact_operators) {
     linear_lags(effects, log.motion, stages.model, wrench);
   } else {

@@ -1,11 +1,22 @@
 #include "diagnosis/confidence.h"
 
+#include "diagnosis/evidence/posterior.h"
+
 namespace dcnn {
 
-double confidence(const Search& search, const HoldOut& holdout, std::size_t member) {
-  return evidence::updated(
-      search.posterior().inclusion(search.fit().members[member]),
-      holdout.log_support(search.fit(), search.without(member), search.floors()));
+std::vector<std::optional<double>> confidences(const Search& search, const HoldOut& holdout) {
+  const JointFit& fit = search.fit();
+  const Signals with = holdout.prediction(fit.members, fit.base);
+  std::vector<std::optional<double>> list;
+  for (std::size_t m = 0; m < fit.members.size(); ++m) {
+    list.emplace_back();
+    if (fit.members[m].fixed) continue;
+    const JointFit& rest = search.without(m);
+    const Signals without = holdout.prediction(rest.members, rest.base);
+    list.back() = evidence::updated(search.posterior().inclusion(fit.members[m]),
+                                    holdout.log_support(with, without, search.floors()));
+  }
+  return list;
 }
 
 Json leave_refuted(Search& search, const HoldOut& holdout) {
@@ -13,10 +24,9 @@ Json leave_refuted(Search& search, const HoldOut& holdout) {
   while (true) {
     double least = 0.5;
     std::optional<std::size_t> worst;
-    for (std::size_t m = 0; m < search.fit().members.size(); ++m) {
-      if (search.fit().members[m].fixed) continue;
-      const double p = confidence(search, holdout, m);
-      if (p < least) least = p, worst = m;
+    const auto likely = confidences(search, holdout);
+    for (std::size_t m = 0; m < likely.size(); ++m) {
+      if (likely[m] && *likely[m] < least) least = *likely[m], worst = m;
     }
     if (!worst) return refuted;
     const Member& member = search.fit().members[*worst];

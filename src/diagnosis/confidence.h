@@ -1,17 +1,17 @@
-// How probable the names are once the held-out data have been seen, which can only take names back.
+// How likely each name is, in the light of what was held out.
 #pragma once
 
 #include "diagnosis/holdout.h"
-#include "diagnosis/search.h"
 
 namespace dcnn {
 
-/// Probability of a member that was fitted: its mass among the weighed structures, updated by what
-/// the held-out data say of the fit with it against the fit without it.
-double confidence(const Search& search, const HoldOut& holdout, std::size_t member);
+/// The probability of each member of a finished search: the share of the weighed structures that
+/// have it, its odds multiplied by what the held-out data say for or against it. Of a member that
+/// is fixed none: a test of its own found it.
+std::vector<std::optional<double>> confidences(const Search& search, const HoldOut& holdout);
 
-/// Takes back, the least probable first, names that are less probable than not: each as
-/// {effect, axis, confidence}.
+/// Takes back, the least likely first, the names that are rather wrong than right by the held-out
+/// data too: what they were, and how likely.
 Json leave_refuted(Search& search, const HoldOut& holdout);
 
 }  // namespace dcnn

@@ -116,10 +116,12 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   if (progress) progress("judging by what was held out");
   const HoldOut holdout(search.study(), loaded.holdout);
   Json refuted_names = leave_refuted(search, holdout);
-  prefer_one_law(search);
+  const bool replaced = prefer_one_law(search);
   const std::vector<BandTest> bands = search.bands();
   const auto laws = add_discovered(search);
-  for (const Json& name : leave_refuted(search, holdout)) refuted_names.push_back(name);
+  if (replaced || !laws.empty()) {
+    for (const Json& name : leave_refuted(search, holdout)) refuted_names.push_back(name);
+  }
   const Case& study = search.study();
   const JointFit &fit = search.fit(), given = joint_fit(search.setting(), {});
 
@@ -134,6 +136,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   const auto alternatives = search.alternatives();
   report["findings"] = findings_json(search, holdout, alternatives);
   report["refuted"] = refuted_names;
+  report["search"] = {{"passes", search.passes()}, {"complete", !search.is_spent()}};
   report["rivals"] = rivals_json(search, alternatives);
   report["clock_end_s"] =
       study.shared_clock && study.has_clock() ? Json(study.end_of_clock) : Json();
@@ -146,7 +149,9 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   Case simulator = corrected ? as_given(study) : study;
   if (given.base.size() > 0) set_base(simulator, given.base);
   const Signals before = difference(study, predict(simulator, {}));
-  const HoldOut first = corrected ? HoldOut(simulator, as_given(loaded.holdout)) : holdout;
+  std::optional<HoldOut> as_it_was;  // the simulator as given, where a part of it was corrected
+  if (corrected) as_it_was.emplace(simulator, as_given(loaded.holdout));
+  const HoldOut& first = as_it_was ? *as_it_was : holdout;
   report["where"] = locate(study, before, search.floors());
   report["where"]["budget"] =
       budget(search.setting(), before, own_parameters(study), report["where"]["segments"]);
@@ -176,9 +181,9 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   for (const auto& effect : specs_of(fit.members)) diagnosis.corrected.effects.push_back(effect);
   diagnosis.model = to_json(diagnosis.corrected);
   diagnosis.holdout = holdout.records(given, fit);
-  const std::vector<HeldOut> given_records = first.records(given, given);
-  for (std::size_t k = 0; k < given_records.size(); ++k) {
-    diagnosis.holdout[k].before = given_records[k].before;
+  if (corrected) {
+    const Signals then = first.prediction(given.members, given.base);
+    for (std::size_t k = 0; k < then.size(); ++k) diagnosis.holdout[k].before = then[k];
   }
   diagnosis.portraits = portraits(search);
   CaseDiagnosis result{

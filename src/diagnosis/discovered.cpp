@@ -207,9 +207,9 @@ Laws borne_out(const Setting& setting, const JointFit& names) {
 
 }  // namespace
 
-void prefer_one_law(Search& search) {
+bool prefer_one_law(Search& search) {
   const Setting& setting = search.setting();
-  if (!can_hold_laws(search.study())) return;
+  if (!can_hold_laws(search.study())) return false;
   const JointFit& fit = search.fit();
   std::map<std::string, std::vector<std::size_t>> along;  // names by axis
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
@@ -235,8 +235,9 @@ void prefer_one_law(Search& search) {
         fit.chi2 - joint_fit(setting, other).chi2 - setting.price * std::max(0, own - numbers);
     if (better < discovery::prior::kAccepted) continue;
     search.leave_out(names);
-    return;
+    return true;
   }
+  return false;
 }
 
 std::vector<Discovered> add_discovered(Search& search) {
@@ -250,7 +251,7 @@ std::vector<Discovered> add_discovered(Search& search) {
   Laws again = borne_out(search.setting(), joint_fit(search.setting(), search.names()));
   if (!again.found.empty()) search.put_beside(again.members);
   if (search.confirms_names()) return again.found.empty() ? laws.found : again.found;
-  search.take_back(before);
+  search.hold(before);
   return laws.found;
 }
 

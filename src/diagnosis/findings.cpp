@@ -34,6 +34,7 @@ class Writer {
     const JointFit& fit = search_.fit();
     const auto numbers = estimates(search_.setting(), fit);
     const bool held = !holdout_.empty();
+    const auto likely = confidences(search_, holdout_);
     const double after = held ? mean(holdout_.rmse(fit.members, fit.base)) : 0.0;
     Json list = Json::array();
     for (std::size_t m = 0; m < fit.members.size(); ++m) {
@@ -45,7 +46,7 @@ class Writer {
       if (member.fixed) others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
       entry["confidence"] = entry["p_value"] = nullptr;
       if (!member.fixed) {
-        entry["confidence"] = confidence(search_, holdout_, m);
+        entry["confidence"] = *likely[m];
         entry["p_value"] = flip_p_value(search_.setting(), fit, m);
       }
       entry["alternatives"] = Json::array();

@@ -150,10 +150,8 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search) const {
   return worst;
 }
 
-double HoldOut::log_support(const JointFit& with, const JointFit& without,
+double HoldOut::log_support(const Signals& a, const Signals& b,
                             const std::vector<Floor>& floors) const {
-  const Signals a = prediction(with.members, with.base),
-                b = prediction(without.members, without.base);
   std::vector<double> deviation;
   for (const Floor& floor : floors) deviation.push_back(floor.whole_deviation());
   std::map<std::pair<std::size_t, std::int64_t>, evidence::BlockChange> blocks;

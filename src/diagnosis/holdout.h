@@ -28,9 +28,10 @@ class HoldOut {
     double ratio;  ///< error over noise
   };
   std::optional<Excess> excess(const Search& search) const;
-  /// ln of the factor by which the held-out data change the odds of `with` against `without`, two
-  /// fits of the same case (diagnosis/evidence/support.h; blocks of 1 s, of poses at rest each).
-  double log_support(const JointFit& with, const JointFit& without,
+  Signals prediction(const std::vector<Member>& members, const Eigen::VectorXd& base) const;
+  /// ln of the factor by which the held-out data change the odds of one prediction against another
+  /// (diagnosis/evidence/support.h; blocks of 1 s, of poses at rest each).
+  double log_support(const Signals& with, const Signals& without,
                      const std::vector<Floor>& floors) const;
   std::vector<HeldOut> records(const JointFit& before, const JointFit& after) const;
   /// The same recordings without the low-pass.
@@ -38,7 +39,6 @@ class HoldOut {
 
  private:
   HoldOut() = default;
-  Signals prediction(const std::vector<Member>& members, const Eigen::VectorXd& base) const;
 
   Case study_;
   std::vector<std::vector<char>> held_;  // per recording and row

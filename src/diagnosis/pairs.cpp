@@ -118,6 +118,7 @@ bool Search::merge_pair() {
     for (std::size_t b = a + 1; b < members.size(); ++b) {
       if (stays(members[a]) || stays(members[b])) continue;
       if (is_linear(members[a]) && is_linear(members[b])) continue;  // replace_pairs()
+      if (is_spent()) return false;
       std::vector<Member> rest = members_without(b);
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(a));
       const JointFit base = joint_fit(*setting_, rest);

@@ -19,9 +19,8 @@ constexpr double kLeastGrowth = 0.001;     // of what the model explains already
 constexpr double kLeastOfMotion = 0.0003;  // the same for a mode: it mends errors of the motion
 constexpr int kMostRounds = 6;             // of exchanges
 constexpr int kMostGrowth = 30;            // of growth: what is added may be left out again
-constexpr int kMostSettled = 300;      // fits of everything: where laws only take turns, it ends
-constexpr double kLinearError = 0.01;  // of a gain that is estimated along a tangent
-constexpr double kRoundedError = 0.4;  // the same where rounding bends every tangent
+constexpr double kLinearError = 0.01;      // of a gain that is estimated along a tangent
+constexpr double kRoundedError = 0.4;      // the same where rounding bends every tangent
 constexpr double kDegenerateError = 0.05;  // the same beside a law whose shape is at its bound
 // More only ever fed what is not in the catalogue; but friction acts in every direction.
 constexpr int kMostMembers = 5, kMostFrictions = 14;
@@ -56,7 +55,13 @@ Signals difference(const Case& study, const Signals& prediction) {
 
 Search::Search(Case study, std::vector<Span> held_out,
                std::function<void(const std::string&)> progress)
-    : study_(std::move(study)), progress_(std::move(progress)), held_out_(std::move(held_out)) {}
+    : study_(std::move(study)), progress_(std::move(progress)), held_out_(std::move(held_out)) {
+  for (const Log& log : study_.logs) samples_ += log.motion.samples();
+}
+
+double Search::passes() const {
+  return static_cast<double>(study_.work->samples()) / static_cast<double>(samples_);
+}
 
 void Search::say(const std::string& text) const {
   if (progress_) progress_(text);
@@ -163,6 +168,7 @@ bool Search::simplify() {
 bool Search::swap() {
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     if (stays(fit_.members[m])) continue;
+    if (is_spent()) return false;
     const JointFit& rest = without(m);
     const double own = net_gain(m);
     for (const Trial& trial : others(m)) {
@@ -196,10 +202,10 @@ bool Search::swap() {
 /// Adds, exchanges and leaves out effects until nothing gains.
 void Search::explore() {
   bool recut = false;
-  for (int round = 0; round < kMostRounds && settled_ < kMostSettled; ++round) {
+  for (int round = 0; round < kMostRounds && !is_spent(); ++round) {
     while (simplify()) {
     }
-    for (int steps = 0; steps < kMostGrowth && settled_ < kMostSettled; ++steps) {
+    for (int steps = 0; steps < kMostGrowth && !is_spent(); ++steps) {
       const auto before = places_of(fit_.members);
       if (!grow()) break;
       tune_to_mode();

@@ -34,6 +34,13 @@ class Search {
 
   void run();
 
+  /// Most passes() after which effects are still added and exchanged: some hundred times what a
+  /// search for one effect takes, so that a search among laws none of which fits ends too.
+  static constexpr double kMostPasses = 200'000.0;
+  /// Times that the recordings have been predicted, once for each effect of the prediction.
+  double passes() const;
+  bool is_spent() const { return passes() >= kMostPasses; }
+
   const Case& study() const { return study_; }
   const JointFit& fit() const { return fit_; }
   const Setting& setting() const { return *setting_; }
@@ -56,8 +63,8 @@ class Search {
   bool name_beside_laws();
   /// Whether names and laws leave nothing but noise; then weighs the names beside the laws.
   bool confirms_names();
-  /// Back to these members, laws among them.
-  void take_back(const std::vector<Member>& members);
+  /// Fits these members; laws among them are no part of what is searched for.
+  void hold(const std::vector<Member>& members);
   /// The members that are no laws without a name.
   std::vector<Member> names() const;
   /// Whitens again for what these members leave, and fits them.
@@ -156,7 +163,7 @@ class Search {
   evidence::Posterior posterior_;
   std::vector<double> flicker_;  // of each channel, admitted beside the floor from above the motion
   bool events_allowed_ = true, remains_ = false;
-  int settled_ = 0;       // how often: what bounds the search
+  Index samples_ = 0;     // of the recordings
   bool tuned_ = false;    // the smoother, to a mode
   bool ringing_ = false;  // what shakes the motion unseen rings in the modes that were found
 };

@@ -131,7 +131,6 @@ bool Search::floor_moved() const {
 }
 
 void Search::settle(const std::vector<Member>& members) {
-  ++settled_;
   make_setting(members);
   fit_ = joint_fit(*setting_, members);
   if (study_.axis && floor_moved()) {

@@ -124,6 +124,9 @@ std::string to_text(const Diagnosis& diagnosis) {
     if (!finding["alternatives"].empty()) out << "  or " << finding["alternatives"].dump();
     out << "\n";
   }
+  if (!report["search"]["complete"].get<bool>()) {
+    out << "search      ended at its limit: not every exchange of effects was tried\n";
+  }
   if (fit["holdout_rmse_before"].is_null()) {
     out << "hold-out    none, noise " << brief(mean_of(fit["noise_floor"]))
         << " (mean of the axes)\n";

@@ -88,9 +88,8 @@ std::vector<Member> Search::names() const {
 
 void Search::put_beside(const std::vector<Member>& laws) {
   std::vector<Member> members = names();
-  std::erase_if(apart_, [](const Member& m) { return !m.law.is_null(); });
-  for (auto* list : {&members, &apart_}) list->insert(list->end(), laws.begin(), laws.end());
-  settle(members);
+  members.insert(members.end(), laws.begin(), laws.end());
+  hold(members);
 }
 
 bool Search::name_beside_laws() {
@@ -107,7 +106,7 @@ bool Search::confirms_names() {
   return true;
 }
 
-void Search::take_back(const std::vector<Member>& members) {
+void Search::hold(const std::vector<Member>& members) {
   std::vector<Member> laws = members;
   std::erase_if(laws, [](const Member& m) { return m.law.is_null(); });
   std::erase_if(apart_, [](const Member& m) { return !m.law.is_null(); });

@@ -101,9 +101,13 @@ void add_findings(const Json& report, HtmlReport& page) {
   }
   if (!refuted.empty()) {
     page.paragraph(
-        "Found in the fitted recordings and taken back, because the held-out data speak "
+        "Found in the fitted recordings and withdrawn, because the held-out data speak "
         "against it: " +
         refuted + ".");
+  }
+  if (report.contains("search") && !report["search"]["complete"].get<bool>()) {
+    page.paragraph(
+        "The search ended at its limit of computation: not every exchange of effects was tried.");
   }
   if (rows.empty()) {
     page.paragraph("No effect is named.");

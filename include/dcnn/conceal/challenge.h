@@ -42,6 +42,13 @@ std::string conceal_challenge(const std::vector<std::string>& ids, std::uint64_t
 /// FOLDER/seal.sha256; returns the latter.
 std::string write_seal(const Json& answers, const std::filesystem::path& folder,
                        const std::filesystem::path& seal);
+/// Writes scenarios FOLDER/s0001, … and their sealed answers; returns the SHA-256 of these.
+/// `write` makes one in its folder and returns its answer.
+using WriteScenario = std::function<Json(const std::string& id, const std::filesystem::path&)>;
+std::string seal_each(const std::vector<std::string>& ids, std::uint64_t seed,
+                      const std::filesystem::path& folder, const std::filesystem::path& seal,
+                      const std::function<void(int done, int total)>& progress,
+                      const WriteScenario& write);
 /// Opens the seal of a folder; Error(kData) unless its SHA-256 is the one in FOLDER/seal.sha256.
 Json open_seal(const std::filesystem::path& folder, const std::filesystem::path& seal);
 
