@@ -5,6 +5,7 @@
 #include "dcnn/data/filter.h"
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/median.h"
+#include "diagnosis/noise_floor.h"
 #include "diagnosis/periodograms.h"
 #include "diagnosis/shared_base.h"
 

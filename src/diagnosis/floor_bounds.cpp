@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "diagnosis/periodograms.h"
+#include "diagnosis/noise_floor.h"
 
 namespace dcnn {
 namespace {
@@ -11,10 +11,16 @@ namespace {
 /// The residual's density over the floor's in an octave, and its relative sampling error.
 struct Octave {
   double hz, ratio, error;
+  /// Below the 0.1 % quantile of a mean of exponential variables (Wilson and Hilferty 1931).
+  bool is_below() const {
+    constexpr double kDeviations = 3.1;
+    const double root = 1.0 - error * error / 9.0 - kDeviations * error / 3.0;
+    return root > 0.0 && ratio < root * root * root;
+  }
 };
 
-std::vector<Octave> octaves(const Case& study, const Periodograms& p, const Floor& floor) {
-  const Eigen::VectorXd density = density_of(p, study.rounding_step > 0.0);
+std::vector<Octave> octaves(const Periodograms& p, const Eigen::VectorXd& density,
+                            const Floor& floor) {
   std::vector<Octave> list;
   // The window takes the mean off the two lowest bins, and the highest has no imaginary part.
   const Index last = p.hz.size() - 1;
@@ -34,9 +40,13 @@ std::vector<Octave> octaves(const Case& study, const Periodograms& p, const Floo
 
 }  // namespace
 
+bool exceeds(const Floor& floor, const Periodograms& p, const Eigen::VectorXd& density) {
+  const auto list = octaves(p, density, floor);
+  return std::any_of(list.begin(), list.end(), [](const Octave& o) { return o.is_below(); });
+}
+
 void bound_by_residual(const Case& study, const Signals& residual, const Signals& levels,
                        std::vector<Floor>& floors) {
-  constexpr double kDeviations = 3.1;  // of a normal at 99.9 %
   if (study.is_static()) return;
   Signals even;
   for (std::size_t k = 0; k < residual.size(); ++k) {
@@ -49,8 +59,9 @@ void bound_by_residual(const Case& study, const Signals& residual, const Signals
     const double lowpass = std::exchange(floor.lowpass_hz, 0.0);
     std::vector<std::pair<double, double>> bounds;
     bool bound = false;
-    for (const Octave& octave : octaves(study, p, floor)) {
-      const bool below = octave.ratio * (1.0 + kDeviations * octave.error) < 1.0;
+    const Eigen::VectorXd density = density_of(p, study.rounding_step > 0.0);
+    for (const Octave& octave : octaves(p, density, floor)) {
+      const bool below = octave.is_below();
       bounds.emplace_back(octave.hz, below ? octave.ratio : 1.0);
       bound = bound || below;
     }

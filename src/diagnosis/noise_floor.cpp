@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <numbers>
 
 #include "core/elementary.h"
 #include "diagnosis/median.h"
-#include "diagnosis/periodograms.h"
 
 namespace dcnn {
 namespace {
@@ -17,8 +17,8 @@ constexpr double kUpperPart = 1.4;    // of the lowest frequency of the quiet ba
 constexpr double kColourAbove = 3.0;  // of the log-likelihood there
 constexpr double kSlowest = 0.02;     // Hz: flicker noise is taken for flat below
 constexpr double kLeastOfDifferences = 1e-6;
-constexpr int kFloorPoints = 8192;      // of integrals over frequency
-constexpr Index kFewestBins = 12;  // below this the quiet band says nothing
+constexpr int kFloorPoints = 8192;  // of integrals over frequency
+constexpr Index kFewestBins = 12;   // below this the quiet band says nothing
 
 /// Shape of AR(1) noise of unit variance.
 double ar_shape(double rho, double hz, double dt) {
@@ -69,8 +69,9 @@ Whittle fit_level(const Eigen::VectorXd& density, const Eigen::VectorXd& shape, 
   return fit;
 }
 
+/// `is_refuted` says what the bins below refute.
 Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, double dt,
-                double windows, bool flat) {
+                double windows, bool flat, const std::function<bool(const Floor&)>& is_refuted) {
   Floor best;
   const Whittle white = fit_level(density, Eigen::VectorXd::Ones(density.size()), windows);
   best.white = white.level;
@@ -85,16 +86,21 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
   const Eigen::VectorXd density_above = above(density);
   const double white_above =
       fit_level(density_above, Eigen::VectorXd::Ones(density_above.size()), windows).likelihood;
-  /// Takes noise of this shape if it is likelier; `floor_of` makes it of its level.
+  /// Takes noise of this shape if it is likelier, and no more than what is left below the motion's
+  /// edge too; `floor_of` makes it of its level.
   const auto consider = [&](const Eigen::VectorXd& shape, const auto& floor_of) {
     const Whittle fit = fit_level(density, shape, windows);
     if (fit.likelihood <= most) return;
     const Whittle upper_fit = fit_level(density_above, above(shape), windows);
     if (upper_fit.likelihood <= white_above + kColourAbove) return;
+    Floor floor = floor_of(fit.level);
+    floor.dt = dt;
+    if (is_refuted(floor)) return;
     most = fit.likelihood;
-    best = floor_of(fit.level);
+    best = std::move(floor);
   };
-  for (const double rho : {0.3, 0.5, 0.7, 0.8, 0.86, 0.9, 0.93, 0.95, 0.97, 0.985, 0.995}) {
+  for (const double rho : {0.3, 0.4,   0.5,  0.57, 0.64, 0.7,  0.75, 0.8,   0.83,  0.86, 0.88,
+                           0.9, 0.915, 0.93, 0.94, 0.95, 0.96, 0.97, 0.978, 0.985, 0.99, 0.995}) {
     for (const double share : {0.0, 0.01, 0.03, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85}) {
       const Eigen::VectorXd shape =
           hz.unaryExpr([&](double f) { return share + (1.0 - share) * ar_shape(rho, f, dt); });
@@ -125,6 +131,30 @@ double bound_at(const std::vector<std::pair<double, double>>& bounds, double hz)
       return low + (high - low) * elementary::log(hz / from) / elementary::log(to / from);
   }
   return bounds.back().second;
+}
+
+/// Residuals of one noise level.
+Signals evened(const Signals& residual, const Signals& levels) {
+  Signals even;
+  for (std::size_t k = 0; k < residual.size(); ++k) {
+    even.push_back(residual[k].cwiseQuotient(levels[k]));
+  }
+  return even;
+}
+
+std::vector<Index> bins_between(const Periodograms& p, double from, double to) {
+  std::vector<Index> bins;
+  for (Index i = 0; i < p.hz.size(); ++i) {
+    if (p.hz(i) >= from && p.hz(i) <= to) bins.push_back(i);
+  }
+  return bins;
+}
+
+/// ln of the likelihood of a density under a floor's shape, per window of independent bins.
+double log_likelihood(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, const Floor& floor,
+                      double windows) {
+  const Eigen::VectorXd shape = hz.unaryExpr([&](double f) { return floor.density(f); });
+  return fit_level(density, shape, windows).likelihood;
 }
 
 }  // namespace
@@ -175,24 +205,19 @@ double quiet_band(const Case& study) {
 
 std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const Signals& levels) {
   if (study.is_static()) return floor_at_rest(study, residual);
-  Signals even;
-  for (std::size_t k = 0; k < residual.size(); ++k) {
-    even.push_back(residual[k].cwiseQuotient(levels[k]));
-  }
+  const Signals even = evened(residual, levels);
   const double dt = study.dt(), from = quiet_band(study), to = 0.49 / dt;
   std::vector<Floor> floors;
   for (Index channel = 0; channel < study.channel_count(); ++channel) {
     const Periodograms p = periodograms(study, even, channel);
     const Eigen::VectorXd density = density_of(p, study.rounding_step > 0.0);
-    std::vector<Index> quiet;
-    for (Index i = 0; i < p.hz.size(); ++i) {
-      if (p.hz(i) >= from && p.hz(i) <= to) quiet.push_back(i);
-    }
+    const std::vector<Index> quiet = bins_between(p, from, to);
     Floor floor;
     if (static_cast<Index>(quiet.size()) >= kFewestBins && p.power.cols() > 0) {
       floor =
           fit_floor(without_lines(density(quiet), static_cast<double>(p.power.cols())), p.hz(quiet),
-                    dt, static_cast<double>(p.power.cols()), study.without.coloured_floor);
+                    dt, static_cast<double>(p.power.cols()), study.without.coloured_floor,
+                    [&](const Floor& shape) { return exceeds(shape, p, density); });
       floor.source = "spectrum of the residual above " +
                      std::to_string(static_cast<int>(std::lround(from))) + " Hz";
     }
@@ -203,6 +228,42 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const
     }
     floor.lowpass_hz = study.lowpass_hz;
     floor.dt = dt;
+    floors.push_back(floor);
+  }
+  return floors;
+}
+
+std::optional<std::vector<Floor>> noise_of_all(const Case& study, const Signals& residual,
+                                               const Signals& levels) {
+  // One bin in 1.5 is independent behind the window, and a median knows half of what a mean does.
+  constexpr double kIndependent = 1.0 / (1.5 * 2.08);
+  constexpr double kRefuted = 8.1;  // half of the 99.9 % quantile of chi-square, 3 degrees
+  const Signals even = evened(residual, levels);
+  const double dt = study.dt(), from = quiet_band(study), to = 0.49 / dt;
+  std::vector<Floor> floors;
+  for (Index channel = 0; channel < study.channel_count(); ++channel) {
+    const Periodograms p = periodograms(study, even, channel);
+    if (p.power.cols() == 0) return std::nullopt;
+    const auto windows = static_cast<double>(p.power.cols());
+    const Eigen::VectorXd density = density_of(p, study.rounding_step > 0.0);
+    const auto fitted = [&](const std::vector<Index>& bins) {
+      Floor floor = fit_floor(without_lines(density(bins), windows), p.hz(bins), dt, windows, false,
+                              [](const Floor&) { return false; });
+      floor.dt = dt;
+      return floor;
+    };
+    const std::vector<Index> quiet = bins_between(p, from, to);
+    // The window takes the mean off the two lowest bins.
+    const std::vector<Index> all = bins_between(p, p.hz(2), to);
+    if (static_cast<Index>(quiet.size()) < kFewestBins) return std::nullopt;
+    Floor floor = fitted(all);
+    const Eigen::VectorXd above = without_lines(density(quiet), windows);
+    const double best = log_likelihood(above, p.hz(quiet), fitted(quiet), kIndependent * windows);
+    const double own = log_likelihood(above, p.hz(quiet), floor, kIndependent * windows);
+    if (best - own > kRefuted) return std::nullopt;
+    floor.source = "spectrum of the residual in all, which the band above " +
+                   std::to_string(static_cast<int>(std::lround(from))) + " Hz bears out";
+    floor.lowpass_hz = study.lowpass_hz;
     floors.push_back(floor);
   }
   return floors;

@@ -1,10 +1,12 @@
 // The sensor's noise, from the band above the motion, and the noise that smoothed poses carry.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "diagnosis/chain.h"
+#include "diagnosis/periodograms.h"
 
 namespace dcnn {
 
@@ -23,10 +25,10 @@ struct Floor {
   /// even steps up to half the rate. Behind a Wiener filter that is the variance of its error.
   double static_part = 0.0, moving_part = 0.0;
   std::vector<double> pose_gain = {};  ///< empty: no pose is differentiated
-  std::vector<Mode> modes = {};  ///< in which motion that the pose does not show rings
-  std::string source = {};       ///< in words
-  double lowpass_hz = 0.0;       ///< of the filter that the noise has passed; 0: none
-  double dt = 0.0;               ///< s, between samples
+  std::vector<Mode> modes = {};        ///< in which motion that the pose does not show rings
+  std::string source = {};             ///< in words
+  double lowpass_hz = 0.0;             ///< of the filter that the noise has passed; 0: none
+  double dt = 0.0;                     ///< s, between samples
 
   /// Frequency and factor, at most 1, of octaves in which the residual is below what was fitted
   /// above the motion: no noise exceeds what the model leaves.
@@ -49,6 +51,16 @@ double quiet_band(const Case& study);
 /// an effect would raise its own floor. Lines and knocks are kept out by medians. Colour needs a
 /// likelihood gain above 12.
 std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const Signals& levels);
+
+/// The same, of all that a model leaves, as if it were nothing but noise: none where the band above
+/// the motion refutes such noise (its own likeliest is likelier by more than chance, 99.9 %). What
+/// lies far below that band it hardly tells.
+std::optional<std::vector<Floor>> noise_of_all(const Case& study, const Signals& residual,
+                                               const Signals& levels);
+
+/// Whether a floor exceeds the density of a residual (of periodograms(), per bin) in some octave by
+/// more than its sampling error (99.9 %).
+bool exceeds(const Floor& floor, const Periodograms& p, const Eigen::VectorXd& density);
 
 /// Lowers the floors to the residual's spectrum in octaves where they exceed it by more than its
 /// sampling error (99.9 %).

@@ -1,7 +1,7 @@
 // Spectra of windows of a signal, and their density.
 #pragma once
 
-#include "diagnosis/noise_floor.h"
+#include "diagnosis/chain.h"
 
 namespace dcnn {
 

@@ -5,6 +5,7 @@
 #include "data/spectral.h"
 #include "dcnn/data/rotation.h"
 #include "diagnosis/median.h"
+#include "diagnosis/noise_floor.h"
 #include "diagnosis/periodograms.h"
 
 namespace dcnn {

@@ -36,7 +36,7 @@ class Search {
 
   /// Most passes() after which effects are still added and exchanged: some hundred times what a
   /// search for one effect takes, so that a search among laws none of which fits ends too.
-  static constexpr double kMostPasses = 200'000.0;
+  static constexpr double kMostPasses = 100'000.0;
   /// Times that the recordings have been predicted, once for each effect of the prediction.
   double passes() const;
   bool is_spent() const { return passes() >= kMostPasses; }
@@ -124,8 +124,9 @@ class Search {
   bool is_alarming_now();
   bool are_constant() const;
   bool loosen();
-  bool flicker_suffices();
+  bool noise_suffices();
   bool admit_flicker();
+  bool admit_colour();
   void prefer_flicker();
   void judge();
   void drop_minor();
@@ -161,6 +162,7 @@ class Search {
   std::optional<Member> rounding_, knocking_;  // named, but no part of what is fitted
   std::vector<BandTest> bands_;
   evidence::Posterior posterior_;
+  std::optional<std::vector<Floor>> noise_;  // admitted in place of the floor from above the motion
   std::vector<double> flicker_;  // of each channel, admitted beside the floor from above the motion
   bool events_allowed_ = true, remains_ = false;
   Index samples_ = 0;     // of the recordings

@@ -3,6 +3,7 @@
 
 #include "diagnosis/flicker.h"
 #include "diagnosis/formula.h"
+#include "diagnosis/axis_case.h"
 #include "diagnosis/search.h"
 
 namespace dcnn {
@@ -54,9 +55,9 @@ bool Search::are_constant() const {
                       [](const Constancy& test) { return test.refutes(); });
 }
 
-/// Whether beside slow noise no law gains and nothing is left, in no band and of no product of what
+/// Whether beside the noise that was admitted no law gains and nothing is left, in no band and of no product of what
 /// moves.
-bool Search::flicker_suffices() {
+bool Search::noise_suffices() {
   return !grow() && !is_alarming_now() && most_of_a_term(*setting_, fit_) < kDependence;
 }
 
@@ -69,14 +70,31 @@ bool Search::admit_flicker() {
   const std::vector<Member> members = fit_.members;
   flicker_ = *flicker;
   settle(apart_);
-  if (flicker_suffices()) return true;
+  if (noise_suffices()) return true;
   settle(members);  // names that the slow noise leaves as they are
-  if (members.size() > apart_.size() && are_constant() && !simplify() && flicker_suffices()) {
+  if (members.size() > apart_.size() && are_constant() && !simplify() && noise_suffices()) {
     return true;
   }
   flicker_.clear();
   settle(members);
   is_alarming_now();
+  return false;
+}
+
+/// Whether noise of one colour, which the band above the motion bears out, is all that is left: far
+/// below that band its colour is hardly known from there.
+bool Search::admit_colour() {
+  if (study_.is_static() || study_.without.coloured_floor) return false;
+  const Signals raw = study_.lowpass_hz > 0.0 ? unfiltered_left(study_, fit_.members) : left_;
+  const std::vector<Member> members = fit_.members;
+  noise_ = noise_of_all(study_, raw, noise_level(study_, raw));
+  if (noise_) {
+    settle(members);
+    if (noise_suffices()) return true;
+    noise_.reset();
+    settle(members);
+    is_alarming_now();
+  }
   return false;
 }
 
@@ -106,7 +124,7 @@ void Search::prefer_flicker() {
     flicker_ = *flicker;
     settle(apart_);
     const double levels = price * static_cast<double>(flicker_.size());
-    if (unlikely() + levels < with_names && flicker_suffices()) return;
+    if (unlikely() + levels < with_names && noise_suffices()) return;
     flicker_.clear();
   }
   settle(members);

@@ -38,8 +38,12 @@ void Search::make_setting(const std::vector<Member>& members) {
   for (const Log& log : study_.logs) measured.push_back(log.measured);
   const Signals raw = study_.lowpass_hz > 0.0 ? unfiltered_left(study_, members) : left_;
   const auto levels = noise_level(study_, raw);
-  floors_ = noise_floor(study_, raw, levels);
-  bound_by_residual(study_, raw, levels, floors_);
+  if (noise_) {
+    floors_ = *noise_;
+  } else {
+    floors_ = noise_floor(study_, raw, levels);
+    bound_by_residual(study_, raw, levels, floors_);
+  }
   add_pose_noise(study_, floors_);
   for (std::size_t j = 0; j < flicker_.size(); ++j) {
     floors_[j].flicker += flicker_[j];
@@ -52,17 +56,17 @@ void Search::make_setting(const std::vector<Member>& members) {
     floors_[static_cast<std::size_t>(own - study_.channels.begin())].modes.push_back(
         {m.shapes(0), m.shapes(1), m.amplitudes(0)});
   }
-  // What a machine leaves in the motion's band has nothing to do with the colour of the noise above
-  // it.
+  // Where the colour of a machine's noise above the motion is too much for what is left below, it
+  // says nothing of the noise there.
   for (Floor& floor : floors_) {
-    if (!study_.axis) continue;
+    if (!study_.axis || noise_ || floor.bounds.empty()) continue;
     Floor unfiltered = floor;
     unfiltered.lowpass_hz = 0.0;
     floor.white = unfiltered.deviation() * unfiltered.deviation();
     floor.coloured = floor.flicker = 0.0;
     floor.bounds.clear();
   }
-  if (study_.axis) bound_by_residual(study_, raw, levels, floors_);
+  if (study_.axis && !noise_) bound_by_residual(study_, raw, levels, floors_);
   const Whitener whitener(study_, floors_, levels);
   const Index blocks = whitener.rows() / study_.channel_count();
   require(blocks >= kFewestBlocks, Exit::kData, study_.logs.front().recording.name, ": ", blocks,

@@ -1,0 +1,97 @@
+// Floors against simulated noise of a known spectrum.
+#include "diagnosis/noise_floor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "dcnn/core/random.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kDt = 0.004;
+constexpr Index kRows = 5000;
+
+/// Recordings of one channel, of which only the clock matters.
+Case recordings_of(int count) {
+  Case study;
+  study.channels = {0};
+  for (int k = 0; k < count; ++k) {
+    Log log;
+    log.motion.dt = kDt;
+    log.motion.t = Eigen::VectorXd::LinSpaced(kRows, 0.0, kDt * (kRows - 1));
+    log.motion.segments = {{0, kRows}};
+    log.motion.R_BS.resize(kRows);
+    log.measured = Eigen::MatrixXd::Zero(kRows, 1);
+    study.logs.push_back(std::move(log));
+  }
+  return study;
+}
+
+/// AR(1) of unit variance.
+Signals noise_of(int count, double rho, Rng& rng) {
+  Signals signals;
+  for (int k = 0; k < count; ++k) {
+    Eigen::MatrixXd x(kRows, 1);
+    double at = rng.normal();
+    for (Index i = 0; i < kRows; ++i) {
+      x(i, 0) = at;
+      at = rho * at + std::sqrt(1.0 - rho * rho) * rng.normal();
+    }
+    signals.push_back(x);
+  }
+  return signals;
+}
+
+Signals ones(int count) { return Signals(std::size_t(count), Eigen::MatrixXd::Ones(kRows, 1)); }
+
+double true_density(double rho, double hz) {
+  return (1.0 - rho * rho) /
+         (1.0 - 2.0 * rho * std::cos(2.0 * std::numbers::pi * hz * kDt) + rho * rho);
+}
+
+// What the band above the motion (20 Hz) hardly tells of the noise at 1 Hz, all of it does.
+TEST(NoiseFloor, OfAllThatIsLeftHasTheDensityOfTheNoise) {
+  const Case study = recordings_of(4);
+  for (const double rho : {0.0, 0.64, 0.9}) {
+    int refuted = 0;
+    double square = 0.0;
+    constexpr int kTrials = 40;
+    for (int seed = 0; seed < kTrials; ++seed) {
+      Rng rng(static_cast<std::uint64_t>(100 + seed));
+      const auto floors = noise_of_all(study, noise_of(4, rho, rng), ones(4));
+      if (!floors) {
+        ++refuted;
+        continue;
+      }
+      for (const double hz : {1.0, 4.0, 30.0}) {
+        square += std::pow(std::log(floors->front().density(hz) / true_density(rho, hz)), 2) / 3.0;
+      }
+    }
+    EXPECT_LE(refuted, 1) << rho;  // 0.1 % of them by chance
+    EXPECT_LT(std::sqrt(square / kTrials), 0.15) << rho;
+  }
+}
+
+TEST(NoiseFloor, ExceedsWhatIsLeftOnlyWhereItDoes) {
+  const Case study = recordings_of(4);
+  int falsely = 0, rightly = 0;
+  constexpr int kTrials = 100;
+  for (int seed = 0; seed < kTrials; ++seed) {
+    Rng rng(static_cast<std::uint64_t>(500 + seed));
+    const Periodograms p = periodograms(study, noise_of(4, 0.64, rng), 0);
+    const Eigen::VectorXd density = density_of(p);
+    Floor floor{.coloured = 1.0, .rho = 0.64};
+    floor.dt = kDt;
+    falsely += exceeds(floor, p, density);
+    floor.coloured = 1.5;
+    rightly += exceeds(floor, p, density);
+  }
+  EXPECT_LE(falsely, 3);  // 0.1 % in each of nine octaves
+  EXPECT_GE(rightly, 95);
+}
+
+}  // namespace
+}  // namespace dcnn
