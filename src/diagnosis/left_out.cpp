@@ -80,14 +80,26 @@ std::vector<double> left_out_shares(const Setting& setting, const JointFit& fit)
     all.gram += pieces.back().gram;
     all.match += pieces.back().match;
   }
-  std::vector<Index> every(static_cast<std::size_t>(width));
-  for (Index k = 0; k < width; ++k) every[static_cast<std::size_t>(k)] = k;
+  // Shapes stay: their tangents hold for small steps, and a piece that is left out asks for large
+  // ones. A lag's only number moves.
+  const auto moves = [&](const Member& member, Index column) {
+    return member.amplitudes.size() == 0 || column < member.amplitudes.size();
+  };
+  std::vector<Index> every;
+  for (std::size_t m = 0; m < fit.members.size(); ++m) {
+    const auto [first, count] = tangent_columns(fit, m);
+    for (Index k = 0; k < count; ++k) {
+      if (moves(fit.members[m], k)) every.push_back(first + k);
+    }
+  }
+  for (Index k = fit.free_parameters(); k < width; ++k) every.push_back(k);
   std::vector<double> shares(fit.members.size(), 1.0);
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
     const auto [first, count] = tangent_columns(fit, m);
     if (count == 0) continue;
     std::vector<Index> others = every;
-    others.erase(others.begin() + first, others.begin() + first + count);
+    std::erase_if(others,
+                  [from = first, to = first + count](Index k) { return k >= from && k < to; });
     const double in = explained(all, pieces, every, false) - explained(all, pieces, others, false);
     const double out = explained(all, pieces, every, true) - explained(all, pieces, others, true);
     shares[m] = in > 0.0 ? out / in : 0.0;

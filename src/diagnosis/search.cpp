@@ -145,9 +145,35 @@ bool Search::grow() {
   return true;
 }
 
-/// Leaves out members that no longer earn their numbers.
+/// Of members whose forces cancel each other, so that each is a multiple of what all make together,
+/// the one that gains least: the recordings tell of such a pair the sum alone.
+std::optional<std::size_t> Search::cancelled() const {
+  constexpr double kMultiple = 5.0;  // of two directions a sixth of a right angle apart
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(fit_.residual.size());
+  std::vector<Eigen::VectorXd> forces;
+  Eigen::VectorXd sum = zero;
+  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+    const Member& member = fit_.members[m];
+    const Index first = tangent_columns(fit_, m).first, numbers = member.amplitudes.size();
+    const bool tells = !member.fixed && numbers > 0;
+    forces.push_back(tells ? fit_.tangent.middleCols(first, numbers) * member.amplitudes : zero);
+    sum += forces.back();
+  }
+  std::optional<std::size_t> least;
+  for (std::size_t m = 0; m < forces.size(); ++m) {
+    if (stays(fit_.members[m]) || forces[m].norm() <= kMultiple * sum.norm()) continue;
+    if (!least || gain(m) < gain(*least)) least = m;
+  }
+  return least;
+}
+
+/// Leaves out members that no longer earn their numbers, or cancel each other.
 bool Search::simplify() {
   bool changed = false;
+  while (const auto member = cancelled()) {
+    settle(std::vector<Member>(without(*member).members));
+    changed = true;
+  }
   for (std::size_t m = 0; m < fit_.members.size() && fit_.members.size() > 1;) {
     if (stays(fit_.members[m])) {
       ++m;

@@ -109,6 +109,7 @@ class Search {
   void make_setting(const std::vector<Member>& members);
   bool grow();
   bool simplify();
+  std::optional<std::size_t> cancelled() const;
   bool swap();
   bool floor_moved() const;
   bool split();

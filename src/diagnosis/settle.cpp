@@ -42,8 +42,8 @@ void Search::make_setting(const std::vector<Member>& members) {
     floors_ = *noise_;
   } else {
     floors_ = noise_floor(study_, raw, levels);
-    bound_by_residual(study_, raw, levels, floors_);
   }
+  bound_by_residual(study_, raw, levels, floors_);
   add_pose_noise(study_, floors_);
   for (std::size_t j = 0; j < flicker_.size(); ++j) {
     floors_[j].flicker += flicker_[j];
@@ -56,10 +56,10 @@ void Search::make_setting(const std::vector<Member>& members) {
     floors_[static_cast<std::size_t>(own - study_.channels.begin())].modes.push_back(
         {m.shapes(0), m.shapes(1), m.amplitudes(0)});
   }
-  // Where the colour of a machine's noise above the motion is too much for what is left below, it
-  // says nothing of the noise there.
+  // What a machine leaves above the motion's band has friction's harmonics in it: its colour says
+  // nothing of the noise in the band until all that is left bears it out.
   for (Floor& floor : floors_) {
-    if (!study_.axis || noise_ || floor.bounds.empty()) continue;
+    if (!study_.axis || noise_) continue;
     Floor unfiltered = floor;
     unfiltered.lowpass_hz = 0.0;
     floor.white = unfiltered.deviation() * unfiltered.deviation();
