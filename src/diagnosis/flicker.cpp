@@ -11,13 +11,9 @@ namespace {
 constexpr double kSlow = 10.0;    // Hz, below which flicker noise is looked for
 constexpr double kLargest = 0.7;  // of the floor's deviation: more is no sensor's slow part
 
-struct Bin {
-  double hz, power;
-};
-
 /// Periodograms of whole segments below kSlow.
-std::vector<Bin> slow_bins(const Case& study, const Signals& left, Index channel) {
-  std::vector<Bin> bins;
+std::vector<SlowBin> bins_below_slow(const Case& study, const Signals& left, Index channel) {
+  std::vector<SlowBin> bins;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     for (const Segment& s : study.logs[k].motion.segments) {
       const Index n = s.size();
@@ -40,14 +36,14 @@ std::optional<std::vector<double>> flicker_below(const Case& study, const Signal
   std::vector<double> result;
   for (Index j = 0; j < study.channel_count(); ++j) {
     const Floor& floor = floors[static_cast<std::size_t>(j)];
-    const std::vector<Bin> bins = slow_bins(study, left, j);
+    const std::vector<SlowBin> bins = bins_below_slow(study, left, j);
     if (bins.size() < 16) return std::nullopt;
     const double level = floor.density(kSlow);
     double best = 0.0, most = -1e300;
     for (double flicker = 0.0; flicker < 30.0 * level;
          flicker = std::max(1e-3 * level, 1.15 * flicker)) {
       double likelihood = 0.0;
-      for (const Bin& bin : bins) {
+      for (const SlowBin& bin : bins) {
         const double density = floor.density(bin.hz) + flicker / bin.hz;
         likelihood -= elementary::log(density) + bin.power / density;
       }

@@ -211,13 +211,14 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const
   for (Index channel = 0; channel < study.channel_count(); ++channel) {
     const Periodograms p = periodograms(study, even, channel);
     const Eigen::VectorXd density = density_of(p, study.rounding_step > 0.0);
+    const auto slow = slow_bins(study, even, channel);
     const std::vector<Index> quiet = bins_between(p, from, to);
     Floor floor;
     if (static_cast<Index>(quiet.size()) >= kFewestBins && p.power.cols() > 0) {
       floor =
           fit_floor(without_lines(density(quiet), static_cast<double>(p.power.cols())), p.hz(quiet),
                     dt, static_cast<double>(p.power.cols()), study.without.coloured_floor,
-                    [&](const Floor& shape) { return exceeds(shape, p, density); });
+                    [&](const Floor& shape) { return exceeds(shape, p, density, slow); });
       floor.source = "spectrum of the residual above " +
                      std::to_string(static_cast<int>(std::lround(from))) + " Hz";
     }
@@ -246,9 +247,10 @@ std::optional<std::vector<Floor>> noise_of_all(const Case& study, const Signals&
     if (p.power.cols() == 0) return std::nullopt;
     const auto windows = static_cast<double>(p.power.cols());
     const Eigen::VectorXd density = density_of(p, study.rounding_step > 0.0);
+    const auto slow = slow_bins(study, even, channel);
     const auto fitted = [&](const std::vector<Index>& bins) {
       Floor floor = fit_floor(without_lines(density(bins), windows), p.hz(bins), dt, windows, false,
-                              [](const Floor&) { return false; });
+                              [&](const Floor& shape) { return exceeds(shape, p, density, slow); });
       floor.dt = dt;
       return floor;
     };

@@ -58,9 +58,10 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const
 std::optional<std::vector<Floor>> noise_of_all(const Case& study, const Signals& residual,
                                                const Signals& levels);
 
-/// Whether a floor exceeds the density of a residual (of periodograms(), per bin) in some octave by
-/// more than its sampling error (99.9 %).
-bool exceeds(const Floor& floor, const Periodograms& p, const Eigen::VectorXd& density);
+/// Whether a floor exceeds the density of a residual (of periodograms() and slow_bins()) in some
+/// octave by more than its sampling error (99.9 %).
+bool exceeds(const Floor& floor, const Periodograms& p, const Eigen::VectorXd& density,
+             const std::vector<SlowBin>& slow);
 
 /// Lowers the floors to the residual's spectrum in octaves where they exceed it by more than its
 /// sampling error (99.9 %).

@@ -7,6 +7,7 @@
 #include "core/elementary.h"
 #include "dcnn/data/fourier.h"
 #include "diagnosis/median.h"
+#include "diagnosis/spectral_lines.h"
 
 namespace dcnn {
 namespace {
@@ -58,6 +59,30 @@ Periodograms periodograms(const Case& study, const Signals& signals, Index chann
     result.power.col(static_cast<Index>(k)) = columns[k];
   }
   return result;
+}
+
+std::vector<SlowBin> slow_bins(const Case& study, const Signals& signals, Index channel) {
+  constexpr Index kMeans = 16;  // a window, whose third bin they hardly damp (0.98)
+  const Index window = window_of(study), block = std::max<Index>(1, window / kMeans);
+  const double to = 2.0 / (static_cast<double>(window) * study.dt());
+  std::vector<SlowBin> bins;
+  for (std::size_t k = 0; k < study.logs.size(); ++k) {
+    for (const Segment& s : study.logs[k].motion.segments) {
+      const Index n = s.size() / block;
+      if (n < 2 * kMeans) continue;
+      Eigen::VectorXd means(n);
+      for (Index i = 0; i < n; ++i) {
+        means(i) = signals[k].col(channel).segment(s.begin + i * block, block).mean();
+      }
+      const Eigen::VectorXd power = static_cast<double>(block) * hann_power(means, n);
+      const double step = 1.0 / (static_cast<double>(n * block) * study.dt());
+      // The taper takes the mean off the two lowest bins.
+      for (Index i = 2; i < power.size() && static_cast<double>(i) * step < to; ++i) {
+        bins.push_back({static_cast<double>(i) * step, power(i)});
+      }
+    }
+  }
+  return bins;
 }
 
 Eigen::VectorXd density_of(const Periodograms& p, bool coarse) {

@@ -13,6 +13,12 @@ struct Periodograms {
 };
 Periodograms periodograms(const Case& study, const Signals& signals, Index channel);
 
+/// The periodograms of whole segments below the windows' third bin, scaled alike.
+struct SlowBin {
+  double hz, power;
+};
+std::vector<SlowBin> slow_bins(const Case& study, const Signals& signals, Index channel);
+
 /// Median over windows of each bin, as an estimate of the density: the upper middle of n values of
 /// an exponential distribution is on the average sum_{i=0}^{n/2} 1/(n-i) of its mean (ln 2 for
 /// many).

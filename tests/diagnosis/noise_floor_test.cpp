@@ -81,13 +81,15 @@ TEST(NoiseFloor, ExceedsWhatIsLeftOnlyWhereItDoes) {
   constexpr int kTrials = 100;
   for (int seed = 0; seed < kTrials; ++seed) {
     Rng rng(static_cast<std::uint64_t>(500 + seed));
-    const Periodograms p = periodograms(study, noise_of(4, 0.64, rng), 0);
+    const Signals noise = noise_of(4, 0.64, rng);
+    const Periodograms p = periodograms(study, noise, 0);
     const Eigen::VectorXd density = density_of(p);
+    const auto slow = slow_bins(study, noise, 0);
     Floor floor{.coloured = 1.0, .rho = 0.64};
     floor.dt = kDt;
-    falsely += exceeds(floor, p, density);
+    falsely += exceeds(floor, p, density, slow);
     floor.coloured = 1.5;
-    rightly += exceeds(floor, p, density);
+    rightly += exceeds(floor, p, density, slow);
   }
   EXPECT_LE(falsely, 3);  // 0.1 % in each of nine octaves
   EXPECT_GE(rightly, 95);
