@@ -93,7 +93,9 @@ bool is_same(const fs::path& file, const std::string& bytes) {
 
 void unpack_file(const fs::path& file, const std::string& bytes, bool replace) {
   if (is_same(file, bytes)) return;
-  require(replace || !fs::exists(file), Exit::kUsage, file.string(),
+  // What is there now may have been put there since by another merge, whole.
+  const bool other = !replace && fs::exists(file) && !is_same(file, bytes);
+  require(!other, Exit::kUsage, file.string(),
           ": holds another result, which is kept; name another folder, or replace it with --force");
   write_file(file, bytes);
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace dcnn::check {
 
@@ -71,12 +70,6 @@ void set_interval(const Log& log, Index begin, Index end, Fault& fault) {
   if (log.t.size() == 0) return;
   const double origin = log.table.values.rows() > 0 ? double(log.column("t")[0]) : 0.0;
   fault.interval_s = {origin + log.t[begin], origin + log.t[std::min(end, log.t.size()) - 1]};
-}
-
-std::string shown_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
 }
 
 }  // namespace dcnn::check

@@ -5,6 +5,7 @@
 
 #include "check/kind.h"
 #include "check/statistics.h"
+#include "dcnn/core/number.h"
 
 namespace dcnn::check {
 
@@ -22,6 +23,5 @@ double relative_motion(const Log& log, Eigen::Index begin, Eigen::Index end);
 void set_interval(const Log& log, Eigen::Index begin, Eigen::Index end, Fault& fault);
 /// Number of independent residuals among (n,3), by their correlation from row to row.
 double independent_of(const Eigen::MatrixXd& residual);
-std::string shown_number(double value);
 
 }  // namespace dcnn::check

@@ -1,20 +1,8 @@
 #include "design/joints.h"
 
-#include "core/elementary.h"
 #include "dcnn/data/rotation.h"
 
 namespace dcnn::design {
-namespace {
-
-Eigen::Matrix3d turned(const Eigen::Vector3d& axis, double angle) {
-  const double c = elementary::cos(angle), s = elementary::sin(angle);
-  Eigen::Matrix3d K;
-  K << 0.0, -axis.z(), axis.y(), axis.z(), 0.0, -axis.x(), -axis.y(), axis.x(), 0.0;
-  return c * Eigen::Matrix3d::Identity() + s * K + (1.0 - c) * axis * axis.transpose();
-}
-
-}  // namespace
-
 FlangeState flange_state(const JointChain& chain, const Eigen::VectorXd& q,
                          const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd) {
   FlangeState s{Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
@@ -42,7 +30,7 @@ FlangeState flange_state(const JointChain& chain, const Eigen::VectorXd& q,
       s.v += s.R * joint.axis * qd(i);
       s.a += s.R * (joint.axis * qdd(i) + 2.0 * s.w_E.cross(joint.axis) * qd(i));
     } else {
-      turn(turned(joint.axis, q(i)));
+      turn(rotation_about(joint.axis, q(i)));
       s.dw_E += joint.axis * qdd(i) + s.w_E.cross(joint.axis) * qd(i);
       s.w_E += joint.axis * qd(i);
     }

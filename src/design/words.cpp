@@ -5,14 +5,10 @@
 #include <cstdio>
 #include <sstream>
 
+#include "dcnn/core/number.h"
+
 namespace dcnn::design {
 namespace {
-
-std::string three_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 std::string percent(double share) {
   char text[32];
@@ -59,8 +55,8 @@ std::vector<std::string> coordinate_words(const Played& played) {
     const double speed = (x.tail(x.size() - 1) - x.head(x.size() - 1)).cwiseAbs().maxCoeff() / dt;
     const std::string unit = k < 3 ? "m" : "rad";
     std::ostringstream words;
-    words << names[k] << " over " << three_digits(range) << " " << unit << " at up to "
-          << three_digits(speed) << " " << unit << "/s with " << reversals(x) << " reversals";
+    words << names[k] << " over " << brief(range) << " " << unit << " at up to " << brief(speed)
+          << " " << unit << "/s with " << reversals(x) << " reversals";
     list.emplace_back(-range / largest[k / 3], words.str());
   }
   std::stable_sort(list.begin(), list.end(),
@@ -83,9 +79,9 @@ std::string motion_words(const Played& played, const Question& question, const D
   if (!design.verdicts.empty()) {
     const Verdict& first = design.verdicts.front();
     out << "; if " << first.one << " is right, " << first.other << " is then "
-        << three_digits(first.separation) << " deviations of the noise away";
+        << brief(first.separation) << " deviations of the noise away";
     if (design.probability)
-      out << ", and with probability " << three_digits(*design.probability) << " one model is left";
+      out << ", and with probability " << brief(*design.probability) << " one model is left";
   }
   if (question.unknown > 0.5)
     out << "; what no name describes is seen in all directions and speeds of these limits";
@@ -125,18 +121,17 @@ Json to_json(const Design& design, double seconds) {
 std::string to_text(const Design& design) {
   std::ostringstream out;
   for (const Verdict& v : design.verdicts) {
-    out << "if          " << v.one << " is right, not " << v.other << ": "
-        << three_digits(v.separation) << " deviations apart, left alone with probability "
-        << three_digits(v.probability) << "\n";
+    out << "if          " << v.one << " is right, not " << v.other << ": " << brief(v.separation)
+        << " deviations apart, left alone with probability " << brief(v.probability) << "\n";
   }
-  out << "unknown     probability " << three_digits(design.unknown) << ", "
-      << three_digits(design.information) << " nats for each state that a law may depend on\n";
+  out << "unknown     probability " << brief(design.unknown) << ", " << brief(design.information)
+      << " nats for each state that a law may depend on\n";
   out << "limits      ";
   for (std::size_t k = 0; k < design.limits.size(); ++k)
     out << (k > 0 ? ", " : "") << design.limits[k];
   out << "\nmotion      " << design.words << "\n";
   if (design.probability)
-    out << "decides     with probability " << three_digits(*design.probability) << "\n";
+    out << "decides     with probability " << brief(*design.probability) << "\n";
   return out.str();
 }
 

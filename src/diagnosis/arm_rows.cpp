@@ -7,16 +7,15 @@
 #include "dcnn/data/filter.h"
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/holdout.h"
+#include "diagnosis/left_out.h"
 
 namespace dcnn {
 namespace {
 
-constexpr Index kSharedPieces = 6;
 constexpr double kDryWidths[] = {0.02, 0.1, 0.4};  // of the rms velocity, in which friction turns
 
 bool is_held(const std::vector<Span>& spans, std::size_t log, double t) {
-  return std::any_of(spans.begin(), spans.end(),
-                     [&](const Span& s) { return s.log == log && t >= s.begin && t <= s.end; });
+  return std::any_of(spans.begin(), spans.end(), [&](const Span& s) { return s.holds(log, t); });
 }
 
 Eigen::MatrixXd friction_columns(const Motion& motion) {
@@ -90,15 +89,11 @@ JointRows rows_of(const LoadedCase& loaded, const Eigen::VectorXd& bodies) {
     // Two samples in a period of the fastest motion, times two.
     const Index stride = std::max<Index>(1, std::llround(0.25 / study.motion_hz / study.dt()));
     std::vector<Index> kept;
-    const double first = log.motion.t(0);
-    const double span = std::max(1e-300, log.motion.t(log.motion.samples() - 1) - first);
     for (Index i = 0; i < rows.arm.rows(); i += stride) {
       const double t = log.motion.t(i);
       if (is_held(held, k, t)) continue;
       kept.push_back(i);
-      const auto piece = static_cast<Index>(kSharedPieces * (t - first) / span);
-      all.piece.push_back(static_cast<Index>(k) * kSharedPieces +
-                          std::min(kSharedPieces - 1, piece));
+      all.piece.push_back(static_cast<Index>(k) * kRecordingParts + part_of(log.motion, t));
     }
     const Index before = all.arm.rows(), more = static_cast<Index>(kept.size());
     all.arm.conservativeResize(before + more, rows.arm.cols());

@@ -162,12 +162,6 @@ Json law_numbers(const Discovered& found) {
   return json;
 }
 
-double mean_error(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double v : values) sum += v;
-  return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
-}
-
 Json law_finding(const Discovered& found, const Json& law) {
   const auto words = law["words"].get<std::string>();
   Json entry{
@@ -258,7 +252,7 @@ std::vector<Discovered> add_discovered(Search& search) {
 Json law_findings(const Search& search, const std::vector<Discovered>& laws,
                   const HoldOut& holdout) {
   const JointFit& fit = search.fit();
-  const double error = holdout.empty() ? 0.0 : mean_error(holdout.rmse(fit.members, fit.base));
+  const double error = holdout.empty() ? 0.0 : holdout.mean_rmse(fit.members, fit.base);
   Json list = Json::array();
   std::size_t next = 0;
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
@@ -267,8 +261,7 @@ Json law_findings(const Search& search, const std::vector<Discovered>& laws,
     if (!holdout.empty()) {
       std::vector<Member> others = fit.members;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
-      entry["holdout_gain"] =
-          1.0 - error / std::max(1e-300, mean_error(holdout.rmse(others, fit.base)));
+      entry["holdout_gain"] = 1.0 - error / std::max(1e-300, holdout.mean_rmse(others, fit.base));
     }
     list.push_back(entry);
   }

@@ -11,12 +11,6 @@
 namespace dcnn {
 namespace {
 
-double mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double v : values) sum += v;
-  return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
-}
-
 Json parameters_json(const std::vector<Estimate>& numbers) {
   Json json = Json::object();
   for (const Estimate& e : numbers) {
@@ -35,7 +29,7 @@ class Writer {
     const auto numbers = estimates(search_.setting(), fit);
     const bool held = !holdout_.empty();
     const auto likely = confidences(search_, holdout_);
-    const double after = held ? mean(holdout_.rmse(fit.members, fit.base)) : 0.0;
+    const double after = held ? holdout_.mean_rmse(fit.members, fit.base) : 0.0;
     Json list = Json::array();
     for (std::size_t m = 0; m < fit.members.size(); ++m) {
       const Member& member = fit.members[m];
@@ -54,7 +48,7 @@ class Writer {
       entry["holdout_gain"] = nullptr;
       if (held) {
         entry["holdout_gain"] =
-            1.0 - after / std::max(1e-300, mean(holdout_.rmse(others, rest.base)));
+            1.0 - after / std::max(1e-300, holdout_.mean_rmse(others, rest.base));
       }
       list.push_back(entry);
     }

@@ -73,7 +73,7 @@ HoldOut::HoldOut(const Case& fitted, const Case& recordings) {
       const double t = motion.t(i);
       char& row = held[static_cast<std::size_t>(i)];
       for (const Span& span : blocks) {
-        if (!own && span.log == k && t >= span.begin && t < span.end) row = 1;
+        if (!own && span.holds(k, t)) row = 1;
       }
       if (t < motion.t(0) + ends || t > motion.t(motion.samples() - 1) - ends) row = 0;
     }
@@ -120,6 +120,12 @@ std::vector<double> HoldOut::rmse(const std::vector<Member>& members,
     result.push_back(count > 0.0 ? std::sqrt(square / count) : 0.0);
   }
   return result;
+}
+
+double HoldOut::mean_rmse(const std::vector<Member>& members, const Eigen::VectorXd& base) const {
+  double sum = 0.0;
+  for (const double error : rmse(members, base)) sum += error;
+  return sum / static_cast<double>(study_.channel_count());
 }
 
 std::optional<HoldOut::Excess> HoldOut::excess(const Search& search) const {

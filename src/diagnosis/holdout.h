@@ -19,6 +19,8 @@ class HoldOut {
   /// RMSE by channel of the case's simulator with these members, with these coefficients of its
   /// linear base where it has one.
   std::vector<double> rmse(const std::vector<Member>& members, const Eigen::VectorXd& base) const;
+  /// Their mean over the channels.
+  double mean_rmse(const std::vector<Member>& members, const Eigen::VectorXd& base) const;
   /// A channel whose error exceeds 1.2 times its noise (with a pose that is differentiated, also
   /// what the model leaves where it was fitted: the error of the filtered pose stands in both) by
   /// more than chance makes of so many rows (97.5 %), of which a whitener's block counts as one:

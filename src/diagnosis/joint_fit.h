@@ -16,7 +16,7 @@ struct Setting {
   Whitener coarse_whitener;  ///< with the same rows
   Signals measured;
   Eigen::MatrixXd nuisance;     ///< whitened columns that are always fitted beside the members
-  Eigen::VectorXd mask;         ///< 0 for rows that a knock disturbs, else 1
+  Eigen::VectorXd mask;         ///< 0 for rows that an impact disturbs, else 1
   double price = kNumberPrice;  ///< of chi-square, per fitted number, that an effect must gain
 
   Eigen::VectorXd whitened(const Signals& signals) const;

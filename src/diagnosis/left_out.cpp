@@ -9,7 +9,6 @@
 namespace dcnn {
 namespace {
 
-constexpr int kPieces = 6;
 constexpr double kFoldRidge = 1e-10;
 
 /// Which piece of its recording each row belongs to, numbered over all recordings.
@@ -17,11 +16,8 @@ std::vector<int> pieces_of(const Setting& setting) {
   const auto& info = setting.whitener.row_info();
   std::vector<int> piece(info.size());
   for (std::size_t row = 0; row < info.size(); ++row) {
-    const Motion& motion = setting.study.logs[info[row].log].motion;
-    const double first = motion.t(0), length = motion.t(motion.samples() - 1) - first;
-    const double place = (info[row].t - first) / std::max(length, 1e-300);
-    piece[row] = static_cast<int>(info[row].log) * kPieces +
-                 std::clamp(static_cast<int>(kPieces * place), 0, kPieces - 1);
+    piece[row] = static_cast<int>(info[row].log) * kRecordingParts +
+                 part_of(setting.study.logs[info[row].log].motion, info[row].t);
   }
   return piece;
 }
@@ -52,6 +48,12 @@ double explained(const Sums& all, const std::vector<Sums>& pieces,
 
 }  // namespace
 
+int part_of(const Motion& motion, double t) {
+  const double first = motion.t(0), length = motion.t(motion.samples() - 1) - first;
+  const double place = (t - first) / std::max(length, 1e-300);
+  return std::clamp(static_cast<int>(kRecordingParts * place), 0, kRecordingParts - 1);
+}
+
 std::vector<double> left_out_shares(const Setting& setting, const JointFit& fit) {
   // The target as the tangent sees it: what is left, and what the members' own columns put there.
   Eigen::VectorXd back = Eigen::VectorXd::Zero(fit.tangent.cols());
@@ -66,7 +68,7 @@ std::vector<double> left_out_shares(const Setting& setting, const JointFit& fit)
   back.tail(fit.nuisance.size()) = fit.nuisance;
   const Eigen::VectorXd target = fit.residual + fit.tangent * back;
   const auto piece_of = pieces_of(setting);
-  std::vector<std::vector<Index>> rows(setting.study.logs.size() * kPieces);
+  std::vector<std::vector<Index>> rows(setting.study.logs.size() * kRecordingParts);
   for (std::size_t row = 0; row < piece_of.size(); ++row) {
     rows[static_cast<std::size_t>(piece_of[row])].push_back(static_cast<Index>(row));
   }

@@ -10,4 +10,8 @@ namespace dcnn {
 /// for a law, below 0 for what only follows these recordings.
 std::vector<double> left_out_shares(const Setting& setting, const JointFit& fit);
 
+/// The part of a recording, of kRecordingParts, that a time lies in.
+constexpr int kRecordingParts = 6;
+int part_of(const Motion& motion, double t);
+
 }  // namespace dcnn

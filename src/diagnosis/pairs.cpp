@@ -30,7 +30,7 @@ struct Pool {
   std::vector<std::vector<Index>> columns;  // of the matrix below
   Eigen::MatrixXd gram;
   Eigen::VectorXd match;
-  double price = 10.0;
+  double price = kNumberPrice;
 
   double net_gain(std::vector<std::size_t> chosen) const {
     std::vector<Index> all;

@@ -14,8 +14,8 @@ struct Trial {
   Member member;
   double gain = 0.0;  ///< of chi-square; 0 where a sign refutes the effect
   double kept = 1.0;  ///< share of its columns' energy that the model at hand cannot imitate
-  Eigen::VectorXd deviation;  ///< of each amplitude, from the noise alone
-  double price = 10.0;        ///< Setting::price
+  Eigen::VectorXd deviation;    ///< of each amplitude, from the noise alone
+  double price = kNumberPrice;  ///< Setting::price
 
   /// What counts: 10 per fitted number (an exact law explains far more, a coincidence less).
   double net_gain() const { return gain - price * member.parameters(); }

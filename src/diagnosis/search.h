@@ -16,6 +16,9 @@ namespace dcnn {
 struct Span {
   std::size_t log;
   double begin, end;  ///< s
+  bool holds(std::size_t recording, double t) const {
+    return log == recording && t >= begin && t <= end;
+  }
 };
 
 /// Another effect in the place of a member.

@@ -20,9 +20,7 @@ Eigen::VectorXd mask_of(const Whitener& whitener, const std::vector<Span>& a,
     for (const Span& span : *list) {
       for (std::size_t row = 0; row < whitener.row_info().size(); ++row) {
         const auto& at = whitener.row_info()[row];
-        if (at.log == span.log && at.t >= span.begin && at.t <= span.end) {
-          mask(static_cast<Index>(row)) = 0.0;
-        }
+        if (span.holds(at.log, at.t)) mask(static_cast<Index>(row)) = 0.0;
       }
     }
   }
@@ -155,7 +153,7 @@ void Search::settle(const std::vector<Member>& members) {
   // A machine always leaves something that no effect explains, far above its sensor's noise: there
   // a number counts that takes off a share of what is left.
   constexpr double kMachineShare = 0.04, kSlowNoisePrice = 20.0;
-  if (study_.axis) setting_->price = std::max(10.0, kMachineShare * fit_.chi2);
+  if (study_.axis) setting_->price = std::max(kNumberPrice, kMachineShare * fit_.chi2);
   // Of noise that rises as 1/f the next recording would show another slope.
   if (!flicker_.empty()) setting_->price = kSlowNoisePrice;
   forget_places();

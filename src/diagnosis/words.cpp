@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace dcnn {
 namespace {
@@ -39,12 +38,6 @@ std::string place(const std::string& axis) {
 std::string milli(double value, const char* unit) { return brief(1e3 * value) + " " + unit; }
 
 }  // namespace
-
-std::string brief(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 std::string in_words(const Member& member, const Estimates& n) {
   const std::string id = member.name(), where = place(member.axis);

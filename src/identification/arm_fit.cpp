@@ -78,17 +78,18 @@ class ArmFitter {
     }
   }
 
+  /// Links, payload, drives: what comes first stays in its place when terms are added.
   void lay_out() {
-    Index place = 10 * joints_;
-    fit_.first.clear();
-    for (const Drive& drive : fit_.drives) {
-      fit_.first.push_back(place);
-      place += static_cast<Index>(drive.terms.size());
-    }
     const bool loaded = std::any_of(logs_.begin(), logs_.end(),
                                     [](const ArmLog& log) { return log.loaded; });
-    fit_.payload = loaded ? place : -1;
-    size_ = place + (loaded ? 10 : 0);
+    size_ = 10 * joints_;
+    fit_.payload = loaded ? size_ : -1;
+    if (loaded) size_ += 10;
+    fit_.first.clear();
+    for (const Drive& drive : fit_.drives) {
+      fit_.first.push_back(size_);
+      size_ += static_cast<Index>(drive.terms.size());
+    }
   }
 
   /// What is known before: mean and deviation of every parameter.

@@ -19,15 +19,16 @@ std::vector<Fault> find_counts(const Evidence& e) {
     const double probability = posterior_of_p(p);
     if (probability < kLikely) continue;
     out.push_back(fault_of(counts_fault, probability, name,
-                           name + " holds whole numbers from " + shown_number(x.minCoeff()) + " to " +
-                               shown_number(x.maxCoeff()) + ": raw counts"));
+                           name + " holds whole numbers from " + brief(x.minCoeff()) + " to " +
+                               brief(x.maxCoeff()) + ": raw counts"));
   }
   return out;
 }
 
 }  // namespace
 
-const FaultKind counts_fault{"counts", true, "multiply by the sensor's gain (axis 'scale' in a system description)", "",
-                             find_counts};
+const FaultKind counts_fault{"counts", true,
+                             "multiply by the sensor's gain (axis 'scale' in a system description)",
+                             "", find_counts};
 
 }  // namespace dcnn::check

@@ -21,14 +21,15 @@ bool at_an_end(const Eigen::VectorXd& x, double value) {
 void find_frozen_column(const Log& log, const std::string& name, std::vector<Fault>& out) {
   const Eigen::VectorXd x = log.column(name);
   const std::vector<Run> runs = runs_of(x);
-  const auto longest = std::max_element(runs.begin(), runs.end(), [](const Run& a, const Run& b) {
-    return a.length < b.length;
-  });
+  const auto longest = std::max_element(
+      runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.length < b.length; });
   const bool whole = longest->length == x.size();
-  if (longest->length < 8 || (!whole && (longest->value == 0.0 || at_an_end(x, longest->value)))) return;
+  if (longest->length < 8 || (!whole && (longest->value == 0.0 || at_an_end(x, longest->value))))
+    return;
   const Eigen::Index end = longest->begin + longest->length;
   if (relative_motion(log, longest->begin, end) < kMoves) return;
-  // Repeats outside of the run tell how often this channel repeats at all; held samples come in rows.
+  // Repeats outside of the run tell how often this channel repeats at all; held samples come in
+  // rows.
   double others = 0.0, second = 1.0;
   for (const Run& run : runs) {
     if (&run == &*longest) continue;
@@ -39,7 +40,7 @@ void find_frozen_column(const Log& log, const std::string& name, std::vector<Fau
   const double q = whole ? 0.0 : others / std::max(1.0, n - static_cast<double>(longest->length));
   const double p = run_p(n, static_cast<double>(longest->length) / second, q);
   Fault fault = fault_of(frozen_fault, posterior_of_p(p), name,
-                         name + " is exactly " + shown_number(longest->value) + " for " +
+                         name + " is exactly " + brief(longest->value) + " for " +
                              std::to_string(longest->length) + " rows while the robot moves");
   set_interval(log, longest->begin, end, fault);
   out.push_back(fault);
@@ -54,6 +55,7 @@ std::vector<Fault> find_frozen(const Evidence& e) {
 
 }  // namespace
 
-const FaultKind frozen_fault{"frozen", true, "cut these rows, or repair the channel", "", find_frozen};
+const FaultKind frozen_fault{"frozen", true, "cut these rows, or repair the channel", "",
+                             find_frozen};
 
 }  // namespace dcnn::check

@@ -7,7 +7,8 @@
 namespace dcnn::check {
 namespace {
 
-constexpr double kLeastAngle = 5.0 * std::numbers::pi / 180.0;  // below, dcnn-diagnose calls it misalignment
+constexpr double kLeastAngle =
+    5.0 * std::numbers::pi / 180.0;  // below, dcnn-diagnose calls it misalignment
 
 /// The turn Q that brings m Q field nearest to the force (Wahba's problem, by a singular value
 /// decomposition), offsets apart.
@@ -33,21 +34,25 @@ std::vector<Fault> find_mounting(const Evidence& e) {
                         std::sqrt(static_cast<double>(3 * a.fit.force.rows()));
   const double floor = kToolError * spread;
   // Three more numbers: Schwarz' penalty.
-  const double gain = 0.5 * a.independent * (log_variance(a.fit.residual, floor) - log_variance(fit.residual, floor)) -
-                      1.5 * elementary::log(a.independent);
+  const double gain =
+      0.5 * a.independent *
+          (log_variance(a.fit.residual, floor) - log_variance(fit.residual, floor)) -
+      1.5 * elementary::log(a.independent);
   const double odds = kFaultPrior * elementary::exp(std::min(gain, 600.0));
   if (odds < 0.05) return {};
   const Eigen::Vector3d axis = turn.axis();
   return {fault_of(mounting_fault, odds / (1.0 + odds), "",
                    "the force does not follow gravity as the pose says: the sensor is turned by " +
-                       shown_number(turn.angle() * 180.0 / std::numbers::pi) + " degrees about (" +
-                       shown_number(axis[0]) + ", " + shown_number(axis[1]) + ", " + shown_number(axis[2]) +
+                       brief(turn.angle() * 180.0 / std::numbers::pi) + " degrees about (" +
+                       brief(axis[0]) + ", " + brief(axis[1]) + ", " + brief(axis[2]) +
                        ") against the declared mounting")};
 }
 
 }  // namespace
 
-const FaultKind mounting_fault{"mounting", false, "calibrate the mounting: dcnn-calibrate --static, then sensor.rotation_rpy in sim.json",
-                               "", find_mounting};
+const FaultKind mounting_fault{
+    "mounting", false,
+    "calibrate the mounting: dcnn-calibrate --static, then sensor.rotation_rpy in sim.json", "",
+    find_mounting};
 
 }  // namespace dcnn::check

@@ -10,19 +10,22 @@ constexpr double kLeastTurn = 0.05;  // rad; gravity then changes by 5 % of the 
 std::vector<Fault> find_no_motion(const Evidence& e) {
   if (!e.adopted.compared) return {};
   const auto& R = e.adopted.motion.R;
-  Eigen::MatrixXd field(static_cast<Eigen::Index>(R.size()), 3);  // gravity alone, without accelerations
-  for (Eigen::Index i = 0; i < field.rows(); ++i) field.row(i) = -9.81 * R[static_cast<std::size_t>(i)].row(2);
+  Eigen::MatrixXd field(static_cast<Eigen::Index>(R.size()),
+                        3);  // gravity alone, without accelerations
+  for (Eigen::Index i = 0; i < field.rows(); ++i)
+    field.row(i) = -9.81 * R[static_cast<std::size_t>(i)].row(2);
   const Eigen::MatrixXd about = field.rowwise() - field.colwise().mean();
   const double turned = std::sqrt(about.squaredNorm() / static_cast<double>(field.rows())) / 9.81;
   if (turned >= kLeastTurn || e.adopted.reading.compensated) return {};
   return {fault_of(no_motion_fault, 1.0, "",
-                   "the tool hardly turns (gravity in the sensor frame varies by " + shown_number(100.0 * turned) +
+                   "the tool hardly turns (gravity in the sensor frame varies by " +
+                       brief(100.0 * turned) +
                        " % of its size): mass, centre of mass and offset cannot be told apart")};
 }
 
 }  // namespace
 
-const FaultKind no_motion_fault{"no_motion", false, "turn the tool by 45 degrees or more about two axes", "",
-                                find_no_motion};
+const FaultKind no_motion_fault{
+    "no_motion", false, "turn the tool by 45 degrees or more about two axes", "", find_no_motion};
 
 }  // namespace dcnn::check

@@ -30,13 +30,16 @@ Power power_of(const Log& log, const Joint& joint, const Sampled& rows, double d
   A = A * size.cwiseInverse().asDiagonal();
   const Eigen::MatrixXd normal = A.transpose() * A + 1e-9 * Eigen::MatrixXd::Identity(6, 6);
   const Eigen::VectorXd x = normal.ldlt().solve(A.transpose() * y), r = y - A * x;
-  const double rho = std::clamp(r.head(n - 1).dot(r.tail(n - 1)) / std::max(r.squaredNorm(), 1e-300), 0.0, 0.99);
+  const double rho =
+      std::clamp(r.head(n - 1).dot(r.tail(n - 1)) / std::max(r.squaredNorm(), 1e-300), 0.0, 0.99);
   const Eigen::MatrixXd covariance =
       r.squaredNorm() / static_cast<double>(n - 6) * (1.0 + rho) / (1.0 - rho) * normal.inverse();
-  Eigen::VectorXd friction = Eigen::VectorXd::Zero(6);  // mean of v times what the friction columns give
+  Eigen::VectorXd friction =
+      Eigen::VectorXd::Zero(6);  // mean of v times what the friction columns give
   friction[1] = v.squaredNorm() / size[1];
   friction[2] = (v.array() * elementary::tanh(v.array() / slow)).sum() / size[2];
-  return {joint.name, joint.measured, friction.dot(x) / std::sqrt(friction.dot(covariance * friction)),
+  return {joint.name, joint.measured,
+          friction.dot(x) / std::sqrt(friction.dot(covariance * friction)),
           x[0] / std::sqrt(covariance(0, 0))};
 }
 
@@ -55,10 +58,13 @@ std::vector<Fault> find_power_sign(const Evidence& e) {
   for (const Power& power : powers) {
     if (power.dissipation >= 0.0 || power.inertia > 3.0) continue;
     // A drive's torque and its reaction are both logged; joints of one log that differ are not.
-    Fault fault = fault_of(power_sign_fault, posterior_of_p(tail(power.dissipation)), power.channel,
-                           power.channel + ": the torque takes power out of the motion (friction would drive it, z = " +
-                               shown_number(power.dissipation) + "): its sign is wrong" +
-                               (right > 0 ? ", that of other joints is right" : ", or it is the reaction of the load"));
+    Fault fault =
+        fault_of(power_sign_fault, posterior_of_p(tail(power.dissipation)), power.channel,
+                 power.channel +
+                     ": the torque takes power out of the motion (friction would drive it, z = " +
+                     brief(power.dissipation) + "): its sign is wrong" +
+                     (right > 0 ? ", that of other joints is right"
+                                : ", or it is the reaction of the load"));
     fault.stops = right > 0;
     if (fault.probability >= kLikely) out.push_back(fault);
   }
@@ -67,6 +73,8 @@ std::vector<Fault> find_power_sign(const Evidence& e) {
 
 }  // namespace
 
-const FaultKind power_sign_fault{"power_sign", true, "turn the sign of the column, or of the joint's position", "", find_power_sign};
+const FaultKind power_sign_fault{"power_sign", true,
+                                 "turn the sign of the column, or of the joint's position", "",
+                                 find_power_sign};
 
 }  // namespace dcnn::check

@@ -50,7 +50,7 @@ void find_saturation_in(const Log& log, const std::string& name, std::vector<Fau
     const double z = (static_cast<double>(end.at) - expected) / std::sqrt(expected);
     if (z <= 1.0) continue;
     Fault fault = fault_of(saturation_fault, posterior_of_p(tail(z)), name,
-                           name + " stays at its limit of " + shown_number(side * (side * x).maxCoeff()) +
+                           name + " stays at its limit of " + brief(side * (side * x).maxCoeff()) +
                                " in " + std::to_string(end.at) + " rows");
     set_interval(log, end.begin, end.begin + end.longest, fault);
     out.push_back(fault);
@@ -66,7 +66,7 @@ std::vector<Fault> find_saturation(const Evidence& e) {
 
 }  // namespace
 
-const FaultKind saturation_fault{"saturation", false, "widen the sensor's range, or move more gently", "",
-                                 find_saturation};
+const FaultKind saturation_fault{
+    "saturation", false, "widen the sensor's range, or move more gently", "", find_saturation};
 
 }  // namespace dcnn::check

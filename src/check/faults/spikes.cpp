@@ -7,10 +7,11 @@
 namespace dcnn::check {
 namespace {
 
-constexpr double kFar = 20.0;     // deviations from the neighbours
-constexpr double kLonely = 0.3;   // of a spike's height: how far its neighbours are from theirs
+constexpr double kFar = 20.0;    // deviations from the neighbours
+constexpr double kLonely = 0.3;  // of a spike's height: how far its neighbours are from theirs
 
-/// Two-sided tail of Student's t with five degrees of freedom far out: noise of sensors at its worst.
+/// Two-sided tail of Student's t with five degrees of freedom far out: noise of sensors at its
+/// worst.
 double heavy_tail(double z) { return 19.0 / elementary::pow(z, 5); }
 
 /// Of single rows: lambda expected, `count` found.
@@ -26,7 +27,8 @@ double deviation_of_moving(const Eigen::VectorXd& far) {
   for (const double value : far) {
     if (value != 0.0) sizes.push_back(std::abs(value));
   }
-  return 1.4826 * median(Eigen::Map<Eigen::VectorXd>(sizes.data(), static_cast<Eigen::Index>(sizes.size())));
+  return 1.4826 *
+         median(Eigen::Map<Eigen::VectorXd>(sizes.data(), static_cast<Eigen::Index>(sizes.size())));
 }
 
 void find_spikes_in(const Log& log, const std::string& name, std::vector<Fault>& out) {
@@ -45,10 +47,11 @@ void find_spikes_in(const Log& log, const std::string& name, std::vector<Fault>&
   }
   if (count == 0) return;
   const double n = static_cast<double>(x.size());
-  const double p = std::min(poisson_p(n * heavy_tail(kFar), count), poisson_p(n * heavy_tail(most), 1));
+  const double p =
+      std::min(poisson_p(n * heavy_tail(kFar), count), poisson_p(n * heavy_tail(most), 1));
   Fault fault = fault_of(spikes_fault, posterior_of_p(2.0 * p), name,
                          std::to_string(count) + " single rows of " + name + " are up to " +
-                             shown_number(most) + " deviations off their neighbours");
+                             brief(most) + " deviations off their neighbours");
   set_interval(log, first, first + 1, fault);
   out.push_back(fault);
 }

@@ -7,9 +7,9 @@
 namespace dcnn::check {
 namespace {
 
-constexpr double kEdge = 0.15;      // of the range: a register wraps from one end to the other
-constexpr double kOrdinary = 0.2;   // of the range: other steps are smaller
-constexpr double kTravels = 0.02;   // of the range beyond an end, once unwrapped
+constexpr double kEdge = 0.15;     // of the range: a register wraps from one end to the other
+constexpr double kOrdinary = 0.2;  // of the range: other steps are smaller
+constexpr double kTravels = 0.02;  // of the range beyond an end, once unwrapped
 
 struct Wrap {
   double range = 0.0;
@@ -28,7 +28,8 @@ Wrap wrap_of(const Eigen::VectorXd& x) {
   for (Eigen::Index i = 0; i < steps.size(); ++i) {
     const double step = steps[i];
     if (std::abs(step) > kOrdinary * range) {
-      const double from = step > 0 ? x[i] - low : high - x[i], to = step > 0 ? high - x[i + 1] : x[i + 1] - low;
+      const double from = step > 0 ? x[i] - low : high - x[i],
+                   to = step > 0 ? high - x[i + 1] : x[i + 1] - low;
       if (from > kEdge * range || to > kEdge * range) return {};
       if (wrap.jumps++ == 0) wrap.first = i;
       turns += step > 0 ? -1.0 : 1.0;
@@ -61,8 +62,9 @@ void find_wrap_in(const Log& log, const std::string& name, std::vector<Fault>& o
   double p = 1.0;
   for (int k = 0; k < std::min(wrap.jumps, 20); ++k) p *= once;
   Fault fault = fault_of(wrap_fault, posterior_of_p(p), name,
-                         name + " jumps " + std::to_string(wrap.jumps) + " times from one end of its range of " +
-                             shown_number(wrap.range) + " to the other: a register that wraps");
+                         name + " jumps " + std::to_string(wrap.jumps) +
+                             " times from one end of its range of " + brief(wrap.range) +
+                             " to the other: a register that wraps");
   set_interval(log, wrap.first, wrap.first + 2, fault);
   out.push_back(fault);
 }
@@ -80,7 +82,8 @@ std::vector<Fault> find_wrap(const Evidence& e) {
 
 }  // namespace
 
-const FaultKind wrap_fault{"wrap", true, "unwrap the column (add the range after each jump) and write it again", "",
-                           find_wrap};
+const FaultKind wrap_fault{"wrap", true,
+                           "unwrap the column (add the range after each jump) and write it again",
+                           "", find_wrap};
 
 }  // namespace dcnn::check

@@ -1,19 +1,13 @@
 // A law as text, LaTeX and words.
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numbers>
 
+#include "dcnn/core/number.h"
 #include "dcnn/physics/law.h"
 
 namespace dcnn::law {
 namespace {
-
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 /// The numbers of one factor as texts with units.
 struct FactorText {
@@ -34,7 +28,7 @@ std::vector<FactorText> texts_of(const Law& law) {
     for (std::size_t i = 0; i < list.size(); ++i) {
       const double value = law.numbers(static_cast<Eigen::Index>(i));
       const std::string& unit = list[i].unit;
-      const std::string told = short_number(value) + (unit.empty() ? "" : " " + unit);
+      const std::string told = brief(value) + (unit.empty() ? "" : " " + unit);
       const auto begins = [&](const std::string& stem) {
         return list[i].name == stem + text.index ||
                list[i].name.starts_with(stem + text.index + "_");
@@ -80,7 +74,7 @@ std::string argument(const FactorText& text) {
 /// f(u) with the argument in the place of u and the number in that of p.
 std::string factor_expression(const FactorText& text) {
   std::string form = replaced(text.shape->equation, "exp", "\1");  // no u and p of function names
-  form = replaced(form, "p", short_number(text.extra));
+  form = replaced(form, "p", brief(text.extra));
   form = replaced(form, "sgn(u) ", "sgn u ");
   form = replaced(form, "u", "\2");
   form = replaced(form, "\1", "exp");
@@ -89,7 +83,7 @@ std::string factor_expression(const FactorText& text) {
 
 /// "0.1\,\mathrm{m/s}".
 std::string latex_number(double value, const std::string& unit) {
-  const std::string number = short_number(value);
+  const std::string number = brief(value);
   return unit.empty() ? number : number + "\\,\\mathrm{" + replaced(unit, "*", "\\,") + "}";
 }
 
@@ -109,11 +103,11 @@ std::string latex_factor(const FactorText& text) {
   }
   if (text.factor->centred) q += " - " + latex_number(text.centre_value, state);
   const std::string u = "\\tfrac{" + q + "}{" + latex_number(text.scale_value, state) + "}";
-  return replaced(replaced(text.shape->latex, "#", short_number(text.extra)), "@", u);
+  return replaced(replaced(text.shape->latex, "#", brief(text.extra)), "@", u);
 }
 
 std::string amplitude_text(const Law& law) {
-  return short_number(law.numbers(0)) + (law.structure.on_torque ? " N*m" : " N");
+  return brief(law.numbers(0)) + (law.structure.on_torque ? " N*m" : " N");
 }
 
 /// What the shape is taken of, in words.
@@ -146,12 +140,12 @@ std::string unit_of(const FactorText& text) {
 }
 
 std::string period(const FactorText& text) {
-  return short_number(2.0 * std::numbers::pi * std::abs(text.scale_value)) + unit_of(text);
+  return brief(2.0 * std::numbers::pi * std::abs(text.scale_value)) + unit_of(text);
 }
 
 std::string clause(const FactorText& text) {
   const std::string of = subject(text), name = text.shape->name, from = from_centre(text);
-  const std::string p = short_number(text.extra), percent = short_number(100.0 * text.extra);
+  const std::string p = brief(text.extra), percent = brief(100.0 * text.extra);
   if (name == "linear") return "proportional to " + of + from;
   if (name == "power") return "growing as the " + p + "th power of " + of + from;
   if (name == "even_power") {
@@ -177,7 +171,7 @@ std::string clause(const FactorText& text) {
   if (name == "sine") return "periodic in " + of + " with " + period(text) + " a period";
   if (name == "exponential") {
     return (text.scale_value > 0.0 ? "falling" : "growing") + std::string(" by a factor e with ") +
-           short_number(std::abs(text.scale_value)) + unit_of(text) + " of " + of;
+           brief(std::abs(text.scale_value)) + unit_of(text) + " of " + of;
   }
   if (name == "affine") {
     return "stronger by " + percent + " % with each " + text.scale + " of " + of + from;
@@ -223,13 +217,13 @@ std::string expression(const Law& law) {
   Eigen::Index next = 1;
   std::string vector = direction.name;
   if (*direction.unit) {
-    vector += "/(" + short_number(law.numbers(next++)) + " " + direction.unit + ")";
+    vector += "/(" + brief(law.numbers(next++)) + " " + direction.unit + ")";
   }
   if (structure.direction_lagged) {
-    vector = "lag(" + vector + ", " + short_number(law.numbers(next++)) + " s)";
+    vector = "lag(" + vector + ", " + brief(law.numbers(next++)) + " s)";
   }
   if (structure.lagged) {
-    product = "lag(" + product + ", " + short_number(law.numbers(next)) + " s)";
+    product = "lag(" + product + ", " + brief(law.numbers(next)) + " s)";
   }
   return product + " along " + vector;
 }
@@ -264,15 +258,15 @@ std::string words(const Law& law) {
   const Structure& structure = law.structure;
   Eigen::Index next = 1;
   if (*directions()[structure.direction].unit) {
-    at += (at.empty() ? " at " : " and ") + short_number(law.numbers(next++)) + " " +
+    at += (at.empty() ? " at " : " and ") + brief(law.numbers(next++)) + " " +
           directions()[structure.direction].unit;
   }
   if (structure.direction_lagged) {
-    text += ", the vector behind a lag of " + short_number(law.numbers(next++)) + " s";
+    text += ", the vector behind a lag of " + brief(law.numbers(next++)) + " s";
   }
-  if (structure.lagged) text += ", following with " + short_number(law.numbers(next)) + " s";
+  if (structure.lagged) text += ", following with " + brief(law.numbers(next)) + " s";
   const double size = std::abs(law.numbers(0));
-  return text + ": " + short_number(size) + (structure.on_torque ? " N*m" : " N") + at;
+  return text + ": " + brief(size) + (structure.on_torque ? " N*m" : " N") + at;
 }
 
 }  // namespace dcnn::law
