@@ -174,6 +174,15 @@ TEST_F(ArmIdentify, FrictionThatGrowsWithTheLoadIsNamed) {
   EXPECT_NEAR(of(id.joints[1].parameters, "mu").value, 0.1, 0.02) << to_text(id);
 }
 
+/// A term that is added later moves no other number's place.
+TEST_F(ArmIdentify, APayloadIsFoundBesideFrictionThatGrowsWithTheLoad) {
+  Truth truth;
+  truth.mu = 0.1;
+  const ArmIdentification id = identify_arm(request(truth, true));
+  EXPECT_NEAR(of(id.payload, "mass_kg").value, 2.6, 0.05 * 2.6) << to_text(id);
+  EXPECT_NEAR(of(id.joints[1].parameters, "mu").value, 0.1, 0.02) << to_text(id);
+}
+
 TEST_F(ArmIdentify, MistakesAreOneLine) {
   ArmRequest r = request({}, false);
   r.drive_gains = true;
