@@ -55,7 +55,8 @@ int main(int argc, char** argv) {
   const auto system =
       tool.option(
               "--system", request.system,
-              "system description of another machine (JSON, \"kind\": \"axes\"), instead of --sim")
+              "another machine instead of --sim: its description (JSON, \"kind\": \"axes\"), or "
+              "model.json of an earlier diagnosis as the simulator")
           .excludes(sim);
   std::filesystem::path urdf;
   std::string tip;

@@ -190,7 +190,7 @@ void add_first(const Json& finding, Json& report) {
 
 Diagnosis diagnose_axes(const DiagnosisRequest& request,
                         const std::function<void(const std::string&)>& progress) {
-  auto [cases, finding] = load_axes(request);
+  auto [cases, finding, simulator] = load_axes(request);
   const System system = cases.front().fit.axis->system;
   AxisMachine machine{system, {}};
   machine.payload = cases.front().fit.axis->payload;
@@ -226,7 +226,7 @@ Diagnosis diagnose_axes(const DiagnosisRequest& request,
     add_first(finding, all.report);
   }
   if (!system.arm.is_null()) all.report["arm"] = arm_json(all.report, system);
-  all.model = to_json(machine);
+  all.model = to_json(simulator ? with_more(std::move(*simulator), machine) : machine);
   return all;
 }
 

@@ -37,11 +37,32 @@ Log make_log(const Recording& recording, const Case& study) {
   return log;
 }
 
-/// The description, with the arm that was given beside it.
-System system_of(const DiagnosisRequest& request) {
+/// The description, with the arm that was given beside it; or a corrected simulator.
+struct GivenSystem {
+  System system;
+  std::optional<AxisMachine> machine = std::nullopt;
+};
+GivenSystem given_system(const DiagnosisRequest& request) {
   Json json = read_json(*request.system, Exit::kData);
+  const std::string where = request.system->string();
+  if (is_axis_machine(json)) {
+    AxisMachine machine = parse_axis_machine(json, where, Exit::kData);
+    return {machine.system, machine};
+  }
   if (!request.arm.is_null() && json.is_object()) json["arm"] = request.arm;
-  return parse_system(json, request.system->string());
+  return {parse_system(json, where)};
+}
+
+/// The column that holds what a machine predicts of an axis.
+std::string predicted_column(const Axis& axis) { return axis.name + " predicted"; }
+
+/// Adds what the machine predicts, before the low-pass.
+void add_predictions(AxisMachine machine, Recording& recording) {
+  machine.system.lowpass_hz = 0.0;
+  const Eigen::MatrixXd predicted = predict_axes(machine, recording);
+  for (std::size_t k = 0; k < machine.system.axes.size(); ++k) {
+    recording.set(predicted_column(machine.system.axes[k]), predicted.col(static_cast<Index>(k)));
+  }
 }
 
 /// The columns of the base simulator that the fitted recordings tell apart.
@@ -190,11 +211,21 @@ Case as_given(Case study) {
 }
 
 LoadedAxes load_axes(const DiagnosisRequest& request) {
-  const System system = system_of(request);
+  auto [system, machine] = given_system(request);
   require(system.kind == System::Kind::kAxes, Exit::kData, request.system->string(),
           ": describes a wrist tool; give --sim instead, or \"kind\": \"axes\"");
-  const auto fit = read_all(request.fit, request.read, system);
-  const auto holdout = read_all(request.holdout, request.read, system);
+  auto fit = read_all(request.fit, request.read, system);
+  auto holdout = read_all(request.holdout, request.read, system);
+  if (machine) {
+    for (auto* list : {&fit, &holdout}) {
+      for (Recording& recording : *list) add_predictions(*machine, recording);
+    }
+    for (Axis& axis : system.axes) {
+      axis.simulated = predicted_column(axis);
+      axis.base.clear();
+      axis.has_base = false;
+    }
+  }
   std::vector<Recording> all = fit;
   all.insert(all.end(), holdout.begin(), holdout.end());
   check_rates(all);
@@ -221,7 +252,7 @@ LoadedAxes load_axes(const DiagnosisRequest& request) {
     cases.push_back(std::move(loaded));
   }
   Json finding = share_base(cases);
-  return {std::move(cases), std::move(finding)};
+  return {std::move(cases), std::move(finding), std::move(machine)};
 }
 
 }  // namespace dcnn

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "diagnosis/chain.h"
+#include "dcnn/physics/axis_machine.h"
 #include "diagnosis/load.h"
 
 namespace dcnn {
@@ -10,6 +11,7 @@ namespace dcnn {
 struct LoadedAxes {
   std::vector<LoadedCase> cases;
   Json finding;  ///< of a whole arm; null: none
+  std::optional<AxisMachine> given = std::nullopt;  ///< the simulator, where it is a model.json
 };
 /// Error(kData) for what cannot be used.
 LoadedAxes load_axes(const DiagnosisRequest& request);

@@ -208,6 +208,23 @@ Json to_json(const AxisMachine& machine) {
   return json;
 }
 
+System system_in(const Json& json, const std::string& where) {
+  if (!is_axis_machine(json)) return parse_system(json, where);
+  return parse_axis_machine(json, where, Exit::kData).system;
+}
+
+AxisMachine with_more(AxisMachine machine, const AxisMachine& found) {
+  for (std::size_t k = 0; k < machine.axes.size(); ++k) {
+    CorrectedAxis& axis = machine.axes[k];
+    const std::vector<EffectSpec>& more = found.axes[k].effects;
+    axis.effects.insert(axis.effects.end(), more.begin(), more.end());
+  }
+  if (found.payload) {
+    machine.payload = machine.payload.value_or(BodyVector::Zero()) + *found.payload;
+  }
+  return machine;
+}
+
 bool is_axis_machine(const Json& json) { return json.is_object() && json.contains("system"); }
 
 AxisMachine machine_of(const System& system) {

@@ -103,6 +103,25 @@ TEST(DiagnoseAxes, SaysThatNothingIsMissing) {
   EXPECT_NEAR(report["fit"]["holdout_rmse_after"][0].get<double>(), kNoise, 0.003);
 }
 
+// What was found in other recordings is part of the simulator: the new difference alone is named.
+TEST(DiagnoseAxes, TakesACorrectedSimulator) {
+  const auto friction = [](const State& s) { return 0.8 * std::tanh(s.v / 0.01); };
+  const Json model = Bench(friction).diagnose(one_axis()).model;
+  const Bench later([&](const State& s) { return friction(s) + 1.5 * (s.q - 0.1); });
+  const Diagnosis diagnosis = later.diagnose(model);
+  const Json& report = diagnosis.report;
+  ASSERT_EQ(report["findings"].size(), 1U) << report["findings"].dump(1);
+  const Json* spring = find(report, "cable_spring");
+  ASSERT_TRUE(spring);
+  EXPECT_NEAR(number(*spring, "k", "N*m/rad"), 1.5, 0.05);
+  // The model that it writes holds both.
+  const AxisMachine both = parse_axis_machine(diagnosis.model, "model", Exit::kModel);
+  EXPECT_EQ(both.axes[0].effects.size(), 2U);
+  const Recording hold = read_recording(later / "hold.csv", ReadOptions(), both.system);
+  const Eigen::VectorXd left = hold.column("torque") - predict_axes(both, hold).col(0);
+  EXPECT_LT(std::sqrt(left.squaredNorm() / double(left.size())), 1.05 * kNoise);
+}
+
 TEST(DiagnoseAxes, NamesDryFrictionAndAnOffsetWithTheirValues) {
   const Bench bench([](const State& s) { return 0.8 * std::tanh(s.v / 0.01) - 0.3; });
   const Diagnosis diagnosis = bench.diagnose(one_axis());

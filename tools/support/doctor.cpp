@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dcnn/physics/axis_machine.h"
 #include "dcnn/physics/simulator.h"
 
 namespace dcnn {
@@ -17,7 +18,9 @@ std::string line_of(const std::string& log, const check::Fault& fault) {
 std::vector<check::Report> check_logs(const CheckRequest& request) {
   check::Declared declared;
   declared.read = request.read;
-  if (!request.system.empty()) declared.system = read_system(request.system);
+  if (!request.system.empty()) {
+    declared.system = system_in(read_json(request.system, Exit::kData), request.system.string());
+  }
   if (!request.simulator.empty()) declared.model = read_simulator(request.simulator).model;
   std::vector<check::Report> reports;
   for (const auto& path : request.logs) {

@@ -57,6 +57,12 @@ AxisMachine machine_of(const System& system);
 /// Whether a model.json is one of a machine rather than of a wrist tool.
 bool is_axis_machine(const Json& json);
 
+/// The system of a description, or of a model.json of a machine.
+System system_in(const Json& json, const std::string& where);
+
+/// What `found` adds to a machine, in one chain with its own effects.
+AxisMachine with_more(AxisMachine machine, const AxisMachine& found);
+
 /// (T, axes): what the machine's drives would show, in the axes' units, low-passed as the system
 /// says.
 Eigen::MatrixXd predict_axes(const AxisMachine& machine, const Recording& recording);
