@@ -5,6 +5,7 @@
 
 #include "dcnn/core/parallel.h"
 #include "dcnn/experiment/configuration.h"
+#include "support/doctor.h"
 #include "support/interrupt.h"
 #include "support/progress.h"
 #include "support/tool.h"
@@ -126,9 +127,11 @@ int main(int argc, char** argv) {
   auto jobs = tool.option("--jobs", request.jobs, "cells at a time (default: the processors)")
                   .between(1, 1024);
   const ReadFlags read(tool);
+  const Doctor doctor(tool);
 
   return tool.run(argc, argv, [&] {
     request.read = read.words();
+    request.accept = doctor.words();
     request.recipe = read.recipe();
     if (!jobs.given()) request.jobs = threads();
     request.programs = std::filesystem::canonical("/proc/self/exe").parent_path();

@@ -72,6 +72,7 @@ TEST_F(Reproduce, WritesReportFiguresAndVerdicts) {
   EXPECT_EQ(summary["claims"].size(), 3u);
   for (const auto& [series, claims] : summary["claims"].items()) EXPECT_EQ(claims.size(), 5u);
   EXPECT_EQ(summary["depends_on"]["seed of training and of test noise"], "1");
+  EXPECT_EQ(summary["depends_on"]["test samples scored"], "188") << "every 8th of 1500";
 }
 
 TEST_F(Reproduce, TheReportIsOneSmallFile) {
@@ -154,6 +155,25 @@ TEST_F(Reproduce, WhereACellFailsEndsAsItsToolDoes) {
   EXPECT_NE(result.err.find("/cf: exit 3: dcnn-train: "), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("in/data/train.csv"), std::string::npos) << result.err;
   EXPECT_FALSE(fs::exists(at("bad/report.html")));
+  // The remedy that dcnn-train names is one of dcnn-reproduce.
+  const std::vector<std::string> turned{"--preset",
+                                        "quick",
+                                        "--data",
+                                        at("out/data/train.csv"),
+                                        at("out/data/test.csv"),
+                                        "--out",
+                                        at("turned"),
+                                        "--models",
+                                        "cf",
+                                        "--quiet",
+                                        "--force-sign",
+                                        "-1"};
+  const Result reaction = run("reproduce", turned);
+  EXPECT_EQ(reaction.exit_code, 3) << reaction.err;
+  EXPECT_NE(reaction.err.find("--accept reaction goes on"), std::string::npos) << reaction.err;
+  auto accepted = turned;
+  accepted.insert(accepted.end(), {"--accept", "reaction"});
+  EXPECT_EQ(run("reproduce", accepted).exit_code, 0);
 }
 
 TEST_F(Reproduce, TakesTheUsersRecordings) {

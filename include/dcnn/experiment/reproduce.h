@@ -17,7 +17,8 @@ struct ReproductionRequest {
   std::string preset = "standard";
   std::filesystem::path scene;  ///< configuration of the simulated recordings `train` and `test`
   std::vector<std::filesystem::path> data;      ///< instead: a training and a test recording
-  std::vector<std::string> read;                ///< how the tools are told to read the recordings
+  std::vector<std::string> read;    ///< how the tools are told to read the recordings
+  std::vector<std::string> accept;  ///< what dcnn-train is told of their faults
   std::optional<std::filesystem::path> recipe;  ///< by which they are logs of another format
   std::vector<std::string> models;              ///< empty: all of the preset
   std::string augment_only = "dcnn";  ///< the third reading: only this model was noise-trained

@@ -67,6 +67,7 @@ class CellsOfReproduction {
     const Json preset = model_kind(what.entry->kind, Exit::kUsage).preset(request_.preset, false);
     if (what.epochs && preset.contains("training") && preset["training"].contains("epochs"))
       append(command, {"--epochs", std::to_string(*what.epochs)});
+    append(command, request_.accept);
     Json cell = cell_of(OutputLayout::training(what.series, name), append(command, request_.read),
                         {name + ".dcnn", name + ".run/metrics.jsonl"});
     cell["files"] = {{"config.json", configuration(what)}};
