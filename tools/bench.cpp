@@ -54,8 +54,9 @@ int main(int argc, char** argv) {
   std::filesystem::path out;
   bool with_peers = false;
   tool.option("models", request.models, "model files");
-  tool.option("--data", request.data,
-              "recording to predict (default: 32045 rows drawn from the model's statistics)");
+  const Option data =
+      tool.option("--data", request.data,
+                  "recording to predict (default: 32045 rows drawn from the model's statistics)");
   const Option lengths = tool.option("--lengths", request.lengths,
                                      "samples per call (with --peers: 1,10,100,1000,10000,32045)")
                              .separated_by_commas()
@@ -64,6 +65,10 @@ int main(int argc, char** argv) {
   tool.option("--repetitions", request.repetitions, "passes over all samples")
       .between(1, 1000)
       .with_default();
+  tool.option("--samples", request.samples, "rows that are drawn where there is no --data")
+      .positive()
+      .with_default()
+      .excludes(data);
   tool.output("--out", out, "folder for bench.html and bench.json", {"bench.html", "bench.json"});
   tool.flag("--peers", with_peers,
             "beside ONNX Runtime, oneDNN and libtorch, as far as they are there "

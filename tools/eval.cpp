@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
             kExamples);
   EvaluationRequest request;
   std::string levels = "clean,40,30,20,10", noise_mode = "feature", noise_on = "features";
-  std::filesystem::path out;
+  std::filesystem::path out, trace;
   tool.option("models", request.models, "model files").required();
   tool.option("--data", request.data, "recordings to score on").required();
   tool.option("--snr", levels, "signal-to-noise ratios of the input [dB], or clean").with_default();
@@ -68,6 +68,10 @@ int main(int argc, char** argv) {
       .with_default();
   tool.output("--out", out, "folder for report.html and evaluation.json",
               {"report.html", "evaluation.json"});
+  tool.option("--every", request.every, "score the first and every so manyth sample after it")
+      .positive();
+  tool.output("--trace", trace,
+              "CSV of the measured forces and those of the first model, without added noise");
   const PrecisionFlag precision(tool);
   const ReadFlags read(tool);
 
@@ -100,6 +104,7 @@ int main(int argc, char** argv) {
       write_report(out, evaluation, request);
       tool.note("report      " + (out / "report.html").string());
     }
+    if (!trace.empty()) write_trace(trace, evaluation);
     if (tool.common().json) {
       Tool::print(to_json(evaluation));
     } else {

@@ -3,7 +3,9 @@
 #include <cstdio>
 #include <iostream>
 
+#include "dcnn/core/parallel.h"
 #include "dcnn/experiment/configuration.h"
+#include "support/doctor.h"
 #include "support/interrupt.h"
 #include "support/progress.h"
 #include "support/tool.h"
@@ -16,7 +18,8 @@ constexpr const char* kExamples =
     "  dcnn-reproduce --preset quick                       # a first look, minutes\n"
     "  dcnn-reproduce --preset standard --out out/paper    # again after Ctrl-C: goes on\n"
     "  dcnn-reproduce --data train.csv test.csv --models cf dcnn\n"
-    "  dcnn-reproduce --preset paper --plan                # steps and expected time\n";
+    "  dcnn-reproduce --preset paper --plan                # cells and expected time\n"
+    "  dcnn-reproduce --preset paper --out p --prepare     # cells for dcnn-sweep, elsewhere\n";
 
 std::string minutes(double seconds) {
   char text[32];
@@ -30,7 +33,7 @@ void print_plan(const Json& plan) {
     std::snprintf(seconds, sizeof seconds, "%9.1f s  ", step["seconds"].get<double>());
     std::cout << seconds << step["step"].get<std::string>() << "\n";
   }
-  std::cout << "about " << minutes(plan["seconds"].get<double>()) << " on two cores\n";
+  std::cout << "about " << minutes(plan["seconds"].get<double>()) << " on one core\n";
 }
 
 void print_claims(const Json& summary) {
@@ -49,20 +52,28 @@ void print_claims(const Json& summary) {
 
 Exit work(const ReproductionRequest& request, const Tool& tool) {
   catch_interrupts();
-  const double expected = reproduction_plan(request)["seconds"];
-  tool.note("about " + minutes(expected) +
-            " on two idle cores, if nothing is done yet; the time left follows what steps take here");
+  if (!request.prepare) {
+    const double expected = reproduction_plan(request)["seconds"];
+    tool.note("about " + minutes(expected / request.jobs) + " on " + std::to_string(request.jobs) +
+              " idle cores, if nothing is done yet");
+  }
   Progress bar(tool.common().quiet);
-  ReproductionObserver observer;
+  CellRunObserver observer;
   observer.stop_wanted = [] { return interrupted(); };
   observer.note = [&](const std::string& text) { bar.line(text); };
   observer.progress = [&](double done, const std::string& step) { bar.update(done, step); };
   const ReproductionOutcome outcome = reproduce(request, observer);
   bar.clear();
-  tool.note(std::to_string(outcome.done) + " steps done, " + std::to_string(outcome.skipped) +
+  if (!outcome.prepared.empty()) {
+    std::cout << outcome.prepared.string() << "\n";
+    tool.note("cells to be run by dcnn-sweep --plan " + outcome.prepared.string() +
+              "; then this command again, until a report is there");
+    return Exit::kDone;
+  }
+  tool.note(std::to_string(outcome.done) + " cells done, " + std::to_string(outcome.skipped) +
             " skipped, since they were finished");
   if (!outcome.finished) {
-    tool.note("interrupted; the state is saved in " + request.out.string() +
+    tool.note("interrupted; what is finished is kept in " + request.out.string() +
               ", the same command goes on");
     return Exit::kInterrupted;
   }
@@ -110,11 +121,20 @@ int main(int argc, char** argv) {
   tool.option("--draws", request.draws, "draws of the test noise, instead of the preset's")
       .between(1, 100000);
   tool.option("--commit", request.commit, "of the code, for the report").with_default();
-  tool.flag("--plan", plan_only, "print the steps and their expected time, do nothing");
+  tool.flag("--plan", plan_only, "print the cells and their expected time, do nothing");
+  tool.flag("--prepare", request.prepare,
+            "plan the cells that come next for dcnn-sweep, print their folder, run none");
+  auto jobs = tool.option("--jobs", request.jobs, "cells at a time (default: the processors)")
+                  .between(1, 1024);
   const ReadFlags read(tool);
+  const Doctor doctor(tool);
 
   return tool.run(argc, argv, [&] {
-    request.read = read.options();
+    request.read = read.words();
+    request.accept = doctor.words();
+    request.recipe = read.recipe();
+    if (!jobs.given()) request.jobs = threads();
+    request.programs = std::filesystem::canonical("/proc/self/exe").parent_path();
     request.seed = tool.common().seed.value_or(1);
     if (repeat == "training") request.trainings = trainings;
     if (request.out.empty()) request.out = "out/reproduce-" + request.preset;

@@ -139,10 +139,13 @@ class CellRunner {
         ++outcome_.skipped;
       } else if (request_.limit == 0 || static_cast<int>(queue_.size()) < request_.limit) {
         queue_.push_back({&cell, false});
+        weight_ += weight_of(cell);
       }
     }
     total_ = static_cast<std::int64_t>(queue_.size());
   }
+
+  double weight_of(const Cell& cell) const { return request_.weight ? request_.weight(cell) : 1.0; }
 
   void check_programs() {
     for (const auto& [name, digest] : plan_.programs) {
@@ -189,8 +192,8 @@ class CellRunner {
       observer_.note(cell.name + ": failed twice with exit " + std::to_string(process.exit()) +
                      ": " + cell.command_line());
     }
-    const double ended = static_cast<double>(outcome_.done + outcome_.failed);
-    observer_.progress(ended / static_cast<double>(total_),
+    ended_weight_ += weight_of(cell);
+    observer_.progress(ended_weight_ / weight_,
                        std::to_string(outcome_.done) + " of " + std::to_string(total_) + " cells");
   }
 
@@ -217,6 +220,7 @@ class CellRunner {
   std::vector<Active> active_;
   CellRunOutcome outcome_;
   std::int64_t total_ = 0;
+  double weight_ = 0.0, ended_weight_ = 0.0;
 };
 
 }  // namespace

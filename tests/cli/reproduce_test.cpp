@@ -59,9 +59,10 @@ Result Reproduce::first_;
 
 TEST_F(Reproduce, WritesReportFiguresAndVerdicts) {
   for (const char* name :
-       {"data/train.csv", "models/A/dcnn.dcnn", "models/B/dcnn-valid.dcnn",
+       {"data/train.csv", "models/A/dcnn/dcnn.dcnn", "models/B/dcnn-valid/dcnn-valid.dcnn",
         "figures/noise_feature_A.csv", "figures/noise_feature_B.json", "figures/table1.csv",
-        "figures/training_A.csv", "traces/dcnn.csv", "reproduction.json", "report.html"}) {
+        "figures/training_A.csv", "scores/feature/A/dcnn/trace.csv", "reproduction.json",
+        "report.html"}) {
     EXPECT_TRUE(fs::exists(at(std::string("out/") + name))) << name;
   }
   const std::string draws = slurp(at("out/figures/noise_feature_A.csv"));
@@ -71,6 +72,7 @@ TEST_F(Reproduce, WritesReportFiguresAndVerdicts) {
   EXPECT_EQ(summary["claims"].size(), 3u);
   for (const auto& [series, claims] : summary["claims"].items()) EXPECT_EQ(claims.size(), 5u);
   EXPECT_EQ(summary["depends_on"]["seed of training and of test noise"], "1");
+  EXPECT_EQ(summary["depends_on"]["test samples scored"], "188") << "every 8th of 1500";
 }
 
 TEST_F(Reproduce, TheReportIsOneSmallFile) {
@@ -83,14 +85,14 @@ TEST_F(Reproduce, TheReportIsOneSmallFile) {
 }
 
 TEST_F(Reproduce, FinishedWorkIsNotRedone) {
-  const auto model = fs::last_write_time(at("out/models/A/dcnn.dcnn")),
-             scores = fs::last_write_time(at("out/scores/feature/A/dcnn.json"));
+  const auto model = fs::last_write_time(at("out/models/A/dcnn/dcnn.dcnn")),
+             scores = fs::last_write_time(at("out/scores/feature/A/dcnn/evaluation.json"));
   const std::string report = slurp(at("out/report.html"));
   const Result again = run("reproduce", arguments("out"));
   ASSERT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_NE(again.err.find("0 steps done"), std::string::npos) << again.err;
-  EXPECT_EQ(model, fs::last_write_time(at("out/models/A/dcnn.dcnn")));
-  EXPECT_EQ(scores, fs::last_write_time(at("out/scores/feature/A/dcnn.json")));
+  EXPECT_NE(again.err.find("0 cells done"), std::string::npos) << again.err;
+  EXPECT_EQ(model, fs::last_write_time(at("out/models/A/dcnn/dcnn.dcnn")));
+  EXPECT_EQ(scores, fs::last_write_time(at("out/scores/feature/A/dcnn/evaluation.json")));
   EXPECT_EQ(report, slurp(at("out/report.html")));
 }
 
@@ -100,9 +102,6 @@ TEST_F(Reproduce, WhatDependsOnAChangeIsRedoneAndNothingElse) {
   ASSERT_EQ(draws.exit_code, 0) << draws.err;
   // The simulation, two models in two protocols and their times stay; scores are new.
   EXPECT_NE(draws.err.find("7 skipped"), std::string::npos) << draws.err;
-  const Result code = run("reproduce", arguments("changed", {"--draws", "3", "--commit", "other"}));
-  ASSERT_EQ(code.exit_code, 0) << code.err;
-  EXPECT_NE(code.err.find(" 0 skipped"), std::string::npos) << code.err;
 }
 
 TEST_F(Reproduce, GoesOnAfterAnInterruptToTheSameNumbers) {
@@ -113,16 +112,68 @@ TEST_F(Reproduce, GoesOnAfterAnInterruptToTheSameNumbers) {
   }
   ASSERT_EQ(run("reproduce", whole).exit_code, 0);
   const Process process("reproduce", cut);
-  while (!fs::exists(at("cut/models/A/dcnn.run/checkpoint.safetensors")))
+  while (!fs::exists(at("cut/cells/trainings/packs")))
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   process.signal(SIGINT);
   const Result stopped = process.wait();
   ASSERT_EQ(stopped.exit_code, 75) << stopped.err;
   EXPECT_FALSE(fs::exists(at("cut/report.html")));
   ASSERT_EQ(run("reproduce", cut).exit_code, 0);
-  EXPECT_EQ(slurp(at("whole/models/A/dcnn.dcnn")), slurp(at("cut/models/A/dcnn.dcnn")));
+  EXPECT_EQ(slurp(at("whole/models/A/dcnn/dcnn.dcnn")), slurp(at("cut/models/A/dcnn/dcnn.dcnn")));
   EXPECT_EQ(slurp(at("whole/figures/noise_feature_B.csv")),
             slurp(at("cut/figures/noise_feature_B.csv")));
+}
+
+/// As on a cluster: the cells of every stage are run by dcnn-sweep, in shares.
+TEST_F(Reproduce, CellsThatOthersRanGiveTheSameNumbers) {
+  int stages = 0;
+  for (;; ++stages) {
+    const Result next = run("reproduce", arguments("shared", {"--prepare", "--quiet"}));
+    ASSERT_EQ(next.exit_code, 0) << next.err;
+    const std::string folder = next.out.substr(0, next.out.find('\n'));
+    if (!fs::exists(folder + "/plan.jsonl")) break;
+    ASSERT_LT(stages, 4) << folder;
+    for (const char* share : {"2/2", "1/2"}) {
+      const Result ran = run("sweep", {"--plan", folder, "--shard", share});
+      ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    }
+  }
+  EXPECT_EQ(stages, 4);
+  for (const char* name : {"models/B/dcnn/dcnn.dcnn", "figures/noise_feature_A.csv",
+                           "figures/noise_pose_A.csv", "figures/training_B.csv"}) {
+    EXPECT_EQ(slurp(at(std::string("shared/") + name)), slurp(at(std::string("out/") + name)))
+        << name;
+  }
+}
+
+TEST_F(Reproduce, WhereACellFailsEndsAsItsToolDoes) {
+  std::ofstream(at("bad.csv")) << "t,x\n0,1\n";
+  const Result result =
+      run("reproduce", {"--preset", "quick", "--data", at("bad.csv"), at("out/data/test.csv"),
+                        "--out", at("bad"), "--models", "cf", "--quiet"});
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  EXPECT_NE(result.err.find("/cf: exit 3: dcnn-train: "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("in/data/train.csv"), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(at("bad/report.html")));
+  // The remedy that dcnn-train names is one of dcnn-reproduce.
+  const std::vector<std::string> turned{"--preset",
+                                        "quick",
+                                        "--data",
+                                        at("out/data/train.csv"),
+                                        at("out/data/test.csv"),
+                                        "--out",
+                                        at("turned"),
+                                        "--models",
+                                        "cf",
+                                        "--quiet",
+                                        "--force-sign",
+                                        "-1"};
+  const Result reaction = run("reproduce", turned);
+  EXPECT_EQ(reaction.exit_code, 3) << reaction.err;
+  EXPECT_NE(reaction.err.find("--accept reaction goes on"), std::string::npos) << reaction.err;
+  auto accepted = turned;
+  accepted.insert(accepted.end(), {"--accept", "reaction"});
+  EXPECT_EQ(run("reproduce", accepted).exit_code, 0);
 }
 
 TEST_F(Reproduce, TakesTheUsersRecordings) {
@@ -131,7 +182,8 @@ TEST_F(Reproduce, TakesTheUsersRecordings) {
                         at("out/data/test.csv"), "--out", at("own"), "--models", "dcnn", "--epochs",
                         "1", "--quiet", "--repeat", "training", "--trainings", "2"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_FALSE(fs::exists(at("own/data")));
+  EXPECT_EQ(slurp(at("own/data/test.csv")), slurp(at("out/data/test.csv")));
+  EXPECT_FALSE(fs::exists(at("own/cells/recordings")));
   EXPECT_NE(slurp(at("own/report.html")).find("Spread over trainings"), std::string::npos);
 }
 
@@ -140,12 +192,12 @@ TEST_F(Reproduce, RefusesWhatItCannotDo) {
   EXPECT_EQ(run("reproduce", {"--scene", at("missing.json"), "--out", at("x")}).exit_code, 2);
   const Result plan = run("reproduce", {"--preset", "standard", "--plan"});
   EXPECT_EQ(plan.exit_code, 0);
-  EXPECT_NE(plan.out.find("A/dcnn: training"), std::string::npos);
+  EXPECT_NE(plan.out.find("models/A/dcnn\n"), std::string::npos);
 }
 
 TEST_F(Reproduce, EveryKthSampleIsScoredAsItWouldBeAmongAll) {
   EvaluationRequest request;
-  request.models = {at("out/models/A/dcnn.dcnn")};
+  request.models = {at("out/models/A/dcnn/dcnn.dcnn")};
   request.data = {at("out/data/test.csv")};
   request.levels = {std::nullopt};
   const Trace all = evaluate(request, {}).traces.at(0);

@@ -37,6 +37,12 @@ Doctor::Doctor(Tool& tool) {
       .group("Reading recordings");
 }
 
+std::vector<std::string> Doctor::words() const {
+  std::vector<std::string> words;
+  for (const std::string& fault : accepted_) words.insert(words.end(), {"--accept", fault});
+  return words;
+}
+
 std::vector<std::string> Doctor::examine(const Tool& tool, const CheckRequest& request,
                                          const std::vector<std::string>& own) const {
   std::vector<std::string> lines;

@@ -30,6 +30,9 @@ class Doctor {
   std::vector<std::string> examine(const Tool& tool, const CheckRequest& request,
                                    const std::vector<std::string>& own = {}) const;
 
+  /// --accept for the command line of another tool.
+  std::vector<std::string> words() const;
+
  private:
   std::vector<std::string> accepted_;
 };

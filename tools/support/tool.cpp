@@ -71,6 +71,7 @@ Option Tool::option(const std::string& names, T& variable, const std::string& he
 }
 
 template Option Tool::option(const std::string&, int&, const std::string&);
+template Option Tool::option(const std::string&, Index&, const std::string&);
 template Option Tool::option(const std::string&, double&, const std::string&);
 template Option Tool::option(const std::string&, std::string&, const std::string&);
 template Option Tool::option(const std::string&, Path&, const std::string&);
@@ -280,6 +281,18 @@ ReadOptions ReadFlags::options() const {
   options.resample = resample_->given();
   options.resample_hz = resample_hz_;
   return options;
+}
+
+std::vector<std::string> ReadFlags::words() const {
+  std::vector<std::string> words;
+  const auto add = [&](const char* option, const std::string& value) {
+    words.insert(words.end(), {option, value});
+  };
+  if (position_unit_ != "m") add("--position-unit", position_unit_);
+  if (angle_unit_ != "rad") add("--angle-unit", angle_unit_);
+  if (force_sign_ < 0.0) add("--force-sign", "-1");
+  if (resample_->given()) add("--resample", Json(resample_hz_).dump());
+  return words;
 }
 
 PrecisionFlag::PrecisionFlag(Tool& tool) {

@@ -77,6 +77,9 @@ class ReadFlags {
  public:
   explicit ReadFlags(Tool& tool);
   ReadOptions options() const;
+  /// The same for the command line of another tool, but for the recipe.
+  std::vector<std::string> words() const;
+  const std::optional<std::filesystem::path>& recipe() const { return recipe_; }
 
  private:
   std::string position_unit_ = "m", angle_unit_ = "rad";

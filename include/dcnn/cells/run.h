@@ -13,6 +13,7 @@ struct CellRun {
   int jobs = 1;                    ///< cells at a time
   int limit = 0;                   ///< most cells to run; 0: all
   bool again = false;              ///< cells that failed, too
+  std::function<double(const Cell&)> weight;  ///< of a cell in what progress says; none: 1
   std::filesystem::path root;      ///< instead of the plan's
   std::filesystem::path programs;  ///< folder of the toolkit's
   std::filesystem::path scratch;   ///< cells run in folders below it

@@ -82,6 +82,10 @@ struct Evaluation {
 Evaluation evaluate(const EvaluationRequest& request,
                     const std::function<void(int done, int total)>& progress);
 
+/// Measured and predicted forces of the first trace as CSV: columns t, the targets, the targets with
+/// `_hat`; evenly thinned to at most 4096 rows.
+void write_trace(const std::filesystem::path& file, const Evaluation& evaluation);
+
 /// The document that dcnn-eval prints, and the same as a table for people.
 Json to_json(const Evaluation& evaluation);
 std::string to_text(const Evaluation& evaluation);

@@ -76,4 +76,8 @@ std::vector<Entry> choose_entries(const std::vector<std::string>& wanted,
   return entries;
 }
 
+bool timed(const Entry& entry) {
+  return entry.name != kNoIdentification && entry.name.find("angles") == std::string::npos;
+}
+
 }  // namespace dcnn

@@ -29,4 +29,7 @@ inline const std::string kNoIdentification = "ns";
 std::vector<Entry> choose_entries(const std::vector<std::string>& wanted,
                                   const std::string& preset);
 
+/// The paper times every identifier but the absent one.
+bool timed(const Entry& entry);
+
 }  // namespace dcnn

@@ -1,4 +1,5 @@
-// Where everything of a reproduction lies under its output folder.
+// Where everything of a reproduction lies under its output folder: cells by their names, plans of
+// cells by their stages.
 #pragma once
 
 #include <filesystem>
@@ -6,25 +7,34 @@
 
 namespace dcnn {
 
+/// The name of a cell is the folder of its files below `out`.
 struct OutputLayout {
   std::filesystem::path out;
 
-  std::filesystem::path data() const { return out / "data"; }
-  std::filesystem::path stamps() const { return out / "steps"; }
   /// `series`: a protocol, or one of the further trainings.
+  static std::string training(const std::string& series, const std::string& entry) {
+    return "models/" + series + "/" + entry;
+  }
+  static std::string scoring(const std::string& mode, const std::string& series,
+                             const std::string& entry) {
+    return "scores/" + mode + "/" + series + "/" + entry;
+  }
+  static std::string timing_of(const std::string& entry) { return "timing/" + entry; }
+
   std::filesystem::path model(const std::string& series, const std::string& entry) const {
-    return out / "models" / series / (entry + ".dcnn");
+    return out / training(series, entry) / (entry + ".dcnn");
   }
   std::filesystem::path scores(const std::string& mode, const std::string& series,
                                const std::string& entry) const {
-    return out / "scores" / mode / series / (entry + ".json");
+    return out / scoring(mode, series, entry) / "evaluation.json";
   }
   std::filesystem::path trace(const std::string& entry) const {
-    return out / "traces" / (entry + ".csv");
+    return out / scoring("feature", "A", entry) / "trace.csv";
   }
   std::filesystem::path timing(const std::string& entry) const {
-    return out / "timing" / (entry + ".json");
+    return out / timing_of(entry) / "bench.json";
   }
+  std::filesystem::path cells(const std::string& stage) const { return out / "cells" / stage; }
   std::filesystem::path report() const { return out / "report.html"; }
 };
 

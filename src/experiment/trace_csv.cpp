@@ -1,4 +1,5 @@
-#include "experiment/reproduction/scoring.h"
+#include "dcnn/data/csv.h"
+#include "dcnn/experiment/evaluate.h"
 
 namespace dcnn {
 namespace {
@@ -6,16 +7,6 @@ namespace {
 constexpr Eigen::Index kMaxTraceRows = 4096;
 
 }  // namespace
-
-EvaluationRequest scoring_request(const NoiseMode& mode) {
-  EvaluationRequest request;
-  request.runs = mode.draws;
-  request.every = mode.every;
-  request.matlab_noise = mode.name == "matlab";
-  request.noisy_entries = mode.name == "entries";
-  if (mode.name == "pose") request.noise_on = NoiseSpec::Signal::kPose;
-  return request;
-}
 
 void write_trace(const std::filesystem::path& file, const Evaluation& evaluation) {
   if (evaluation.traces.empty()) return write_csv(file, Table{});
@@ -33,10 +24,6 @@ void write_trace(const std::filesystem::path& file, const Evaluation& evaluation
     table.values.row(i).tail(targets) = trace.predicted.row(i * stride);
   }
   write_csv(file, table);
-}
-
-bool timed(const Entry& entry) {
-  return entry.name != kNoIdentification && entry.name.find("angles") == std::string::npos;
 }
 
 }  // namespace dcnn
