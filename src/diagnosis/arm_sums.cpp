@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/linear_algebra.h"
+#include "diagnosis/evidence/support.h"
 
 namespace dcnn {
 namespace {
@@ -35,7 +36,8 @@ ArmSums::ArmSums(const std::vector<JointRows>& joints) : links_(joints.front().a
 }
 
 ArmRegression::ArmRegression(const ArmSums& sums, ArmModel model)
-    : shared_(model.shared.cols()),
+    : sums_(sums),
+      shared_(model.shared.cols()),
       variance_(Eigen::VectorXd::Ones(static_cast<Index>(sums.joints()))) {
   size_ = shared_;
   for (std::size_t j = 0; j < sums.joints(); ++j) {
@@ -52,6 +54,7 @@ ArmRegression::ArmRegression(const ArmSums& sums, ArmModel model)
           {T.transpose() * piece.gram * T, T.transpose() * piece.match, piece.square, piece.rows});
     }
     pieces_.push_back(std::move(pieces));
+    maps_.push_back(std::move(T));
     first_.push_back(size_);
     size_ += more;
   }
@@ -114,6 +117,26 @@ Eigen::MatrixXd ArmRegression::left_out() const {
     }
   }
   return errors;
+}
+
+double ArmRegression::log_support_against(const ArmRegression& other) const {
+  std::vector<evidence::BlockChange> blocks;
+  const auto pieces = static_cast<Index>(pieces_.front().size());
+  for (Index p = 0; p < pieces; ++p) {
+    const Eigen::VectorXd own = fit(p, 0, pieces_.size()), others = other.fit(p, 0, pieces_.size());
+    evidence::BlockChange change;
+    double rows = 0.0;
+    for (std::size_t j = 0; j < pieces_.size(); ++j) {
+      const ArmSums::Piece& piece = sums_.sums_[j][static_cast<std::size_t>(p)];
+      const double variance = variance_(static_cast<Index>(j));
+      const Eigen::VectorXd apart = coefficients(j, own) - other.coefficients(j, others);
+      change.fall += (other.misfit(j, p, others) - misfit(j, p, own)) / variance;
+      change.apart += apart.dot(piece.gram * apart) / variance;
+      rows += piece.rows;
+    }
+    if (rows > 0.0) blocks.push_back(change);
+  }
+  return evidence::log_support(blocks);
 }
 
 Eigen::VectorXd ArmRegression::left_out_alone(std::size_t joint) const {

@@ -45,6 +45,10 @@ class ArmRegression {
   /// (pieces, joints): squared error, in units of the joints' variances, on pieces that were left
   /// out.
   Eigen::MatrixXd left_out() const;
+  /// ln of the factor by which pieces that were left out change the odds of this model against
+  /// another of the same sums and variances (diagnosis/evidence/support.h), each piece a
+  /// block.
+  double log_support_against(const ArmRegression& other) const;
   /// (pieces): the same of one joint with shared parameters of its own.
   Eigen::VectorXd left_out_alone(std::size_t joint) const;
 
@@ -52,7 +56,13 @@ class ArmRegression {
   Eigen::VectorXd fit(Index left_out, std::size_t from, std::size_t to) const;
   std::vector<Index> places(std::size_t joint) const;
   double misfit(std::size_t joint, Index piece, const Eigen::VectorXd& x) const;
+  /// Coefficients of all columns of a joint, fitted without a piece.
+  Eigen::VectorXd coefficients(std::size_t joint, const Eigen::VectorXd& x) const {
+    return maps_[joint] * x(places(joint));
+  }
 
+  const ArmSums& sums_;
+  std::vector<Eigen::MatrixXd> maps_;                // from the model's columns to all, by joint
   std::vector<std::vector<ArmSums::Piece>> pieces_;  // in the model's own columns
   std::vector<Index> first_;                         // unknowns of each joint begin there
   Index shared_ = 0, size_ = 0;

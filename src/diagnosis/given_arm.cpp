@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "diagnosis/evidence/posterior.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/words.h"
 
 namespace dcnn {
@@ -20,45 +22,17 @@ double student_quantile(double freedom) {
          (3.0 * z7 + 19.0 * z5 + 17.0 * z3 - 15.0 * z) / (384.0 * n * n * n);
 }
 
-/// Whether errors b are less than a beyond chance, piece by piece.
-bool is_better(const VectorXd& b, const VectorXd& a) {
-  const VectorXd gain = a - b;
-  const auto n = static_cast<double>(gain.size());
-  const double mean = gain.mean();
-  const double deviation = std::sqrt((gain.array() - mean).square().sum() / (n - 1.0) / n);
-  return mean > student_quantile(n - 1.0) * deviation;
+/// Whether a model that has something more than another is more likely than not, after pieces that
+/// were left out: of odds of one name before.
+bool is_likelier(const ArmRegression& more, const ArmRegression& less) {
+  return evidence::updated(evidence::prior::kName, more.log_support_against(less)) > 0.5;
 }
 
-std::vector<Index> own_terms(Index count) {
-  std::vector<Index> list;
-  for (Index k = 0; k < count; ++k) list.push_back(k);
-  return list;
-}
-
-/// A model with all terms of its own in each joint.
-ArmModel with_all_terms(const MatrixXd& shared, std::size_t joints) {
-  return {shared, std::vector<std::vector<Index>>(joints, own_terms(kOwnFriction + kOwnAliases))};
-}
-
-VectorXd errors_of(const ArmSums& sums, const ArmModel& model, const VectorXd& variances) {
-  ArmRegression regression(sums, model);
-  regression.set_variances(variances);
-  return regression.left_out().rowwise().sum();
-}
-
-/// Drops what resembles a payload from each joint where it is not significantly needed.
-void drop_aliases(const ArmSums& sums, const VectorXd& variances, ArmModel& model) {
-  VectorXd errors = errors_of(sums, model, variances);
-  for (std::vector<Index>& own : model.own) {
-    const std::vector<Index> kept = own;
-    own = own_terms(kOwnFriction);
-    const VectorXd fewer = errors_of(sums, model, variances);
-    if (is_better(errors, fewer)) {
-      own = kept;
-    } else {
-      errors = fewer;
-    }
-  }
+/// A model with the first `count` terms of its own in each joint.
+ArmModel with_terms(const MatrixXd& shared, std::size_t joints, Index count) {
+  std::vector<Index> own;
+  for (Index k = 0; k < count; ++k) own.push_back(k);
+  return {shared, std::vector<std::vector<Index>>(joints, own)};
 }
 
 /// Value and half of its 95 % interval: of a number that depends on the shared parameters.
@@ -167,22 +141,25 @@ GivenArm what_is_missing(const std::vector<JointRows>& rows, const JointChain& c
   shared[1] = shared[2].leftCols(4);
   if (bodies.size() > 0) shared.push_back(told_parameters(rows));
 
-  ArmRegression largest(sums, with_all_terms(shared.back(), rows.size()));
+  // What resembles a payload on one joint stands beside every hypothesis.
+  const auto beside_aliases = [&](std::size_t h) {
+    return ArmRegression(sums, with_terms(shared[h], rows.size(), kOwnFriction + kOwnAliases));
+  };
+  ArmRegression largest = beside_aliases(shared.size() - 1);
   largest.reweight();
-  const VectorXd variances = largest.variances();
   std::size_t chosen = 0;
-  VectorXd least;
-  for (std::size_t h = 0; h < shared.size(); ++h) {
-    const VectorXd errors = errors_of(sums, with_all_terms(shared[h], rows.size()), variances);
-    if (h > 0 && !is_better(errors, least)) continue;
-    chosen = h;
-    least = errors;
+  const auto all_terms = [&](std::size_t h) {
+    ArmRegression regression = beside_aliases(h);
+    regression.set_variances(largest.variances());
+    return regression;
+  };
+  for (std::size_t h = 1; h < shared.size(); ++h) {
+    if (is_likelier(all_terms(h), all_terms(chosen))) chosen = h;
   }
   GivenArm result;
   if (chosen == 0) return result;
-  ArmModel model = with_all_terms(shared[chosen], rows.size());
-  drop_aliases(sums, variances, model);
-  ArmRegression regression(sums, model);
+  // Its numbers are fitted beside friction alone: what else a joint needs is looked for there.
+  ArmRegression regression(sums, with_terms(shared[chosen], rows.size(), kOwnFriction));
   regression.reweight();
   const VectorXd x = regression.shared(-1);
   if (chosen == 3) {
