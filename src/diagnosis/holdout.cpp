@@ -73,7 +73,7 @@ HoldOut::HoldOut(const Case& fitted, const Case& recordings) {
       const double t = motion.t(i);
       char& row = held[static_cast<std::size_t>(i)];
       for (const Span& span : blocks) {
-        if (!own && span.holds(k, t)) row = 1;
+        if (!own && span.holds(k, t) && t < span.end) row = 1;
       }
       if (t < motion.t(0) + ends || t > motion.t(motion.samples() - 1) - ends) row = 0;
     }

@@ -148,7 +148,7 @@ bool Search::grow() {
 /// Of members whose forces cancel each other, so that each is a multiple of what all make together,
 /// the one that gains least: the recordings tell of such a pair the sum alone.
 std::optional<std::size_t> Search::cancelled() const {
-  constexpr double kMultiple = 5.0;  // of two directions a sixth of a right angle apart
+  constexpr double kMultiple = 5.0;  // of two equal forces 11 degrees from cancelling
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(fit_.residual.size());
   std::vector<Eigen::VectorXd> forces;
   Eigen::VectorXd sum = zero;

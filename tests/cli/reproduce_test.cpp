@@ -190,7 +190,8 @@ TEST_F(Reproduce, TakesTheUsersRecordings) {
 TEST_F(Reproduce, RefusesWhatItCannotDo) {
   EXPECT_EQ(run("reproduce", {"--models", "dcn", "--out", at("x")}).exit_code, 2);
   EXPECT_EQ(run("reproduce", {"--scene", at("missing.json"), "--out", at("x")}).exit_code, 2);
-  const Result plan = run("reproduce", {"--preset", "standard", "--plan"});
+  const Result plan =
+      run("reproduce", {"--preset", "standard", "--scene", at("scene.json"), "--plan"});
   EXPECT_EQ(plan.exit_code, 0);
   EXPECT_NE(plan.out.find("models/A/dcnn\n"), std::string::npos);
 }
