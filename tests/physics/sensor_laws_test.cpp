@@ -94,6 +94,19 @@ TEST(TimeDelay, HoldsTheFirstValueAndCrossesNoGap) {
   EXPECT_LT((applied(effect, motion, wrench).force - wrench.force).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST(TimeDelay, CountsRowsThatWereLost) {
+  constexpr double kDelay = 0.0131;
+  Motion motion = still_motion(600);
+  for (Index k = 0; k < 600; ++k) motion.t(k) = 0.002 * static_cast<double>(k + k / 40);
+  Wrench wrench = no_wrench(600);
+  wrench.force.col(0) = (2.0 * kPi * 4.0 * motion.t.array()).sin();
+  const auto effect = make_effect("time_delay", "", {{"delay_s", kDelay}});
+  const VectorXd out = applied(effect, motion, wrench).force.col(0);
+  for (Index k = 10; k < 600; ++k) {
+    EXPECT_NEAR(out(k), std::sin(2.0 * kPi * 4.0 * (motion.t(k) - kDelay)), 1e-4) << k;
+  }
+}
+
 TEST(Misalignment, TurnsTheReadingByTheTransposedRotation) {
   Wrench wrench = no_wrench(1);
   wrench.force.row(0) = Vector3d(1.0, 2.0, 3.0);
