@@ -34,7 +34,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"runtime", {"core", "nn", "data", "physics", "models", "calibration"}},
     {"experiment",
      {"core", "nn", "data", "physics", "models", "diagnosis", "runtime", "calibration", "teleop",
-      "check"}},
+      "check", "cells"}},
     {"check", {"core", "data", "physics"}},  // the nominal tool of sim.json
     {"tools",
      {"core", "nn", "data", "physics", "models", "diagnosis", "conceal", "rivals", "runtime",

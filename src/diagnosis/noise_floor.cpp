@@ -133,15 +133,6 @@ double bound_at(const std::vector<std::pair<double, double>>& bounds, double hz)
   return bounds.back().second;
 }
 
-/// Residuals of one noise level.
-Signals evened(const Signals& residual, const Signals& levels) {
-  Signals even;
-  for (std::size_t k = 0; k < residual.size(); ++k) {
-    even.push_back(residual[k].cwiseQuotient(levels[k]));
-  }
-  return even;
-}
-
 std::vector<Index> bins_between(const Periodograms& p, double from, double to) {
   std::vector<Index> bins;
   for (Index i = 0; i < p.hz.size(); ++i) {

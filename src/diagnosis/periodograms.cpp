@@ -61,6 +61,14 @@ Periodograms periodograms(const Case& study, const Signals& signals, Index chann
   return result;
 }
 
+Signals evened(const Signals& residual, const Signals& levels) {
+  Signals even;
+  for (std::size_t k = 0; k < residual.size(); ++k) {
+    even.push_back(residual[k].cwiseQuotient(levels[k]));
+  }
+  return even;
+}
+
 std::vector<SlowBin> slow_bins(const Case& study, const Signals& signals, Index channel) {
   constexpr Index kMeans = 16;  // a window, whose third bin they hardly damp (0.98)
   const Index window = window_of(study), block = std::max<Index>(1, window / kMeans);

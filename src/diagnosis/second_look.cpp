@@ -1,9 +1,9 @@
 // Before a remainder is called unexplained: what could make it without any effect being missing.
 #include <algorithm>
 
+#include "diagnosis/axis_case.h"
 #include "diagnosis/flicker.h"
 #include "diagnosis/formula.h"
-#include "diagnosis/axis_case.h"
 #include "diagnosis/search.h"
 
 namespace dcnn {
@@ -55,8 +55,8 @@ bool Search::are_constant() const {
                       [](const Constancy& test) { return test.refutes(); });
 }
 
-/// Whether beside the noise that was admitted no law gains and nothing is left, in no band and of no product of what
-/// moves.
+/// Whether beside the noise that was admitted no law gains and nothing is left, in no band and of
+/// no product of what moves.
 bool Search::noise_suffices() {
   return !grow() && !is_alarming_now() && most_of_a_term(*setting_, fit_) < kDependence;
 }

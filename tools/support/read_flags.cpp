@@ -1,0 +1,71 @@
+// How recordings are read: what every tool that takes them offers.
+#include <numbers>
+
+#include "dcnn/data/table_reader.h"
+#include "dcnn/import/assemble.h"
+#include "support/tool.h"
+
+namespace dcnn {
+
+ReadFlags::ReadFlags(Tool& tool) {
+  constexpr const char* kReading = "Reading recordings";
+  tool.option("--position-unit", position_unit_, "unit of positions in the recordings")
+      .one_of({"m", "mm"})
+      .with_default()
+      .group(kReading);
+  tool.option("--angle-unit", angle_unit_, "unit of angles in the recordings")
+      .one_of({"rad", "deg"})
+      .with_default()
+      .group(kReading);
+  tool.option("--force-sign", force_sign_, "-1 where the log holds the reaction")
+      .one_of({1.0, -1.0})
+      .with_default()
+      .group(kReading);
+  resample_ =
+      tool.option("--resample", resample_hz_,
+                  "put irregular clocks on a regular one [Hz; default: the recording's rate]")
+          .value_optional()
+          .between(0, 1000000)
+          .group(kReading);
+  tool.option("--recipe", recipe_,
+              "import.json of dcnn-import: recordings are logs of any format that it reads")
+      .group(kReading);
+}
+
+namespace {
+
+/// Every recording of this process is a log that the recipe turns into one.
+void read_by_recipe(const std::filesystem::path& file) {
+  set_table_reader([recipe = read_recipe(file)](const std::filesystem::path& log) {
+    Imported imported = import_recording(log, recipe, {});
+    imported.notes.insert(imported.notes.begin(), "imported by a recipe");
+    return SourceTable{std::move(imported.table), std::move(imported.notes)};
+  });
+}
+
+}  // namespace
+
+ReadOptions ReadFlags::options() const {
+  ReadOptions options;
+  if (recipe_) read_by_recipe(*recipe_);
+  if (position_unit_ == "mm") options.position_unit = 1e-3;
+  if (angle_unit_ == "deg") options.angle_unit = std::numbers::pi / 180.0;
+  options.force_sign = force_sign_;
+  options.resample = resample_->given();
+  options.resample_hz = resample_hz_;
+  return options;
+}
+
+std::vector<std::string> ReadFlags::words() const {
+  std::vector<std::string> words;
+  const auto add = [&](const char* option, const std::string& value) {
+    words.insert(words.end(), {option, value});
+  };
+  if (position_unit_ != "m") add("--position-unit", position_unit_);
+  if (angle_unit_ != "rad") add("--angle-unit", angle_unit_);
+  if (force_sign_ < 0.0) add("--force-sign", "-1");
+  if (resample_->given()) add("--resample", Json(resample_hz_).dump());
+  return words;
+}
+
+}  // namespace dcnn
