@@ -149,7 +149,8 @@ Json scores_of(const fs::path& folder, const fs::path& seal) {
   const std::string digest = read_file(folder / "seal.sha256", 4096, Exit::kData).substr(0, 64);
   Json out{{"seed", answers["seed"]}, {"sha256", digest}};
   out.update(score_reports(answers, folder / "reports", ""));
-  out["rivals"] = out["ablations"] = Json::object();
+  out["rivals"] = Json::object();
+  out["ablations"] = Json::object();
   for (const std::string& method : methods_in(folder / "rivals")) {
     out["rivals"][method] = rates_of(answers, folder / "rivals", method);
   }

@@ -38,7 +38,8 @@ class Writer {
       JointFit rest = member.fixed ? fit : search_.without(m);
       std::vector<Member>& others = rest.members;
       if (member.fixed) others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
-      entry["confidence"] = entry["p_value"] = nullptr;
+      entry["confidence"] = nullptr;
+      entry["p_value"] = nullptr;
       if (!member.fixed) {
         entry["confidence"] = *likely[m];
         entry["p_value"] = flip_p_value(search_.setting(), fit, m);
@@ -62,7 +63,9 @@ class Writer {
   void add_limits(Json& report) const {
     const Case& study = search_.study();
     const Scan scan(search_.setting(), search_.fit());
-    report["not_detected"] = report["not_testable"] = Json::array();
+    // One after the other: a new key moves the values of the others.
+    report["not_detected"] = Json::array();
+    report["not_testable"] = Json::array();
     for (const EffectKind* kind : effect_kinds()) {
       if (kind->fits.empty() || is_found(*kind) || !is_listed(study, *kind)) continue;
       std::string why;

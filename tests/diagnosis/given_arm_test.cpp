@@ -126,7 +126,8 @@ TEST(ArmWords, NameJointsTogether) {
   report["joints"][1]["verdict"] = "partly-explained";
   const std::string words = arm_json(report, four_axes())["words"];
   EXPECT_TRUE(words.ends_with("; something without a name on b")) << words;
-  report["findings"] = report["joints"] = Json::array();
+  report["findings"] = Json::array();
+  report["joints"] = Json::array();
   EXPECT_EQ(arm_json(report, four_axes())["words"], "nothing is missing");
 }
 
