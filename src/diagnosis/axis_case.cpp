@@ -1,10 +1,13 @@
 #include "diagnosis/axis_case.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "dcnn/data/filter.h"
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/median.h"
+#include "diagnosis/motion_band.h"
 #include "diagnosis/noise_floor.h"
 #include "diagnosis/periodograms.h"
 #include "diagnosis/shared_base.h"
@@ -137,7 +140,18 @@ bool moves(const Case& study) {
   return square / rows > kDeviations * kDeviations * noise;
 }
 
-Case axis_case(std::shared_ptr<const AxisPlan> plan) {
+/// Where an axis' motion ends, 20 Hz or more; a low-pass that is declared ends it.
+double end_of_motion(const std::vector<Recording>& recordings, const System& system,
+                     const Axis& axis) {
+  if (system.lowpass_hz > 0.0) return system.lowpass_hz;
+  std::vector<Eigen::VectorXd> positions;
+  for (const Recording& recording : recordings) {
+    if (recording.has(axis.position)) positions.push_back(recording.column(axis.position));
+  }
+  return std::max(Case().motion_hz, motion_band(positions, recordings.front().dt));
+}
+
+Case axis_case(std::shared_ptr<const AxisPlan> plan, double motion_hz) {
   Case study;
   study.own_tool = false;
   study.simulator.model.inertial = ToolModel::Inertial::kNone;
@@ -145,10 +159,29 @@ Case axis_case(std::shared_ptr<const AxisPlan> plan) {
   study.targets = {plan->axis().measured};
   study.units = {plan->axis().unit};
   study.lowpass_hz = plan->system.lowpass_hz;
-  if (study.lowpass_hz > 0.0) study.motion_hz = study.lowpass_hz;
+  study.motion_hz = motion_hz;
   study.derivative = {.kind = DerivativeSpec::Kind::kSpectral, .cutoff_hz = study.motion_hz};
   study.axis = std::move(plan);
   return study;
+}
+
+/// Amplitudes of position and rate, as those of sines of the same deviation. Without a position the
+/// length is what is passed in a second.
+void set_axis_units(Case& study) {
+  double position = 0.0, rate = 0.0, rows = 0.0;
+  for (const Log& log : study.logs) {
+    const Eigen::VectorXd q = log.motion.euler.col(0);
+    position += (q.array() - q.mean()).square().sum();
+    if (log.motion.v_B.rows() > 0) rate += log.motion.v_B.col(0).squaredNorm();
+    rows += static_cast<double>(q.size());
+  }
+  const double length = std::sqrt(2.0 * position / rows);
+  const double speed = std::sqrt(2.0 * rate / rows);
+  if (!study.axis_moves || !(speed > 0.0)) return;
+  study.axis_length = length > 0.0 ? length : speed;
+  study.axis_seconds = study.axis_length / speed;
+  const double acceleration = speed / study.axis_seconds;
+  study.axis_blur = acceleration / (2.0 * std::numbers::pi * study.motion_hz);
 }
 
 }  // namespace
@@ -234,11 +267,12 @@ LoadedAxes load_axes(const DiagnosisRequest& request) {
     AxisPlan plan;
     plan.system = system;
     plan.index = k;
-    const Case draft = axis_case(std::make_shared<const AxisPlan>(plan));
+    const double motion_hz = end_of_motion(fit, system, system.axes[k]);
+    const Case draft = axis_case(std::make_shared<const AxisPlan>(plan), motion_hz);
     plan.columns = used_columns(fit, system, k, draft.derivative);
     plan.sense = sense_of(fit, system, system.axes[k], draft.derivative);
     LoadedCase loaded;
-    loaded.fit = axis_case(std::make_shared<const AxisPlan>(std::move(plan)));
+    loaded.fit = axis_case(std::make_shared<const AxisPlan>(std::move(plan)), motion_hz);
     loaded.fit.without = request.without;
     loaded.fit.base_coefficients =
         Eigen::VectorXd::Zero(static_cast<Index>(loaded.fit.axis->columns.size()));
@@ -248,6 +282,7 @@ LoadedAxes load_axes(const DiagnosisRequest& request) {
     for (const Recording& r : holdout) loaded.holdout.logs.push_back(make_log(r, loaded.fit));
     set_axis_motion(loaded.fit);
     loaded.fit.axis_moves = moves(loaded.fit);
+    set_axis_units(loaded.fit);
     set_axis_motion(loaded.holdout);
     cases.push_back(std::move(loaded));
   }

@@ -1,8 +1,8 @@
 // Cases of the axes of other machines: one axis each.
 #pragma once
 
-#include "diagnosis/chain.h"
 #include "dcnn/physics/axis_machine.h"
+#include "diagnosis/chain.h"
 #include "diagnosis/load.h"
 
 namespace dcnn {
@@ -10,7 +10,7 @@ namespace dcnn {
 /// One case per axis of the system description, and what concerns all of them.
 struct LoadedAxes {
   std::vector<LoadedCase> cases;
-  Json finding;  ///< of a whole arm; null: none
+  Json finding;                                     ///< of a whole arm; null: none
   std::optional<AxisMachine> given = std::nullopt;  ///< the simulator, where it is a model.json
 };
 /// Error(kData) for what cannot be used.

@@ -16,7 +16,8 @@ namespace dcnn {
 namespace {
 
 /// Every combination of the seeds of a form's shapes on an axis.
-std::vector<Eigen::VectorXd> seed_grid(const EffectFit& form, const std::string& axis) {
+std::vector<Eigen::VectorXd> seed_grid(const Case& study, const EffectFit& form,
+                                       const std::string& axis) {
   const double scale = seed_scale(axis);
   std::vector<Eigen::VectorXd> grid{Eigen::VectorXd(0)};
   for (const ShapeParameter& shape : form.shapes) {
@@ -24,7 +25,7 @@ std::vector<Eigen::VectorXd> seed_grid(const EffectFit& form, const std::string&
     for (const auto& point : grid) {
       for (const double seed : shape.seeds) {
         Eigen::VectorXd p(point.size() + 1);
-        p << point, scale * seed;
+        p << point, scale * unit_of(study, shape) * seed;
         longer.push_back(p);
       }
     }
@@ -33,8 +34,10 @@ std::vector<Eigen::VectorXd> seed_grid(const EffectFit& form, const std::string&
   return grid;
 }
 
+constexpr double kAngleBin = 0.02;  // of a motion's length
+
 struct AngleBins {
-  double low = 0.0, width = 0.02;
+  double low = 0.0, width = kAngleBin;
   Eigen::VectorXd sum, count;
 };
 
@@ -48,7 +51,7 @@ AngleBins bin_by_angle(const Case& study, const Signals& left, const std::string
     high = std::max(high, log.motion.euler.col(at.angle).maxCoeff());
   }
   bins.low = low;
-  bins.width = std::max(0.02, (high - low) / 4000.0);
+  bins.width = std::max(kAngleBin * study.axis_length, (high - low) / 4000.0);
   const auto size = static_cast<Index>((high - low) / bins.width) + 1;
   bins.sum = bins.count = Eigen::VectorXd::Zero(size);
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
@@ -76,12 +79,13 @@ double least_order(const AngleBins& bins) {
 }
 
 /// The order whose sine and cosine of the angle explain most of the bins, beside a line in it.
-double best_order(const AngleBins& bins) {
+double best_order(const AngleBins& bins, double length) {
   const Index n = bins.sum.size();
   const double range = bins.width * static_cast<double>(n), first = 0.5 * (bins.width - range);
   double best = 0.0, most = -1.0;
-  const double step = std::max(0.1, 0.4 / range);
-  for (double order = least_order(bins); order < std::min(120.0, 0.5 / bins.width); order += step) {
+  const double step = std::max(0.1 / length, 0.4 / range);
+  for (double order = least_order(bins); order < std::min(120.0 / length, 0.5 / bins.width);
+       order += step) {
     Eigen::Matrix4d gram = Eigen::Matrix4d::Zero();
     Eigen::Vector4d b = Eigen::Vector4d::Zero();
     std::complex<double> wave = elementary::polar(1.0, order * first);
@@ -106,11 +110,11 @@ void add_cogging(const Scan& scan, const Signals& left, std::vector<Member>& lis
   for (const auto& axis : axes_of(study, kind)) {
     const AngleBins bins = bin_by_angle(study, left, axis);
     if (bins.sum.size() < 16 || bins.count.maxCoeff() <= 0.0) continue;
-    const double order = best_order(bins);
+    const double order = best_order(bins, study.axis_length);
     if (order <= 0.0) continue;
-    list.push_back(make_member(kind, kind.fits[0], axis, study.has_torque(),
-                               Eigen::VectorXd::Constant(1, order)));
-    list.back().least_shapes = Eigen::VectorXd::Constant(1, least_order(bins));
+    list.push_back(
+        make_member(study, kind, kind.fits[0], axis, Eigen::VectorXd::Constant(1, order)));
+    list.back().least_shapes(0) = least_order(bins);
   }
 }
 
@@ -127,10 +131,10 @@ void add_resonances(const Scan& scan, const Signals& left, const std::vector<Flo
     for (const Peak& peak : peaks) {
       for (const double zeta : kind.fits[0].shapes[1].seeds) {
         list.push_back(make_member(
-            kind, kind.fits[0],
+            study, kind, kind.fits[0],
             admitted_axes(AxisRule::kSensor)[static_cast<std::size_t>(study.channels[j])],
-            study.has_torque(), Eigen::Vector2d(std::min(peak.hz, top), zeta)));
-        list.back().most_shapes = Eigen::Vector2d(top, kind.fits[0].shapes[1].high);
+            Eigen::Vector2d(std::min(peak.hz, top), zeta)));
+        list.back().most_shapes(0) = top;
       }
     }
   }
@@ -145,8 +149,7 @@ void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& fl
   constexpr int kLines = 4;
   constexpr std::size_t kTried = 2;
   const Case& study = scan.setting().study;
-  const EffectKind& kind = *find_effect("hum");
-  // A machine's motion is often periodic, and whatever depends on it has lines there.
+  const EffectKind& kind = *find_effect("hum");  // a periodic motion has lines of its own
   const double from = study.axis ? 0.5 * study.motion_hz : 0.3;
   std::size_t tried = 0;
   for (const auto& line : common_lines(study, left, floors, from, 0.49 / study.dt(), kLines)) {
@@ -155,8 +158,8 @@ void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& fl
         common_lines(study, scan.chain().prediction(), floors, line.hz - 0.3, line.hz + 0.3, 1);
     const bool in_motion = !own.empty() && own.front().ratio > 100.0;
     if (in_motion && line.excess < least_excess_in_motion(line.terms)) continue;
-    list.push_back(make_member(kind, kind.fits[0], "", study.has_torque(),
-                               Eigen::VectorXd::Constant(1, line.hz)));
+    list.push_back(
+        make_member(study, kind, kind.fits[0], "", Eigen::VectorXd::Constant(1, line.hz)));
     ++tried;
   }
 }
@@ -279,8 +282,9 @@ std::vector<Member> candidates(const Scan& scan, const Signals& left,
       if (follows && !has_temperature(study)) continue;
       if (form.machines_only && !study.axis) continue;
       for (const auto& axis : axes_of(study, *kind)) {
-        for (const auto& shapes : follows ? reference_temperatures(study) : seed_grid(form, axis)) {
-          list.push_back(make_member(*kind, form, axis, study.has_torque(), shapes));
+        const auto grid = follows ? reference_temperatures(study) : seed_grid(study, form, axis);
+        for (const auto& shapes : grid) {
+          list.push_back(make_member(study, *kind, form, axis, shapes));
         }
       }
     }

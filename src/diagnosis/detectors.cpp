@@ -99,7 +99,7 @@ std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
                      Eigen::VectorXd::Constant(1, best_hz), Eigen::VectorXd::Constant(1, step), 40);
   const double gain = gain_at(hz(0));
   const EffectKind& kind = *find_effect("hum");
-  Member member = make_member(kind, kind.fits[0], "", study.has_torque(), hz);
+  Member member = make_member(study, kind, kind.fits[0], "", hz);
   if (gain < kLeastGain + 4.0 * member.parameters()) return std::nullopt;
   const Index half = member.amplitudes.size() / 2;
   member.amplitudes.setZero();

@@ -125,7 +125,7 @@ Stretch best_span(const Cells& cells, const Stretch* taken) {
 
 Member contact_member(const Case& study, const Stretch& span) {
   const EffectKind& kind = *find_effect("contact");
-  Member member = make_member(kind, kind.fits[0], "", study.has_torque(), Eigen::VectorXd(0));
+  Member member = make_member(study, kind, kind.fits[0], "", Eigen::VectorXd(0));
   member.interval_s = {span.begin, std::max(span.begin + 0.02, span.end)};
   if (!study.shared_clock) member.recording = study.logs[span.log].motion.recording;
   return member;
@@ -170,7 +170,7 @@ Trial find_step(const Scan& scan) {
   const EffectKind& kind = *find_effect("step_bias");
   Trial best;
   const auto member_at = [&](double t, std::size_t log) {
-    Member member = make_member(kind, kind.fits[0], "", study.has_torque(), Eigen::VectorXd(0));
+    Member member = make_member(study, kind, kind.fits[0], "", Eigen::VectorXd(0));
     member.interval_s = {t, study.end_of_clock};
     if (!study.shared_clock) {
       const auto& motion = study.logs[log].motion;

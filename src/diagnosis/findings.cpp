@@ -133,12 +133,13 @@ class Writer {
     }
     Eigen::VectorXd shapes(static_cast<Index>(form.shapes.size()));
     for (std::size_t k = 0; k < form.shapes.size(); ++k) {
-      shapes(static_cast<Index>(k)) = form.shapes[k].seeds[form.shapes[k].seeds.size() / 2];
+      shapes(static_cast<Index>(k)) = unit_of(search_.study(), form.shapes[k]) *
+                                      form.shapes[k].seeds[form.shapes[k].seeds.size() / 2];
     }
     std::optional<double> most;
     for (const auto& axis : axes_of(search_.study(), kind)) {
       const auto least = scan.least_detectable(
-          make_member(kind, form, axis, search_.study().has_torque(), seed_scale(axis) * shapes));
+          make_member(search_.study(), kind, form, axis, seed_scale(axis) * shapes));
       if (least && (!most || *least > *most)) most = least;
     }
     return most;

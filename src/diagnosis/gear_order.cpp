@@ -32,7 +32,7 @@ GearBins gear_bins(const Case& study, const Signals& left) {
     samples += static_cast<double>(log.motion.samples());
   }
   const double still = kStill * std::sqrt(square / samples);
-  bins.width = std::max(0.01, (bins.high - bins.low) / 4000.0);
+  bins.width = std::max(0.01 * study.axis_length, (bins.high - bins.low) / 4000.0);
   const auto size = static_cast<Index>((bins.high - bins.low) / bins.width) + 1;
   bins.sum = bins.count = Eigen::VectorXd::Zero(size);
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
@@ -74,16 +74,18 @@ void add_gear_frictions(const Case& study, const Signals& left, std::vector<Memb
   const double range = bins.high - bins.low, least = kFewestTurns * 2.0 * std::numbers::pi / range;
   const EffectFit& form = kind.fits[0];
   double best = 0.0, most = -1.0;
-  const double step = std::max(0.1, 0.4 / range), end = std::min(kHighestOrder, 0.5 / bins.width);
-  for (double order = std::max(least, form.shapes[0].low); order < end; order += step) {
+  const double step = std::max(0.1 / study.axis_length, 0.4 / range),
+               end = std::min(kHighestOrder / study.axis_length, 0.5 / bins.width);
+  for (double order = std::max(least, unit_of(study, form.shapes[0]) * form.shapes[0].low);
+       order < end; order += step) {
     const double gain = order_gain(bins, order);
     if (gain > most) most = gain, best = order;
   }
   if (best == 0.0) return;
   for (const double v0 : form.shapes[1].seeds) {
-    list.push_back(make_member(kind, form, axes_of(study, kind).front(), study.has_torque(),
-                               Eigen::Vector2d(best, v0)));
-    list.back().least_shapes = Eigen::Vector2d(least, form.shapes[1].low);
+    list.push_back(make_member(study, kind, form, axes_of(study, kind).front(),
+                               Eigen::Vector2d(best, unit_of(study, form.shapes[1]) * v0)));
+    list.back().least_shapes(0) = least;
   }
 }
 

@@ -39,9 +39,7 @@ Eigen::MatrixXd published_gradient(const Member& member, const std::vector<std::
     } else {
       const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(k - amplitudes)];
       double& value = moved.shapes(k - amplitudes);
-      const double most = member.most_shapes.size() > k - amplitudes
-                              ? member.most_shapes(k - amplitudes)
-                              : shape.high;
+      const double most = member.most_shapes(k - amplitudes);
       if (search_scale(shape, value) + step > search_scale(shape, most)) step = -step;
       value = from_search_scale(moved, k - amplitudes, search_scale(shape, value) + step);
     }
@@ -168,7 +166,7 @@ std::vector<std::vector<Estimate>> estimates(const Setting& setting, const Joint
           interval_of(names[k], values(at), known ? kSelection * widest->deviation(at) : 0.0,
                       known && is_logarithmic(member, *widest, at, is_strength[k])));
     }
-    const bool is_mode = member.name() == "flexible_resonance" && member.most_shapes.size() > 0;
+    const bool is_mode = member.name() == "flexible_resonance";
     if (is_mode && !setting.study.without.refinement) {
       widen_over_hollows(setting, fit, m, all.back());
     }

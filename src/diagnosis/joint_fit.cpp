@@ -64,12 +64,9 @@ double longest_step(const std::vector<Member>& members, const Coordinate& c) {
 double difference_step(const Case& study, const std::vector<Member>& members, const Coordinate& c) {
   const Member& member = members[c.member];
   if (!c.is_shape) return std::max(1e-3 * std::abs(member.amplitudes(c.index)), 1e-5);
-  const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(c.index)];
   // A hum's frequency is known to a small part of a turn over all recordings.
   if (member.name() == "hum") return 0.003 / (span_seconds(study) * member.shapes(c.index));
-  const double high =
-      member.most_shapes.size() > c.index ? member.most_shapes(c.index) : shape.high;
-  return member.shapes(c.index) > 0.995 * high ? -1e-3 : 1e-3;
+  return member.shapes(c.index) > 0.995 * member.most_shapes(c.index) ? -1e-3 : 1e-3;
 }
 
 Eigen::MatrixXd derivatives(const Setting& setting, const Chain& chain,

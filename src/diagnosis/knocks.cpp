@@ -250,7 +250,7 @@ Knocks find_knocks(const Case& study, const Signals& left) {
   if (!best) return {};
   Knocks found;
   const auto name = static_cast<std::size_t>(study.channels[channel]);
-  found.member = make_member(kind, kind.fits[0], admitted_axes(AxisRule::kSensor)[name], false,
+  found.member = make_member(study, kind, kind.fits[0], admitted_axes(AxisRule::kSensor)[name],
                              Eigen::VectorXd::Constant(1, best->mean(1)));
   found.member->amplitudes(0) = best->mean(0);
   found.member->fixed = true;

@@ -18,8 +18,14 @@ int Member::parameters() const {
   return static_cast<int>(fitted + shapes.size()) + ends + (kind->special ? 1 : 0);
 }
 
-Member make_member(const EffectKind& kind, const EffectFit& form, const std::string& axis,
-                   bool with_torque, const Eigen::VectorXd& shapes) {
+double unit_of(const Case& study, const ShapeParameter& shape) {
+  return elementary::pow(study.axis_length, shape.length) *
+         elementary::pow(study.axis_seconds, shape.time);
+}
+
+Member make_member(const Case& study, const EffectKind& kind, const EffectFit& form,
+                   const std::string& axis, const Eigen::VectorXd& shapes) {
+  const bool with_torque = study.has_torque();
   const int count = with_torque && form.with_torque > 0 ? form.with_torque : form.amplitudes;
   Member member;
   member.kind = &kind;
@@ -27,6 +33,14 @@ Member make_member(const EffectKind& kind, const EffectFit& form, const std::str
   member.axis = axis;
   member.amplitudes = Eigen::VectorXd::Ones(count);
   member.shapes = shapes;
+  member.least_shapes = member.most_shapes = shapes;
+  for (Index i = 0; i < shapes.size(); ++i) {
+    const ShapeParameter& shape = form.shapes[static_cast<std::size_t>(i)];
+    member.least_shapes(i) = unit_of(study, shape) * shape.low;
+    member.most_shapes(i) = unit_of(study, shape) * shape.high;
+    const bool is_speed = shape.length == 1 && shape.time == -1;
+    if (is_speed) member.least_shapes(i) = std::max(member.least_shapes(i), study.axis_blur);
+  }
   return member;
 }
 
@@ -52,9 +66,8 @@ double search_scale(const ShapeParameter& shape, double value) {
 double from_search_scale(const Member& member, Index i, double coordinate) {
   const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(i)];
   const double value = shape.low > 0.0 ? elementary::exp(coordinate) : coordinate;
-  const double least = member.least_shapes.size() > i ? member.least_shapes(i) : shape.low;
-  const double most = member.most_shapes.size() > i ? member.most_shapes(i) : shape.high;
-  return std::clamp(value, std::min(least, most), most);
+  const double most = member.most_shapes(i);
+  return std::clamp(value, std::min(member.least_shapes(i), most), most);
 }
 
 }  // namespace dcnn

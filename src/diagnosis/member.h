@@ -8,6 +8,8 @@
 
 namespace dcnn {
 
+struct Case;
+
 struct Member {
   const EffectKind* kind = nullptr;
   const EffectFit* form = nullptr;  ///< one of kind->fits
@@ -15,11 +17,9 @@ struct Member {
   std::optional<std::pair<double, double>> interval_s;
   std::string recording;  ///< acts in this one only; empty for all
   Eigen::VectorXd amplitudes, shapes;
-  /// Least values of the shapes where these recordings can tell less than the effect allows: a
-  /// period that is never completed is a spring. Empty for none.
-  Eigen::VectorXd least_shapes;
-  /// The greatest ones, likewise: a mode above what the blocks hold does not ring in them.
-  Eigen::VectorXd most_shapes;
+  /// Bounds of the shapes: the effect's own, or closer where these recordings can tell less (a
+  /// period that is never completed is a spring; a mode above what the blocks hold does not ring).
+  Eigen::VectorXd least_shapes, most_shapes;
   /// Found at the full rate by a test of its own (hum above the blocks' band, rounding, clipping,
   /// knocks): the joint fit leaves it as it is.
   bool fixed = false;
@@ -36,9 +36,12 @@ struct Member {
 /// Laws of one kind (friction, drift, …) that act along the same axis.
 bool same_family(const Member& a, const Member& b);
 
+/// What a shape's bounds and seeds are multiplied by on the axis of a machine; 1 for a tool.
+double unit_of(const Case& study, const ShapeParameter& shape);
+
 /// A member with these shapes and unit amplitudes.
-Member make_member(const EffectKind& kind, const EffectFit& form, const std::string& axis,
-                   bool with_torque, const Eigen::VectorXd& shapes);
+Member make_member(const Case& study, const EffectKind& kind, const EffectFit& form,
+                   const std::string& axis, const Eigen::VectorXd& shapes);
 
 EffectSpec spec_of(const Member& member);
 std::vector<EffectSpec> specs_of(const std::vector<Member>& members);

@@ -80,6 +80,7 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
   // Colour must show in the upper part of the band too: motion may leak into its lowest bins.
   Index upper = 0;
   while (upper < hz.size() && hz(upper) < kUpperPart * hz(0)) ++upper;
+  if (upper == hz.size()) return best;
   const auto above = [&](const Eigen::VectorXd& v) {
     return Eigen::VectorXd(v.tail(v.size() - upper));
   };

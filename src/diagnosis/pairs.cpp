@@ -162,7 +162,7 @@ bool Search::split() {
   const auto made = [&](const char* effect, const std::string& axis,
                         const Eigen::VectorXd& shapes) {
     const EffectKind& kind = *find_effect(effect);
-    return make_member(kind, kind.fits[0], axis, study_.has_torque(), shapes);
+    return make_member(study_, kind, kind.fits[0], axis, shapes);
   };
   const auto one = [](double shape) { return Eigen::VectorXd::Constant(1, shape); };
   const auto lags = std::count_if(fit_.members.begin(), fit_.members.end(), is_lag);
@@ -170,8 +170,9 @@ bool Search::split() {
     const Member own = fit_.members[m];
     if (own.name() == "stribeck_friction") {
       for (const char* growing : {"viscous_friction", "quadratic_drag"}) {
-        for (const double v0 : {0.005, 0.03}) {  // m/s or rad/s
-          const Member dry = made("coulomb_friction", own.axis, one(v0));
+        for (const double v0 : {0.005, 0.03}) {  // of the axis' unit of speed
+          const double speed = v0 * study_.axis_length / study_.axis_seconds;
+          const Member dry = made("coulomb_friction", own.axis, one(speed));
           if (exchange(m, {dry, made(growing, own.axis, {})})) return true;
         }
       }

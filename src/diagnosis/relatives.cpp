@@ -21,8 +21,8 @@ constexpr double kSlowPart = 0.7;            // of what is left
 /// A cogging beside a spring, or a hysteresis, of its angle that would make less than a turn if it
 /// could: together they are a spring that bends.
 bool bends_a_spring(const Member& cogging, const std::vector<Member>& members) {
-  const bool least = cogging.name() == "cogging" && cogging.least_shapes.size() > 0 &&
-                     cogging.shapes(0) < 1.01 * cogging.least_shapes(0);
+  const bool least =
+      cogging.name() == "cogging" && cogging.shapes(0) < 1.01 * cogging.least_shapes(0);
   return least && std::any_of(members.begin(), members.end(), [&](const Member& m) {
            const bool bends = m.name() == "cable_spring" || m.name() == "hysteresis";
            return bends && m.axis == cogging.axis;
@@ -93,7 +93,7 @@ bool Search::take_back_relatives() {
   const bool drifts = fit_.members[at].kind->stage == Stage::kOffset;
   if (rest_loudness() > 1.0 && drifts && is_listed(study_, bias) &&
       std::none_of(rest.begin(), rest.end(), [&](const Member& m) { return m.kind == &bias; })) {
-    rest.push_back(make_member(bias, bias.fits[0], "", study_.has_torque(), {}));
+    rest.push_back(make_member(study_, bias, bias.fits[0], "", {}));
   }
   settle(rest);
   return true;

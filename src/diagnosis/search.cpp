@@ -29,9 +29,9 @@ constexpr int kMostMembers = 5, kMostFrictions = 14;
 /// has no such shape may do.
 bool is_degenerate(const Member& member) {
   for (Index i = 0; i < member.shapes.size(); ++i) {
-    const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(i)];
-    const double size = 1e-3 * std::max(std::abs(shape.high), std::abs(shape.low));
-    if (member.shapes(i) > shape.high - size) return true;
+    const double most = member.most_shapes(i);
+    const double size = 1e-3 * std::max(std::abs(most), std::abs(member.least_shapes(i)));
+    if (member.shapes(i) > most - size) return true;
   }
   return false;
 }

@@ -70,8 +70,7 @@ double linear_misfit(const Case& study, const std::vector<Member>& members) {
   for (const char* name : {"mass", "com", "gain", "crosstalk", "bias"}) {
     const EffectKind& kind = *find_effect(name);
     if (!is_listed(study, kind) || !is_testable(study, kind)) continue;
-    A = appended(A, scan.columns(make_member(kind, kind.fits[0], "", study.has_torque(),
-                                             Eigen::VectorXd(0))));
+    A = appended(A, scan.columns(make_member(study, kind, kind.fits[0], "", Eigen::VectorXd(0))));
   }
   return (empty.residual - A * least_squares(A, empty.residual)).squaredNorm();
 }

@@ -14,10 +14,10 @@ namespace dcnn {
 void Search::detect() {
   for (const Clipping& clip : clipping(study_)) {
     const EffectKind& kind = *find_effect("saturation");
-    Member member = make_member(kind, kind.fits[0],
+    Member member = make_member(study_, kind, kind.fits[0],
                                 admitted_axes(AxisRule::kSensor)[static_cast<std::size_t>(
                                     study_.channels[static_cast<std::size_t>(clip.channel)])],
-                                study_.has_torque(), Eigen::VectorXd::Constant(1, clip.limit));
+                                Eigen::VectorXd::Constant(1, clip.limit));
     member.fixed = true;
     // A limit is read off: known to the digit, or to the step that rounding makes of it.
     const double digit = std::max(reading_digit(study_), rounding_step(study_));
@@ -29,8 +29,7 @@ void Search::detect() {
   const double least = study_.axis ? floors_.front().deviation() : 0.0;
   if (const double step = rounding_step(study_); step > least) {
     const EffectKind& kind = *find_effect("quantisation");
-    Member member = make_member(kind, kind.fits[0], "", study_.has_torque(),
-                                Eigen::VectorXd::Constant(1, step));
+    Member member = make_member(study_, kind, kind.fits[0], "", Eigen::VectorXd::Constant(1, step));
     member.fixed = true;
     member.fixed_deviation = Eigen::VectorXd::Constant(1, rounding_deviation(study_, step));
     rounding_ = member;

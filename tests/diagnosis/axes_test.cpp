@@ -147,6 +147,26 @@ TEST(DiagnoseAxes, NamesDryFrictionAndAnOffsetWithTheirValues) {
   EXPECT_LT((written.values.col(1) - predict_axes(machine, hold)).cwiseAbs().maxCoeff(), 1e-9);
 }
 
+// The same machine logged in another unit of length, or a thousandth of its size: the same name.
+TEST(DiagnoseAxes, NamesTheSameInEveryUnit) {
+  const Bench bench([](const State& s) { return 0.8 * std::tanh(s.v / 0.01) + 0.9 * s.v; });
+  for (const double unit : {1e-3, 1e3}) {
+    for (const char* file : {"fit.csv", "hold.csv"}) {
+      Table table = read_csv(bench / file);
+      table.values.middleCols(1, 3) *= unit;
+      write_csv(bench / file, table);
+    }
+    const Json report = bench.diagnose(one_axis()).report;
+    ASSERT_EQ(report["findings"].size(), 2U) << report["findings"].dump(1);
+    const Json *dry = find(report, "coulomb_friction"), *drag = find(report, "viscous_friction");
+    ASSERT_TRUE(dry && drag) << report["findings"].dump(1);
+    const double length = unit < 1.0 ? unit : 1.0;  // of a radian, after both
+    EXPECT_NEAR(number(*dry, "fc", "N*m"), 0.8, 0.03);
+    EXPECT_NEAR(number(*dry, "v0", "rad/s") / length, 0.01, 0.01);
+    EXPECT_NEAR(number(*drag, "c", "N*m*s/rad") * length, 0.9, 0.06);
+  }
+}
+
 TEST(DiagnoseAxes, NamesACubicSpring) {
   const Bench bench([](const State& s) { return 0.6 * s.q + 2.0 * s.q * s.q * s.q; });
   const Json report =

@@ -19,7 +19,8 @@ namespace dcnn {
 struct Wrench {
   Eigen::MatrixXd force;   ///< (T,3) N
   Eigen::MatrixXd torque;  ///< (T,3) N·m, or (0,3)
-  /// (T,3) N, what is carried before any effect of Stage::kForce; no rows where nothing asks for it.
+  /// (T,3) N, what is carried before any effect of Stage::kForce; no rows where nothing asks for
+  /// it.
   Eigen::MatrixXd load = {};
 };
 
@@ -87,6 +88,9 @@ struct ShapeParameter {
   const char* name;
   double low, high;           ///< bounds; searched on a logarithmic scale where low > 0
   std::vector<double> seeds;  ///< where a search begins; empty where seeds come from the residual
+  /// Bounds and seeds are those of a motion of 1 rad and 1 rad/s; along an axis of a
+  /// machine they grow with these powers of its own length and time.
+  int length = 0, time = 0;
 };
 
 /// How an effect is found from data: the force is linear in its amplitudes where the shapes are

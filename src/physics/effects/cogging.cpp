@@ -25,7 +25,7 @@ const EffectKind effect{
     .apply = pushed<law>,
     .stream = pushing<law>,
     .fits = {{.amplitudes = 2,
-              .shapes = {{"order", 0.5, 200.0, {}}},
+              .shapes = {{"order", 0.5, 200.0, {}, -1}},
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
                     return Json{{"amp_n", a.norm()},

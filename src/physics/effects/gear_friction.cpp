@@ -54,7 +54,8 @@ const EffectKind effect{
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 3,
-              .shapes = {{"order", 0.5, 200.0, {}}, {"v0", 3e-4, 0.3, {0.003, 0.012, 0.05}}},
+              .shapes = {{"order", 0.5, 200.0, {}, -1},
+                         {"v0", 3e-4, 0.3, {0.003, 0.012, 0.05}, 1, -1}},
               .parameters = published}},
 };
 

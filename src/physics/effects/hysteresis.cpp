@@ -118,7 +118,7 @@ const EffectKind effect{
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 1,
-              .shapes = {{"width", 5e-3, 3.0, {0.05, 0.15, 0.4}}, {"asym", 0.0, 1.0, {0.5}}},
+              .shapes = {{"width", 5e-3, 3.0, {0.05, 0.15, 0.4}, 1}, {"asym", 0.0, 1.0, {0.5}}},
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
                     return Json{{"force_n", a(0)}, {"width_rad", s(0)}, {"asym", s(1)}};
@@ -126,7 +126,7 @@ const EffectKind effect{
              // The other sign of gamma: a curve that steepens after a turn back. A change of all
              // of force, width, beta and gamma leaves the law as it is; beta is 1.
              {.amplitudes = 1,
-              .shapes = {{"width", 5e-3, 3.0, {0.05, 0.15, 0.4}},
+              .shapes = {{"width", 5e-3, 3.0, {0.05, 0.15, 0.4}, 1},
                          {"gamma", -4.0, 0.0, {-0.6, -1.4}}},
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {

@@ -71,7 +71,8 @@ const EffectKind effect{
     .fits = {{.amplitudes = 1,
               .non_negative = true,
               // fc/sigma0, the reach of the bristles, and sigma1/sigma0: the force is linear in fc.
-              .shapes = {{"reach", 2e-5, 0.1, {3e-4, 1e-3, 4e-3}}, {"damping", 1e-5, 0.3, {1e-3}}},
+              .shapes = {{"reach", 2e-5, 0.1, {3e-4, 1e-3, 4e-3}, 1},
+                         {"damping", 1e-5, 0.3, {1e-3}, 0, 1}},
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
                     return Json{{"fc_n", a(0)},

@@ -29,7 +29,8 @@ const EffectKind effect{
     .stream = resisting<law>,
     .fits = {{.amplitudes = 2,
               .non_negative = true,
-              .shapes = {{"vs", 1e-3, 1.0, {0.01, 0.03, 0.1}}, {"v0", 3e-4, 0.3, {0.003, 0.012}}},
+              .shapes = {{"vs", 1e-3, 1.0, {0.01, 0.03, 0.1}, 1, -1},
+                         {"v0", 3e-4, 0.3, {0.003, 0.012}, 1, -1}},
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
                     return Json{{"fc_n", a(0)}, {"fs_n", a(1)}, {"vs_mps", s(0)}, {"v0_mps", s(1)}};
