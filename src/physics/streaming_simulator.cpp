@@ -24,13 +24,13 @@ FeatureLayout layout_for(const ToolModel& model, const DerivativeSpec& derivativ
   return layout;
 }
 
+}  // namespace
+
 bool runs_online(const EffectSpec& effect) {
   const EffectKind* kind = find_effect(effect.effect);
   return kind && !effect.interval_s && effect.recording.empty() && (kind->change || kind->stream) &&
          (!kind->online || kind->online(effect));
 }
-
-}  // namespace
 
 Simulator online_part(const Simulator& simulator, std::vector<std::string>& left_out) {
   Simulator part = simulator;

@@ -42,6 +42,8 @@ class StreamingSimulator {
   InstantWrench wrench_;
 };
 
+/// Whether an effect can be known sample by sample, as they come.
+bool runs_online(const EffectSpec& effect);
 /// The effects of a simulator that run online, the names of the others in `left_out`.
 Simulator online_part(const Simulator& simulator, std::vector<std::string>& left_out);
 
