@@ -60,9 +60,14 @@ Exit forward(const Command& command, const ReadOptions& read, const Tool& tool) 
   AxisMachine machine = parse_axis_machine(read_json(command.model, Exit::kModel),
                                            command.model.string(), Exit::kModel);
   const std::size_t axis = axis_of(machine, command.axis);
+  std::vector<std::string> left_out;
+  machine = forward_part(std::move(machine), axis, left_out);
+  for (const std::string& effect : left_out) {
+    tool.note("left out: " + effect + ", which is no force that the motion at hand makes");
+  }
   const Axis& own = machine.system.axes[axis];
   const std::string unit = " " + own.position_unit;
-  Json summary = {{"axis", own.name}, {"position_unit", own.position_unit}};
+  Json summary = {{"axis", own.name}, {"position_unit", own.position_unit}, {"left_out", left_out}};
   std::string text;
   if (!command.fit.empty()) {
     std::vector<Recording> recordings;
@@ -88,6 +93,7 @@ Exit forward(const Command& command, const ReadOptions& read, const Tool& tool) 
     Recording recording = read_recording(*command.data, read, machine.system);
     const Eigen::MatrixXd motion = simulated_motion(machine, axis, recording);
     const ForwardError error = error_of(motion, recording, own);
+    summary["recording"] = recording.name;
     summary["rmse"] = error.whole;
     summary["rmse_settled"] = error.settled;
     text += "simulated   error " + brief(error.whole) + unit + ", " + brief(error.settled) + unit +

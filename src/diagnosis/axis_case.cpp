@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "dcnn/data/filter.h"
 #include "dcnn/physics/axis_machine.h"
@@ -165,8 +164,13 @@ Case axis_case(std::shared_ptr<const AxisPlan> plan, double motion_hz) {
   return study;
 }
 
-/// Amplitudes of position and rate, as those of sines of the same deviation. Without a position the
-/// length is what is passed in a second.
+/// By how much an amplitude leaves what machines of usual size move by, or how fast: 0.05 to 5 rad
+/// or m, and as much in a second. Laws of friction have their scales in these units; a machine far
+/// from that size, or logged in another unit, has its own.
+double beyond_usual(double amplitude) { return amplitude / std::clamp(amplitude, 0.05, 5.0); }
+
+/// From amplitudes of position and rate, as those of sines of the same deviation. Without a position
+/// the length is what is passed in a second.
 void set_axis_units(Case& study) {
   double position = 0.0, rate = 0.0, rows = 0.0;
   for (const Log& log : study.logs) {
@@ -175,13 +179,10 @@ void set_axis_units(Case& study) {
     if (log.motion.v_B.rows() > 0) rate += log.motion.v_B.col(0).squaredNorm();
     rows += static_cast<double>(q.size());
   }
-  const double length = std::sqrt(2.0 * position / rows);
-  const double speed = std::sqrt(2.0 * rate / rows);
+  const double length = std::sqrt(2.0 * position / rows), speed = std::sqrt(2.0 * rate / rows);
   if (!study.axis_moves || !(speed > 0.0)) return;
-  study.axis_length = length > 0.0 ? length : speed;
-  study.axis_seconds = study.axis_length / speed;
-  const double acceleration = speed / study.axis_seconds;
-  study.axis_blur = acceleration / (2.0 * std::numbers::pi * study.motion_hz);
+  study.axis_length = beyond_usual(length > 0.0 ? length : speed);
+  study.axis_seconds = study.axis_length / beyond_usual(speed);
 }
 
 }  // namespace

@@ -42,13 +42,9 @@ struct Case {
   Simulator simulator;                   ///< as given; an empty tool where somebody else's predicts
   bool own_tool = true;                  ///< mass and centre of mass mean something
   std::shared_ptr<const AxisPlan> axis;  ///< of another machine, seen as a force along x; or null
-  /// Amplitude of its position (of a sine of that deviation) in the unit of the log, and that over
-  /// the amplitude of its rate [s]; both 1 for a tool. Shapes are looked for in these units.
+  /// Units of length and time in which shapes along the axis are looked for; 1 for a tool, and for
+  /// a machine of usual size in rad or m and seconds.
   double axis_length = 1.0, axis_seconds = 1.0;
-  /// How much its rate changes, at its usual acceleration, within what the motion's band resolves
-  /// (1/(2 pi motion_hz)), in the unit of the log: no speed below it shapes what is seen. 0 for a
-  /// tool.
-  double axis_blur = 0.0;
   bool axis_moves = true;             ///< by more than the noise of its position
   Eigen::VectorXd base_coefficients;  ///< of the base simulator's columns that are used
   double lowpass_hz =

@@ -38,8 +38,6 @@ Member make_member(const Case& study, const EffectKind& kind, const EffectFit& f
     const ShapeParameter& shape = form.shapes[static_cast<std::size_t>(i)];
     member.least_shapes(i) = unit_of(study, shape) * shape.low;
     member.most_shapes(i) = unit_of(study, shape) * shape.high;
-    const bool is_speed = shape.length == 1 && shape.time == -1;
-    if (is_speed) member.least_shapes(i) = std::max(member.least_shapes(i), study.axis_blur);
   }
   return member;
 }

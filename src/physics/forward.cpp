@@ -174,7 +174,23 @@ class ForwardRun {
   MovingState now_;
 };
 
+bool runs_forwards(const EffectSpec& effect) {
+  const EffectKind* kind = find_effect(effect.effect);
+  return kind && kind->stream && runs_online(effect) &&
+         (kind->stage == Stage::kForce || kind->stage == Stage::kOffset);
+}
+
 }  // namespace
+
+AxisMachine forward_part(AxisMachine machine, std::size_t axis,
+                         std::vector<std::string>& left_out) {
+  std::erase_if(machine.axes[axis].effects, [&](const EffectSpec& effect) {
+    const bool leaves = !runs_forwards(effect);
+    if (leaves) left_out.push_back(effect.effect);
+    return leaves;
+  });
+  return machine;
+}
 
 ForwardAxis::ForwardAxis(const AxisMachine& machine, std::size_t axis, double dt, std::string where,
                          Exit exit)
@@ -202,9 +218,8 @@ ForwardAxis::ForwardAxis(const AxisMachine& machine, std::size_t axis, double dt
   for (const EffectKind* kind : effect_kinds()) {
     for (const EffectSpec& effect : corrected.effects) {
       if (effect.effect != kind->name) continue;
-      const bool of_force = kind->stage == Stage::kForce || kind->stage == Stage::kOffset;
-      require(runs_online(effect) && kind->stream && of_force, exit, where_, ": its effect '",
-              effect.effect, "' is no force that the motion at hand makes; leave it out");
+      require(runs_forwards(effect), exit, where_, ": its effect '", effect.effect,
+              "' is no force that the motion at hand makes; leave it out");
       Options parameters(effect.parameters, where_, exit);
       law_.memory.push_back(kind->stream(effect, parameters));
     }

@@ -19,8 +19,7 @@ namespace dcnn {
 struct Wrench {
   Eigen::MatrixXd force;   ///< (T,3) N
   Eigen::MatrixXd torque;  ///< (T,3) N·m, or (0,3)
-  /// (T,3) N, what is carried before any effect of Stage::kForce; no rows where nothing asks for
-  /// it.
+  /// (T,3) N, what is carried before any effect of Stage::kForce; no rows where nothing asks for it.
   Eigen::MatrixXd load = {};
 };
 
@@ -88,8 +87,8 @@ struct ShapeParameter {
   const char* name;
   double low, high;           ///< bounds; searched on a logarithmic scale where low > 0
   std::vector<double> seeds;  ///< where a search begins; empty where seeds come from the residual
-  /// Bounds and seeds are those of a motion of 1 rad and 1 rad/s; along an axis of a
-  /// machine they grow with these powers of its own length and time.
+  /// Bounds and seeds are in rad or m and s; along an axis of a machine of another size they grow
+  /// with these powers of its units of length and time.
   int length = 0, time = 0;
 };
 

@@ -41,6 +41,10 @@ class ForwardAxis {
   std::string where_;
 };
 
+/// The machine without the effects of an axis that cannot be simulated forwards, whose names are
+/// appended to `left_out`.
+AxisMachine forward_part(AxisMachine machine, std::size_t axis, std::vector<std::string>& left_out);
+
 /// The numbers of an axis that its own motion can tell, as a report publishes them: coefficients of
 /// its base, then parameters of effects that vary from one to another (no fixed scale).
 class ForwardNumbers {
