@@ -18,7 +18,7 @@ using testing::contains;
 
 constexpr double kNoise = 2e-4;
 
-/// 20 s at 400 Hz of 0.5 a + 2 v + 900 q + 4000 q^3 = u, by Runge and Kutta in tenths of a sample.
+/// 20 s at 400 Hz of 0.5 a + 5 v + 900 q + 4000 q^3 = u, by Runge and Kutta in tenths of a sample.
 void write_oscillator(const std::filesystem::path& file, double phase, std::uint64_t seed) {
   const auto drive = [&](double t) {
     double u = 0.0;
@@ -29,7 +29,7 @@ void write_oscillator(const std::filesystem::path& file, double phase, std::uint
   };
   const auto rate = [&](double t, const Eigen::Vector2d& x) {
     const double q = x(0), v = x(1);
-    return Eigen::Vector2d(v, (drive(t) - 2.0 * v - 900.0 * q - 4000.0 * q * q * q) / 0.5);
+    return Eigen::Vector2d(v, (drive(t) - 5.0 * v - 900.0 * q - 4000.0 * q * q * q) / 0.5);
   };
   Rng rng({seed});
   Table table;
@@ -66,12 +66,12 @@ class ForwardPrograms : public ::testing::Test {
 };
 
 TEST_F(ForwardPrograms, ALogBecomesASimulatorThatMovesLikeIt) {
-  const auto diagnosed = run({"dcnn-diagnose", "-q", "--system", at("system.json"), "--fit",
-                              at("fit.csv"), "--out", at("report")});
+  const auto diagnosed = run("diagnose", {"-q", "--system", at("system.json"), "--fit",
+                                          at("fit.csv"), "--out", at("report")});
   ASSERT_EQ(diagnosed.exit_code, 0) << diagnosed.err;
   ASSERT_TRUE(contains(diagnosed.out, "cubic_spring")) << diagnosed.out;
-  const auto refined = run({"dcnn-forward", "-q", "--json", at("report/model.json"), "--fit",
-                            at("fit.csv"), "--save", at("refined.json")});
+  const auto refined = run("forward", {"-q", "--json", at("report/model.json"), "--fit",
+                                       at("fit.csv"), "--save", at("refined.json")});
   ASSERT_EQ(refined.exit_code, 0) << refined.err;
   const Json numbers = Json::parse(refined.out)["numbers"];
   for (const Json& number : numbers) {
@@ -79,8 +79,8 @@ TEST_F(ForwardPrograms, ALogBecomesASimulatorThatMovesLikeIt) {
     EXPECT_NEAR(number["after"].get<double>(), 4000.0, 4.0 * number["deviation"].get<double>());
     EXPECT_LT(number["deviation"].get<double>(), 60.0);
   }
-  const auto simulated = run({"dcnn-forward", "-q", "--json", at("refined.json"), "--data",
-                              at("test.csv"), "--out", at("simulated.csv")});
+  const auto simulated = run("forward", {"-q", "--json", at("refined.json"), "--data",
+                                         at("test.csv"), "--out", at("simulated.csv")});
   ASSERT_EQ(simulated.exit_code, 0) << simulated.err;
   const Json summary = Json::parse(simulated.out);
   EXPECT_LT(summary["rmse_settled"].get<double>(), 1.1 * kNoise);  // the noise of what was logged
@@ -90,13 +90,13 @@ TEST_F(ForwardPrograms, ALogBecomesASimulatorThatMovesLikeIt) {
 }
 
 TEST_F(ForwardPrograms, SaysWhatIsWrong) {
-  const auto nothing = run({"dcnn-forward", at("system.json")});
+  const auto nothing = run("forward", {at("system.json")});
   EXPECT_EQ(nothing.exit_code, 2);
   EXPECT_TRUE(contains(nothing.err, "give --data to simulate, --fit to refine, or both"));
-  const auto foreign = run({"dcnn-forward", at("system.json"), "--data", at("test.csv")});
+  const auto foreign = run("forward", {at("system.json"), "--data", at("test.csv")});
   EXPECT_EQ(foreign.exit_code, 4) << foreign.err;
-  const auto save = run(
-      {"dcnn-forward", at("system.json"), "--data", at("test.csv"), "--save", at("other.json")});
+  const auto save =
+      run("forward", {at("system.json"), "--data", at("test.csv"), "--save", at("other.json")});
   EXPECT_EQ(save.exit_code, 2) << save.err;
 }
 
