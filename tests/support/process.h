@@ -63,8 +63,12 @@ struct Surroundings {
 class Process {
  public:
   Process(const std::string& verb, std::vector<std::string> arguments,
+          const Surroundings& around = {})
+      : Process(std::filesystem::path(DCNN_BIN_DIR) / ("dcnn-" + verb), std::move(arguments),
+                around) {}
+  Process(const std::filesystem::path& program, std::vector<std::string> arguments,
           const Surroundings& around = {}) {
-    arguments.insert(arguments.begin(), std::string(DCNN_BIN_DIR) + "/dcnn-" + verb);
+    arguments.insert(arguments.begin(), program.string());
     arguments.insert(arguments.begin(), around.wrapper.begin(), around.wrapper.end());
     std::vector<char*> argv;
     for (auto& argument : arguments) argv.push_back(argument.data());
