@@ -43,8 +43,7 @@ class Numbers {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Simulator simulator =
-      parse_simulator(Json::parse(kTool), "tool", Exit::kFailure);
+  static const Simulator simulator = parse_simulator(Json::parse(kTool), "tool", Exit::kFailure);
   Numbers in(data, size);
   CompensatorOptions options;
   options.guard.warmup_cycles = 3;
@@ -86,7 +85,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const OnlineResult& result = what % 8 == 7 ? compensator.miss() : compensator.step(sample);
     fuzz::demand(result.external.allFinite() && result.bias.allFinite() && std::isfinite(result.t),
                  "an output that is not finite");
-    fuzz::demand(result.bias.cwiseAbs().maxCoeff() <= options.bias_limit_n, "a bias beyond its limit");
+    fuzz::demand(result.bias.cwiseAbs().maxCoeff() <= options.bias_limit_n,
+                 "a bias beyond its limit");
     for (int i = 0; i < 6; ++i) {
       const double limit = i < 3 ? options.guard.force_n : options.guard.torque_nm;
       const double slew = i < 3 ? options.guard.slew_n : options.guard.slew_nm;

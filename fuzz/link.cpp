@@ -43,7 +43,8 @@ class Conversation {
   /// A packet of the robot at dcnn-run, some of its bytes exchanged; and the answer at the robot.
   void deliver(std::span<const std::uint8_t> packet, std::span<const std::uint8_t> bytes) {
     std::vector<std::uint8_t> sent(packet.begin(), packet.end());
-    for (std::size_t k = 0; k + 1 < bytes.size(); k += 2) sent[bytes[k] % sent.size()] ^= bytes[k + 1];
+    for (std::size_t k = 0; k + 1 < bytes.size(); k += 2)
+      sent[bytes[k] % sent.size()] ^= bytes[k + 1];
     const bool whole = std::equal(sent.begin(), sent.end(), packet.begin());
     OnlineSample taken;
     const Verdict verdict = gate_.judge(sent, now_, taken);

@@ -182,8 +182,7 @@ std::optional<fs::path> replaced_file(const fs::path& path) {
 FolderLock::FolderLock(const fs::path& folder) {
   if (!is_first_rank()) return;
   make_folder(folder);
-  folder_ =
-      completed([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
+  folder_ = completed([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
   check(folder_ >= 0, Exit::kFailure, folder, "cannot open this folder");
   // A file system that cannot lock folders (NFS) is not refused.
   const bool locked = completed([&] { return ::flock(folder_, LOCK_EX | LOCK_NB); }) == 0;

@@ -30,9 +30,8 @@ std::span<const std::uint8_t> RobotSession::sample(const OnlineSample& sample) n
 
 std::optional<WireResult> RobotSession::take_result(std::span<const std::uint8_t> bytes) noexcept {
   const auto header = header_of(bytes);
-  if (bytes.size() != kResultBytes || !header || header->kind != PacketKind::kResult ||
-      !open() || header->session != session_ || header->sequence <= newest_ ||
-      !is_authentic(bytes, key_)) {
+  if (bytes.size() != kResultBytes || !header || header->kind != PacketKind::kResult || !open() ||
+      header->session != session_ || header->sequence <= newest_ || !is_authentic(bytes, key_)) {
     return std::nullopt;
   }
   newest_ = header->sequence;

@@ -209,8 +209,8 @@ Json serve_lines(OnlineCompensator& compensator, int in, int out, PlotStream* pl
   LineWriter answers(out);
   const auto header = lines.next();
   const auto require_end = [&] {
-    require(lines.error() == 0, Exit::kFailure, "standard input: cannot read: ",
-            std::strerror(lines.error()));
+    require(lines.error() == 0, Exit::kFailure,
+            "standard input: cannot read: ", std::strerror(lines.error()));
   };
   if (!header) require_end();
   require(header.has_value(), Exit::kData, "standard input: is empty; give a header and rows");

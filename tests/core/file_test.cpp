@@ -81,7 +81,6 @@ TEST(ReadFile, RefusesFoldersMissingAndOversizedFiles) {
   EXPECT_THROW(read_file(folder / "big", 100, Exit::kData), Error);
 }
 
-
 std::string error_text(const std::function<void()>& action) {
   try {
     action();
@@ -190,12 +189,12 @@ TEST(ReadFile, TakesUpToTheMostAndNoByteMore) {
   write_file(folder / "empty", "");
   EXPECT_EQ(read_file(folder / "x", 100, Exit::kData).size(), 100U);
   EXPECT_EQ(read_file(folder / "empty", 0, Exit::kData), "");
-  EXPECT_TRUE(says(error_text([&] { read_file(folder / "x", 99, Exit::kModel); }),
-                   "larger than 99 bytes"));
+  EXPECT_TRUE(
+      says(error_text([&] { read_file(folder / "x", 99, Exit::kModel); }), "larger than 99 bytes"));
   EXPECT_TRUE(says(error_text([&] { read_file(folder / "none", 9, Exit::kModel); }),
                    "cannot open: No such file or directory"));
-  EXPECT_TRUE(says(error_text([&] { read_file("/dev/null", 9, Exit::kModel); }),
-                   "is not a regular file"));
+  EXPECT_TRUE(
+      says(error_text([&] { read_file("/dev/null", 9, Exit::kModel); }), "is not a regular file"));
 }
 
 /// What this program does in a process of its own, where one of its calls may fail.
@@ -222,11 +221,11 @@ std::string told(const std::string& what, const std::filesystem::path& path,
                  std::vector<std::string> environment = {}, const std::string& input = {}) {
   environment.push_back("DO_WHAT=" + what);
   environment.push_back("DO_PATH=" + path.string());
-  const auto result = test::Process(std::filesystem::path("/proc/self/exe"),
-                                    {"--gtest_also_run_disabled_tests",
-                                     "--gtest_filter=DISABLED_InAProcess.*"},
-                                    {.input = input, .environment = environment})
-                          .wait();
+  const auto result =
+      test::Process(std::filesystem::path("/proc/self/exe"),
+                    {"--gtest_also_run_disabled_tests", "--gtest_filter=DISABLED_InAProcess.*"},
+                    {.input = input, .environment = environment})
+          .wait();
   const auto begin = result.out.find("\n<"), end = result.out.rfind('>');
   if (begin == std::string::npos || end == std::string::npos) return result.out + result.err;
   return result.out.substr(begin + 2, end - begin - 2);
@@ -300,8 +299,8 @@ TEST_F(FileFaults, OfSyncingAreSaid) {
                  [&](int place, int error, const std::string& said) {
                    if (harmless(error)) return expect_new(said);
                    if (place == 1) return expect_old(said, "cannot write", error);
-                   EXPECT_EQ(said, "error: " + path_.parent_path().string() + ": cannot write: " +
-                                       std::strerror(error));
+                   EXPECT_EQ(said, "error: " + path_.parent_path().string() +
+                                       ": cannot write: " + std::strerror(error));
                    EXPECT_EQ(test::slurp(path_), "the new bytes");
                  }),
             0);
@@ -325,11 +324,10 @@ TEST_F(FileFaults, OfReadingAreSaidAndShortReadsGoOn) {
     const bool opening = call == std::string("open");
     EXPECT_GT(each("read", call,
                    [&](int, int error, const std::string& said) {
-                     EXPECT_EQ(said, harmless(error)
-                                         ? "done: the old bytes"
-                                         : "error: " + path_.string() + ": cannot " +
-                                               (opening ? "open: " : "read: ") +
-                                               std::strerror(error));
+                     EXPECT_EQ(said, harmless(error) ? "done: the old bytes"
+                                                     : "error: " + path_.string() + ": cannot " +
+                                                           (opening ? "open: " : "read: ") +
+                                                           std::strerror(error));
                    }),
               0);
   }
@@ -355,9 +353,9 @@ TEST_F(FileFaults, OfLockingThatASignalCausesAreTriedAgain) {
   const auto locked = folder_ / "out";
   EXPECT_TRUE(says(told("lock", locked), "another process is writing here"));
   for (const char* call : {"flock", "open"}) {
-    EXPECT_TRUE(says(told("lock", locked,
-                          test::fault_environment(call, 1, EINTR, folder_ / "mark")),
-                     "another process is writing here"))
+    EXPECT_TRUE(
+        says(told("lock", locked, test::fault_environment(call, 1, EINTR, folder_ / "mark")),
+             "another process is writing here"))
         << call;
   }
   EXPECT_TRUE(says(told("lock", locked, test::fault_environment("open", 1, EACCES, folder_ / "m")),

@@ -119,8 +119,11 @@ TEST(Checks, TargetsAreAForceOrAWrenchInAnyOrder) {
   EXPECT_EQ(places({"fz", "fx", "fy"}), (std::vector<Index>{2, 0, 1}));
   EXPECT_EQ(places({"tx", "ty", "tz", "fx", "fy", "fz"}), (std::vector<Index>{3, 4, 5, 0, 1, 2}));
   expect_refused([&] { places({"fx", "fy", "tau"}); }, "predicts 'tau'");
-  for (const auto& part : std::vector<std::vector<std::string>>{
-           {"fx"}, {"fx", "fy"}, {"fx", "fy", "fy"}, {"tx", "ty", "tz"}, {"fx", "fy", "fz", "tx"}}) {
+  for (const auto& part : std::vector<std::vector<std::string>>{{"fx"},
+                                                                {"fx", "fy"},
+                                                                {"fx", "fy", "fy"},
+                                                                {"tx", "ty", "tz"},
+                                                                {"fx", "fy", "fz", "tx"}}) {
     expect_refused([&] { places(part); }, "must predict fx,fy,fz");
   }
 }

@@ -38,9 +38,9 @@ inline std::string words_of_fault(const std::string& call, int place, int error)
 /// What makes the `place`-th call fail in a program that is given it; `mark` is made when it has.
 inline std::vector<std::string> fault_environment(const std::string& call, int place, int error,
                                                   const std::filesystem::path& mark) {
-  return {"LD_PRELOAD=" DCNN_FAIL_CALLS,        "FAIL_CALL=" + call,
-          "FAIL_AT=" + std::to_string(place),   "FAIL_ERRNO=" + std::to_string(error),
-          "FAIL_MARK=" + mark.string(),         "OMP_NUM_THREADS=1"};
+  return {"LD_PRELOAD=" DCNN_FAIL_CALLS,      "FAIL_CALL=" + call,
+          "FAIL_AT=" + std::to_string(place), "FAIL_ERRNO=" + std::to_string(error),
+          "FAIL_MARK=" + mark.string(),       "OMP_NUM_THREADS=1"};
 }
 
 }  // namespace dcnn::test
