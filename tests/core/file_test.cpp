@@ -222,7 +222,7 @@ std::string told(const std::string& what, const std::filesystem::path& path,
   environment.push_back("DO_WHAT=" + what);
   environment.push_back("DO_PATH=" + path.string());
   const auto result =
-      test::Process(std::filesystem::path("/proc/self/exe"),
+      test::Process(test::Program{"/proc/self/exe"},
                     {"--gtest_also_run_disabled_tests", "--gtest_filter=DISABLED_InAProcess.*"},
                     {.input = input, .environment = environment})
           .wait();

@@ -26,8 +26,8 @@ Identifier fitted_identifier(bool torques = false) {
   identifier.configuration = task.problem.configuration;
   identifier.seed = 18446744073709551615U;
   identifier.model = test::fitted("rigid", task);
-  identifier.online = learn_limits(*identifier.model, identifier.targets, task.samples, {},
-                                   identifier.layout.dt);
+  identifier.online =
+      learn_limits(*identifier.model, identifier.targets, task.samples, {}, identifier.layout.dt);
   return identifier;
 }
 
@@ -98,8 +98,7 @@ TEST(IdentifierFile, ThePredictionIsThatOfTheModelAndOfTheBase) {
     identifier.base = base_of_identifier(true);
     const Eigen::MatrixXd base = identifier.base_prediction(log);
     EXPECT_EQ(identifier.predict(log), alone + base);
-    const Motion motion =
-        motion_of(log, identifier.base->model, identifier.layout.spec.derivative);
+    const Motion motion = motion_of(log, identifier.base->model, identifier.layout.spec.derivative);
     const Wrench wrench = simulate(*identifier.base, motion, nullptr, nullptr);
     ASSERT_EQ(base.cols(), torques ? 6 : 3);
     EXPECT_EQ(base.leftCols(3), wrench.force);
@@ -139,8 +138,8 @@ TEST(IdentifierFile, OfAnotherFormatIsRefused) {
   EXPECT_TRUE(mentions(set("format", "dcnn-checkpoint"), "not a model of this program"));
   EXPECT_TRUE(mentions(set("format_version", "2"), "format version 2, this program reads 1"));
   EXPECT_TRUE(mentions(set("model", "transformer"), "transformer"));
-  for (const char* key : {"format", "format_version", "model", "features", "targets",
-                          "configuration", "seed"}) {
+  for (const char* key :
+       {"format", "format_version", "model", "features", "targets", "configuration", "seed"}) {
     EXPECT_NE(opened([&](Container& file) { file.metadata.erase(key); }), "") << key;
   }
   for (const char* key : {"features", "targets", "configuration", "online"}) {
@@ -150,15 +149,14 @@ TEST(IdentifierFile, OfAnotherFormatIsRefused) {
 
 TEST(IdentifierFile, PartsThatDoNotBelongTogetherAreRefused) {
   const Json three = {"fx", "fy", "fz"};
-  for (const Json& names : {Json{"fx", "fy"}, Json{"fx", "fy", "fz", "tx"}, Json::array(), Json(7),
-                            Json{1, 2, 3}}) {
+  for (const Json& names :
+       {Json{"fx", "fy"}, Json{"fx", "fy", "fz", "tx"}, Json::array(), Json(7), Json{1, 2, 3}}) {
     EXPECT_NE(opened_with("targets", "names", names), "") << names.dump();
   }
   EXPECT_TRUE(mentions(opened_with("targets", "units", {"N"}), "list of targets"));
-  EXPECT_TRUE(mentions(opened([](Container& file) {
-                         file.metadata["targets"] = R"({"names": [], "units": []})";
-                       }),
-                       "list of targets"));
+  EXPECT_TRUE(mentions(
+      opened([](Container& file) { file.metadata["targets"] = R"({"names": [], "units": []})"; }),
+      "list of targets"));
   EXPECT_TRUE(mentions(opened([](Container& file) {
                          file.metadata["targets"] =
                              R"({"names": ["fx", "fy"], "units": ["N", "N"]})";

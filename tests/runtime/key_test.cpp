@@ -121,7 +121,7 @@ TEST(PacketKeyFile, AFaultOfAnyCallIsSaidAndNoHalfKeyStays) {
         std::filesystem::remove(mark);
         auto environment = test::fault_environment(call, place, error, mark);
         environment.push_back("DO_PATH=" + path.string());
-        const auto result = test::Process(std::filesystem::path("/proc/self/exe"),
+        const auto result = test::Process(test::Program{"/proc/self/exe"},
                                           {"--gtest_also_run_disabled_tests",
                                            "--gtest_filter=DISABLED_KeyInAProcess.*"},
                                           {.environment = environment})

@@ -1,4 +1,4 @@
-// One test of this program, run again in a process of its own in which one system call fails.
+// System calls of a program that fail once: tests/support/fail_calls.cpp does it.
 #pragma once
 
 #include <cerrno>
