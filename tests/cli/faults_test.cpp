@@ -227,8 +227,12 @@ TEST_F(SocketFaults, AtTheStartAreOneLine) {
   if (test::kSanitized) GTEST_SKIP() << "the sanitizer must be loaded first";
   for (const char* call : {"socket", "bind", "connect"}) {
     for (const int error : test::errors_of_calls().at(call)) {
-      test::Result result;
-      answered(test::fault_environment(call, 1, error, folder_ / "mark"), result);
+      const auto [server, robot] = test::free_ports();
+      const auto result =
+          test::run("run",
+                    {"--model", test::bench().simulator, "--contact", "0.5", "-q", "--listen",
+                     server, "--peer", robot, "--key-file", key_, "--seconds", "0.1"},
+                    {.environment = test::fault_environment(call, 1, error, folder_ / "mark")});
       const std::string fault = test::words_of_fault(call, 1, error) + ": " + result.err;
       EXPECT_EQ(result.exit_code, 1) << fault;
       EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << fault;
