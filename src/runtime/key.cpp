@@ -33,7 +33,7 @@ PacketKey read_packet_key(const std::filesystem::path& path) {
 
 void make_packet_key(const std::filesystem::path& path) {
   require(sodium_init() >= 0, Exit::kFailure, "no source of randomness");
-  PacketKey key;
+  PacketKey key{};
   randombytes_buf(key.data(), key.size());
   constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
   const Descriptor file(completed([&] { return ::open(path.c_str(), kFlags, 0600); }));

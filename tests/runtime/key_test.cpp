@@ -58,6 +58,20 @@ TEST(PacketKeyFile, IsReadAsItWasMade) {
   EXPECT_NE(read_packet_key(folder / "other"), key);
 }
 
+/// A process whose standard input is closed gets the number 0 for the file.
+TEST(PacketKeyFile, IsMadeAndReadByTheLowestDescriptor) {
+  const test::TemporaryFolder folder;
+  const int kept = ::dup(STDIN_FILENO);
+  ::close(STDIN_FILENO);
+  make_packet_key(folder / "key");
+  const PacketKey key = read_packet_key(folder / "key");
+  if (kept >= 0) {
+    ::dup2(kept, STDIN_FILENO);
+    ::close(kept);
+  }
+  EXPECT_EQ(std::string(key.begin(), key.end()), test::slurp(folder / "key"));
+}
+
 TEST(PacketKeyFile, IsNeverReplaced) {
   const test::TemporaryFolder folder;
   const auto path = key_with(folder, "precious");

@@ -233,6 +233,13 @@ TEST(Packet, TheWindowAndTheAgeEndWhereTheyAreSaidTo) {
     EXPECT_EQ(steady.judge(sealed(2, 0.002), 0.1, got), Verdict::kStale);
   }
   EXPECT_EQ(steady.judge(sealed(2, 0.1), 0.1 + 0.5 * kOldest, got), Verdict::kAccepted);
+  const double drift = 1e-4 * 0.25;  // after a quarter of a second
+  PacketGate exact(key_of(1), kSession, 1.25 - drift);
+  ASSERT_EQ(exact.judge(sealed(1, 0.0), 0.0, got), Verdict::kAccepted);
+  EXPECT_EQ(exact.judge(sealed(2, -1.0), 0.25, got), Verdict::kAccepted);
+  PacketGate still(key_of(1), kSession);
+  ASSERT_EQ(still.judge(sealed(1, 0.0), 0.0, got), Verdict::kAccepted);
+  EXPECT_EQ(still.judge(sealed(2, 0.0), PacketGate::kForgotten, got), Verdict::kStale);
   // Half a second of silence and less: the old comparison; more: a new one.
   for (const bool silent : {false, true}) {
     PacketGate waking(key_of(1), kSession);
