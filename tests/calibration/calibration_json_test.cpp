@@ -118,8 +118,9 @@ TEST(CalibrationFile, TakesNoOtherShapesAndNumbers) {
     EXPECT_NE(with("offset_n", value), "") << value.dump();
   }
   for (const double gain : {0.0, -1.0, 1e-300, 1e300}) {
-    EXPECT_TRUE(tells(with("gain", gain), "gain")) << gain;
+    EXPECT_TRUE(tells(with("gain", gain), "gain must be between 1e-06 and 1e+06")) << gain;
   }
+  for (const double gain : {1.0 / 1e6, 1e6}) EXPECT_EQ(with("gain", gain), "") << gain;
   for (const double most : {1e9, -1e9}) {
     EXPECT_EQ(with("offset_n", {0.0, most, 0.0}), "");
     EXPECT_TRUE(tells(with("offset_n", {0.0, 1.0001 * most, 0.0}), "offset_n"));
