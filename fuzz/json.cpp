@@ -2,7 +2,11 @@
 #include "dcnn/calibration/calibration.h"
 #include "dcnn/data/features.h"
 #include "dcnn/data/input_map.h"
+#include "dcnn/design/limits.h"
+#include "dcnn/import/recipe.h"
+#include "dcnn/models/online_limits.h"
 #include "dcnn/physics/simulator.h"
+#include "dcnn/teleop/teleop.h"
 #include "fuzz/support.h"
 
 using namespace dcnn;
@@ -15,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string printed = json.dump();
     fuzz::demand(parse_json(printed, "again", Exit::kFailure).dump() == printed,
                  "printed text that reads otherwise");
-    switch (data[0] % 6) {
+    switch (data[0] % 10) {
       case 0: {
         const Simulator simulator = parse_simulator(json, "sim.json", Exit::kData);
         parse_simulator(to_json(simulator), "again", Exit::kFailure);
@@ -32,6 +36,22 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         break;
       case 4:
         InputMap::parse(json, "map", Exit::kModel);
+        break;
+      case 5: {
+        const Recipe recipe = parse_recipe(json, "import.json");
+        const Json written = to_json(recipe);
+        fuzz::demand(to_json(parse_recipe(written, "again")) == written,
+                     "a recipe that reads otherwise");
+        break;
+      }
+      case 6:
+        parse_teleop(json, "teleop.json");
+        break;
+      case 7:
+        design::parse_limits(json, "limits", "/nowhere");
+        break;
+      case 8:
+        parse_limits(json, "online");
         break;
       default: {
         const fuzz::MemoryFile file(text);

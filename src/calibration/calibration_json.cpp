@@ -1,10 +1,13 @@
 #include <cmath>
 
+#include "data/limits.h"
 #include "dcnn/calibration/calibration.h"
 #include "dcnn/core/options.h"
 
 namespace dcnn {
 namespace {
+
+constexpr double kMostGain = 1e6;  // or its inverse: micronewtons read as newtons
 
 Json rows_of(const Eigen::Matrix3d& M) {
   Json rows = Json::array();
@@ -50,9 +53,14 @@ Calibration read_calibration(const std::filesystem::path& path) {
     result.offset[static_cast<Index>(i)] = offset[i];
   }
   const Eigen::Matrix3d error = result.R_ES * result.R_ES.transpose() - Eigen::Matrix3d::Identity();
-  require(error.norm() < 1e-6 && result.R_ES.determinant() > 0.0 && result.offset.allFinite(),
-          Exit::kData, where, ": rotation_es is not a rotation; write it with dcnn-calibrate");
+  require(error.norm() < 1e-6 && result.R_ES.determinant() > 0.0, Exit::kData, where,
+          ": rotation_es is not a rotation; write it with dcnn-calibrate");
+  require(result.offset.cwiseAbs().maxCoeff() <= kMostMeasured, Exit::kData, where,
+          ": offset_n is beyond any sensor; write it with dcnn-calibrate");
   result.gain = options.get<double>("gain", 1.0);
+  require(result.gain >= 1.0 / kMostGain && result.gain <= kMostGain, Exit::kData, where,
+          ": gain must be between ", 1.0 / kMostGain, " and ", kMostGain,
+          "; write it with dcnn-calibrate");
   return result;
 }
 

@@ -5,11 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
 
+#include "core/descriptor.h"
 #include "dcnn/core/ranks.h"
 
 namespace dcnn {
@@ -17,41 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file descriptor that closes itself.
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return fd_; }
-
- private:
-  int fd_;
-};
-
-/// A system call, again while a signal interrupts it.
-template <class Call>
-auto completed(const Call& call) {
-  auto result = call();
-  while (result < 0 && errno == EINTR) result = call();
-  return result;
-}
-
 /// Fails with errno's words unless `ok`: read here, after the call, which an argument of require()
 /// may come before.
 void check(bool ok, Exit exit, const fs::path& path, const char* what) {
   if (!ok) fail(exit, path.string(), ": ", what, ": ", std::strerror(errno));
-}
-
-void write_all(int fd, std::string_view bytes, const fs::path& path) {
-  while (!bytes.empty()) {
-    const auto written = completed([&] { return ::write(fd, bytes.data(), bytes.size()); });
-    check(written > 0, Exit::kFailure, path, "cannot write");
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
 }
 
 void make_folder(const fs::path& folder) {
@@ -126,7 +95,8 @@ class Temporary {
     Descriptor fd(create(path, mode));
     check(fd.get() >= 0, Exit::kFailure, path, "cannot write");
     try {
-      write_all(fd.get(), bytes, path);
+      const bool written = write_all(fd.get(), bytes);
+      check(written, Exit::kFailure, path, "cannot write");
       const bool synced = completed([&] { return ::fsync(fd.get()); }) == 0;
       check(synced, Exit::kFailure, path, "cannot write");
     } catch (const Error&) {
@@ -179,25 +149,24 @@ std::string read_file(const fs::path& path, std::size_t max_bytes, Exit exit) {
   const auto size = static_cast<std::size_t>(info.st_size);
   require(size <= max_bytes, exit, path.string(), ": larger than ", max_bytes, " bytes");
   std::string bytes(size, '\0');
-  std::size_t have = 0;
-  while (have < size) {
-    const auto got = completed([&] { return ::read(fd.get(), bytes.data() + have, size - have); });
-    check(got >= 0, exit, path, "cannot read");
-    if (got == 0) break;
-    have += static_cast<std::size_t>(got);
-  }
-  bytes.resize(have);
+  const auto have = read_all(fd.get(), bytes.data(), size);
+  check(have.has_value(), exit, path, "cannot read");
+  bytes.resize(*have);
   return bytes;
 }
 
 void write_file(const fs::path& path, std::string_view bytes) {
   if (!is_first_rank()) return;
   const Target target = target_of(path);
-  if (target.descriptor >= 0) return write_all(target.descriptor, bytes, path);
+  const auto put = [&](int stream) {
+    const bool written = write_all(stream, bytes);
+    check(written, Exit::kFailure, path, "cannot write");
+  };
+  if (target.descriptor >= 0) return put(target.descriptor);
   if (is_stream(target.file)) {
     Descriptor fd(completed([&] { return ::open(target.file.c_str(), O_WRONLY | O_CLOEXEC); }));
     check(fd.get() >= 0, Exit::kFailure, path, "cannot write");
-    return write_all(fd.get(), bytes, path);
+    return put(fd.get());
   }
   make_folder(target.file.parent_path());
   replace_file(target.file, bytes);
@@ -213,10 +182,11 @@ std::optional<fs::path> replaced_file(const fs::path& path) {
 FolderLock::FolderLock(const fs::path& folder) {
   if (!is_first_rank()) return;
   make_folder(folder);
-  folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  folder_ = completed([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
   check(folder_ >= 0, Exit::kFailure, folder, "cannot open this folder");
   // A file system that cannot lock folders (NFS) is not refused.
-  if (::flock(folder_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  const bool locked = completed([&] { return ::flock(folder_, LOCK_EX | LOCK_NB); }) == 0;
+  if (locked || errno != EWOULDBLOCK) return;
   ::close(folder_);
   fail(Exit::kUsage, folder.string(),
        ": another process is writing here; wait for it or choose another --out");

@@ -27,6 +27,15 @@ Targets parse_targets(const Json& json, const std::string& where) {
   }
 }
 
+/// The kind of model that a file names.
+const ModelKind& stored_kind(const std::string& name, const std::string& where) {
+  try {
+    return model_kind(name, Exit::kModel);
+  } catch (const Error& error) {
+    fail(error.exit(), where, ": ", error.what());
+  }
+}
+
 /// The wrench's column of a target, by the names of contract section 2.
 Eigen::VectorXd wrench_column(const Wrench& wrench, const std::string& target) {
   constexpr std::array<const char*, 3> kForce{"fx", "fy", "fz"}, kTorque{"tx", "ty", "tz"};
@@ -99,7 +108,7 @@ Identifier unpack(const Container& file, const std::string& where) {
   if (file.metadata.count("base")) {
     identifier.base = parse_simulator(parse_text(file, "base", where), where, Exit::kModel);
   }
-  identifier.model = model_kind(identifier.name, Exit::kModel).load(file, where);
+  identifier.model = stored_kind(identifier.name, where).load(file, where);
   require(identifier.model->map().features() == static_cast<Index>(identifier.layout.names.size()),
           Exit::kModel, where, ": its model has another number of rows than its features");
   if (file.metadata.count("online")) {

@@ -46,13 +46,16 @@ class LineReader {
         return std::exchange(too_long_, false) ? std::string_view() : line;
       }
       if (!fill()) {
-        if (begin_ == end_) return std::nullopt;
         const std::string_view rest(buffer_.data() + begin_, end_ - begin_);
         begin_ = end_;
-        return rest;
+        if (error_ != 0) return std::nullopt;  // what came before it is no whole line
+        if (std::exchange(too_long_, false)) return std::string_view();
+        return rest.empty() ? std::nullopt : std::optional(rest);
       }
     }
   }
+  /// Why reading ended: 0 at the end of the file, else the number of an error.
+  int error() const noexcept { return error_; }
   /// A whole line is there already, so that an answer can wait for its successor.
   bool ready() const noexcept {
     return std::memchr(buffer_.data() + begin_, '\n', end_ - begin_) != nullptr;
@@ -71,6 +74,7 @@ class LineReader {
     do {
       size = ::read(file_, buffer_.data() + end_, buffer_.size() - end_);
     } while (size < 0 && errno == EINTR);
+    error_ = size < 0 ? errno : 0;
     if (size <= 0) return false;
     end_ += static_cast<std::size_t>(size);
     return true;
@@ -80,6 +84,7 @@ class LineReader {
   std::array<char, kMostLine> buffer_;
   std::size_t begin_ = 0, end_ = 0;
   bool too_long_ = false;
+  int error_ = 0;
 };
 
 /// Text out through a buffer of fixed size.
@@ -203,6 +208,11 @@ Json serve_lines(OnlineCompensator& compensator, int in, int out, PlotStream* pl
   LineReader lines(in);
   LineWriter answers(out);
   const auto header = lines.next();
+  const auto require_end = [&] {
+    require(lines.error() == 0, Exit::kFailure,
+            "standard input: cannot read: ", std::strerror(lines.error()));
+  };
+  if (!header) require_end();
   require(header.has_value(), Exit::kData, "standard input: is empty; give a header and rows");
   const bool torque = compensator.has_torque();
   const Columns columns(*header, torque);
@@ -220,6 +230,7 @@ Json serve_lines(OnlineCompensator& compensator, int in, int out, PlotStream* pl
     tally.add(result);
   }
   answers.flush();
+  require_end();
   return tally.to_json();
 }
 

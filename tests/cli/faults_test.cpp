@@ -1,36 +1,26 @@
 // Every system call of a command fails once: the previous result is intact and one line says why,
 // or the result is right. By default each call fails with one of its errors; DCNN_ALL_FAULTS=1
 // tries all of them.
+#include "support/faults.h"
+
 #include <gtest/gtest.h>
 
-#include <cerrno>
 #include <cmath>
-#include <map>
 
+#include "cli/run_bench.h"
 #include "dcnn/core/file.h"
-#include "support/process.h"
+#include "dcnn/runtime/udp.h"
 #include "support/sanitizer.h"
 
 namespace dcnn {
 namespace {
-
-constexpr int kShort = 0;  // one byte of what was asked
-
-/// Errors that a call can have.
-const std::map<std::string, std::vector<int>> kErrors{
-    {"open", {EACCES, EMFILE, EIO, EINTR, ENOSPC}},
-    {"read", {EIO, EINTR, kShort}},
-    {"write", {ENOSPC, EIO, EINTR, kShort}},
-    {"fsync", {EIO, EINTR, ENOSPC}},
-    {"rename", {EACCES, EIO, ENOSPC}},
-    {"flock", {EINTR, ENOLCK}},
-    {"mmap", {ENOMEM}}};
 
 /// A command and the results by which it is judged.
 struct Command {
   const char* verb;
   std::vector<std::string> arguments;  ///< "@x" is x in the test's folder
   std::vector<std::string> results;    ///< whose bytes depend on the input alone
+  const char* input = nullptr;  ///< for standard input; standard output then is a result, too
 };
 
 /// A recording of 8 s at 20 Hz.
@@ -49,10 +39,23 @@ std::string short_log() {
   return text.str();
 }
 
-class Faults : public testing::TestWithParam<Command> {
+/// Another program's: semicolons, milliseconds, degrees.
+std::string foreign_log() {
+  std::ostringstream text;
+  text << "Time [ms];Fx [N];Fy [N];Fz [N];X [mm];Y [mm];Z [mm];A [deg];B [deg];C [deg]\n";
+  for (int i = 0; i < 200; ++i) {
+    const double t = 0.02 * i;
+    text << 20 * i << ";" << std::sin(t) << ";0.5;-7;" << 100 * std::sin(t) << ";0;300;"
+         << 30 * std::sin(0.7 * t) << ";" << 20 * std::cos(t) << ";170\n";
+  }
+  return text.str();
+}
+
+class Faults : public ::testing::TestWithParam<Command> {
  protected:
   Faults() {
     write_file(folder_ / "a.csv", short_log());
+    write_file(folder_ / "log.txt", foreign_log());
     write_file(folder_ / "sim.json", R"({"tool": {"mass_kg": 0.7, "com_m": [0, 0, 0.1]}})");
   }
 
@@ -62,6 +65,15 @@ class Faults : public testing::TestWithParam<Command> {
       placed.push_back(word.starts_with("@") ? (folder_ / word.substr(1)).string() : word);
     }
     return placed;
+  }
+
+  test::Result command(std::vector<std::string> environment = {},
+                       std::vector<std::string> wrapper = {}) const {
+    const char* input = GetParam().input;
+    return test::run(GetParam().verb, arguments(),
+                     {.input = input ? (folder_ / input).string() : "",
+                      .environment = std::move(environment),
+                      .wrapper = std::move(wrapper)});
   }
 
   std::map<std::string, std::string> results() const {
@@ -75,14 +87,9 @@ class Faults : public testing::TestWithParam<Command> {
     const auto mark = folder_ / "mark";
     std::filesystem::remove(mark);
     for (const auto& name : GetParam().results) write_file(folder_ / name, "the result before\n");
-    const auto result = test::run(
-        GetParam().verb, arguments(),
-        {.environment = {"LD_PRELOAD=" DCNN_FAIL_CALLS, "FAIL_CALL=" + call,
-                         "FAIL_AT=" + std::to_string(place), "FAIL_ERRNO=" + std::to_string(error),
-                         "FAIL_MARK=" + mark.string(), "OMP_NUM_THREADS=1"}});
+    const auto result = command(test::fault_environment(call, place, error, mark));
     if (!std::filesystem::exists(mark)) return false;
-    const std::string fault = call + " number " + std::to_string(place) + ": " +
-                              (error == kShort ? "one byte" : std::strerror(error));
+    const std::string fault = test::words_of_fault(call, place, error);
     judge(result, fault);
     return true;
   }
@@ -93,6 +100,11 @@ class Faults : public testing::TestWithParam<Command> {
                   (result.exit_code != 0 && bytes == "the result before\n"))
           << fault << ": " << name << " is neither the result nor what was there; exit "
           << result.exit_code << "\n"
+          << result.err;
+    }
+    if (GetParam().input) {
+      EXPECT_TRUE(result.exit_code == 0 ? result.out == printed_ : printed_.starts_with(result.out))
+          << fault << ": other rows; exit " << result.exit_code << "\n"
           << result.err;
     }
     if (result.exit_code != 0) {
@@ -115,17 +127,19 @@ class Faults : public testing::TestWithParam<Command> {
 
   test::TemporaryFolder folder_;
   std::map<std::string, std::string> right_;
+  std::string printed_;
   int faults_ = 0;
 };
 
 TEST_P(Faults, LeaveThePreviousResultAndOneLineOrTheRightResult) {
   if (test::kSanitized) GTEST_SKIP() << "the sanitizer must be loaded first";
-  const auto plain = test::run(GetParam().verb, arguments());
+  const auto plain = command();
   ASSERT_EQ(plain.exit_code, 0) << plain.err;
   right_ = results();
+  printed_ = plain.out;
   const bool all = std::getenv("DCNN_ALL_FAULTS") != nullptr;
   constexpr int kMostPlaces = 200;
-  for (const auto& [call, errors] : kErrors) {
+  for (const auto& [call, errors] : test::errors_of_calls()) {
     for (int place = 1; place <= kMostPlaces; ++place) {
       bool made = true;
       for (std::size_t k = 0; k < (all ? errors.size() : 1); ++k) {
@@ -144,9 +158,7 @@ TEST_P(Faults, OfMemoryAreOneLine) {
   if (test::kSanitized) GTEST_SKIP() << "the sanitizer needs more";
   for (const char* most : {"--as=40000000", "--as=60000000", "--as=100000000"}) {
     for (const auto& name : GetParam().results) write_file(folder_ / name, "the result before\n");
-    const auto result =
-        test::run(GetParam().verb, arguments(),
-                  {.environment = {"OMP_NUM_THREADS=1"}, .wrapper = {"prlimit", most}});
+    const auto result = command({"OMP_NUM_THREADS=1"}, {"prlimit", most});
     if (result.exit_code == 0 || result.exit_code == 127)
       continue;  // enough, or too little for the loader
     EXPECT_EQ(result.exit_code, 1) << most << ": " << result.err;
@@ -167,9 +179,83 @@ const Command kCommands[] = {
      {"--inject", "bias", "--motion", "@a.csv", "--sim", "@sim.json", "--out", "@set", "--seal",
       "@seal.json", "--force", "-q"},
      {"set/a.csv", "seal.json"}},
+    {"import", {"@log.txt", "--out", "@imp", "--force", "-q"}, {"imp/log.csv", "imp/import.json"}},
+    {"run", {"--model", "@sim.json", "--contact", "0.5", "--stdin", "-q"}, {}, "a.csv"},
 };
-INSTANTIATE_TEST_SUITE_P(Of, Faults, testing::ValuesIn(kCommands),
+INSTANTIATE_TEST_SUITE_P(Of, Faults, ::testing::ValuesIn(kCommands),
                          [](const auto& entry) { return std::string(entry.param.verb); });
+
+/// dcnn-run at the network, where one call of a socket fails: at the start one line; later one
+/// answer at most is missing.
+class SocketFaults : public ::testing::Test {
+ protected:
+  SocketFaults() { make_packet_key(key_); }
+
+  /// Samples that were answered; the rest in `result`.
+  int answered(const std::vector<std::string>& environment, test::Result& result) const {
+    const auto [server, robot] = test::free_ports();
+    const test::Process process(
+        "run",
+        {"--model", test::bench().simulator, "--contact", "0.5", "-q", "--listen", server, "--peer",
+         robot, "--key-file", key_, "--late", "1000", "--seconds", "20"},
+        {.environment = environment});
+    RobotLink link(robot, server, read_packet_key(key_));
+    int answers = 0;
+    if (link.connect(2.0)) {
+      const Recording recording = test::free_motion(kSamples);
+      for (Index k = 0; k < kSamples; ++k) {
+        const auto asked = link.send(test::sample_of(recording, k));
+        const double end = monotonic_seconds() + 1.0;
+        while (const auto wire = link.receive(end)) {
+          if (wire->answers != asked || wire->result.t != 0.002 * double(k)) continue;
+          ++answers;
+          break;
+        }
+      }
+      process.signal(SIGTERM);
+    }
+    result = process.wait();
+    return answers;
+  }
+
+  static constexpr Index kSamples = 20;
+  test::TemporaryFolder folder_;
+  const std::string key_ = folder_ / "key";
+};
+
+TEST_F(SocketFaults, AtTheStartAreOneLine) {
+  if (test::kSanitized) GTEST_SKIP() << "the sanitizer must be loaded first";
+  for (const char* call : {"socket", "bind", "connect"}) {
+    for (const int error : test::errors_of_calls().at(call)) {
+      const auto [server, robot] = test::free_ports();
+      const auto result =
+          test::run("run",
+                    {"--model", test::bench().simulator, "--contact", "0.5", "-q", "--listen",
+                     server, "--peer", robot, "--key-file", key_, "--seconds", "0.1"},
+                    {.environment = test::fault_environment(call, 1, error, folder_ / "mark")});
+      const std::string fault = test::words_of_fault(call, 1, error) + ": " + result.err;
+      EXPECT_EQ(result.exit_code, 1) << fault;
+      EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << fault;
+      EXPECT_NE(result.err.find(std::strerror(error)), std::string::npos) << fault;
+    }
+  }
+}
+
+TEST_F(SocketFaults, LaterCostOneAnswerAtMost) {
+  if (test::kSanitized) GTEST_SKIP() << "the sanitizer must be loaded first";
+  for (const char* call : {"recv", "send", "ppoll"}) {
+    for (const int error : test::errors_of_calls().at(call)) {
+      const auto mark = folder_ / "mark";
+      std::filesystem::remove(mark);
+      test::Result result;
+      const int answers = answered(test::fault_environment(call, 8, error, mark), result);
+      const std::string fault = test::words_of_fault(call, 8, error) + ": " + result.err;
+      EXPECT_TRUE(std::filesystem::exists(mark)) << fault;
+      EXPECT_GE(answers, kSamples - 1) << fault;
+      EXPECT_EQ(result.exit_code, 128 + SIGTERM) << fault;
+    }
+  }
+}
 
 }  // namespace
 }  // namespace dcnn

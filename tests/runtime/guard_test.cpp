@@ -194,5 +194,107 @@ TEST(Guard, WarmupCountsOnlyCyclesThatCouldBeServed) {
   EXPECT_EQ(guard.state(), RunState::kNetwork);
 }
 
+TEST(Guard, AModelWithoutAnAnswerIsNotFollowedWithoutPhysicsEither) {
+  for (const bool absent : {true, false}) {
+    Guard guard = warm();
+    Cycle cycle = good(0.0);
+    cycle.physics.reset();
+    guard.step(cycle);
+    EXPECT_EQ(guard.state(), RunState::kNetwork);
+    cycle.network->setConstant(NAN);
+    if (absent) cycle.network.reset();
+    EXPECT_EQ(guard.step(cycle).norm(), 0.0);
+    EXPECT_EQ(guard.state(), RunState::kHold) << absent;
+    EXPECT_EQ(guard.reason(), Reason::kModel) << absent;
+  }
+}
+
+/// Model and physics are compared with each other and with the measurement, not with zero.
+TEST(Guard, WhatIsComparedAreDifferences) {
+  Guard guard = warm();
+  Cycle cycle = good(40.0);
+  cycle.network->setConstant(30.0);
+  cycle.physics->setConstant(30.0);
+  cycle.measured.tail<3>().setConstant(30.0);
+  guard.step(cycle);
+  EXPECT_EQ(guard.state(), RunState::kNetwork) << name_of(guard.reason());
+  GuardLimits wide;
+  wide.disagreement_n = 100.0;
+  Guard other(wide);
+  for (int k = 0; k < wide.warmup_cycles; ++k) other.step(good(0.0));
+  cycle = good(48.0);
+  (*cycle.network)[0] = -4.0;
+  (*cycle.physics)[0] = 10.0;
+  other.step(cycle);
+  EXPECT_EQ(other.reason(), Reason::kLimit) << "the physics leaves 38 N";
+}
+
+TEST(Guard, EitherOfThemWarmsItUp) {
+  for (const bool physics : {true, false}) {
+    Guard guard;
+    Cycle cycle = good(0.0);
+    (physics ? cycle.network : cycle.physics).reset();
+    for (int k = 0; k < GuardLimits{}.warmup_cycles; ++k) {
+      guard.step(cycle);
+      EXPECT_EQ(guard.state(), RunState::kWarmup) << k;
+    }
+    guard.step(cycle);
+    EXPECT_EQ(guard.state(), physics ? RunState::kPhysics : RunState::kNetwork);
+  }
+}
+
+TEST(Guard, OutagesThatEndedAreNotCountedAgain) {
+  Guard guard = warm();
+  Cycle lost = good(0.0);
+  lost.measured[0] = NAN;
+  for (int k = 0; k < 100; ++k) {
+    for (int i = 0; i < GuardLimits{}.hold_cycles; ++i) {
+      guard.step(lost);
+      ASSERT_EQ(guard.state(), RunState::kHold) << k;
+    }
+    guard.step(good(0.0));
+  }
+}
+
+TEST(Guard, PutsOutTheMeasuredLessThePredicted) {
+  Guard guard = warm();
+  Cycle cycle = good(0.75);
+  cycle.network->setConstant(0.25);
+  cycle.measured.tail<3>().setConstant(0.25);
+  const Vector6d output = guard.step(cycle);
+  EXPECT_EQ(output[0], 0.5);
+  EXPECT_EQ(output[5], 0.0);
+  cycle.distrust = Reason::kEnvelope;
+  cycle.physics->setConstant(0.5);
+  EXPECT_EQ(guard.step(cycle)[0], 0.25);
+}
+
+TEST(Guard, ARearmBeginsAnewAndOnlyAfterAFault) {
+  Guard guard = warm();
+  guard.rearm();
+  guard.step(good(0.0));
+  EXPECT_EQ(guard.state(), RunState::kNetwork) << "nothing was to be rearmed";
+  Cycle lost;
+  while (guard.state() != RunState::kFault) guard.step(lost);
+  guard.rearm();
+  EXPECT_EQ(guard.state(), RunState::kWarmup);
+  EXPECT_EQ(guard.reason(), Reason::kWarmup);
+}
+
+/// 0.3 - (-0.1) is 0.4, and -0.1 + 0.4 is more than 0.3.
+TEST(Guard, NoRoundingLeavesTheLimit) {
+  GuardLimits limits;
+  limits.force_n = 0.3;
+  limits.slew_n = 10.0;
+  Guard guard(limits);
+  for (int k = 0; k < limits.warmup_cycles; ++k) guard.step(good(0.0));
+  for (const double from : {-0.1, -0.2, 0.05, 0.1}) {
+    guard.step(good(from));
+    EXPECT_LE(guard.step(good(1.0))[0], limits.force_n) << from;
+    guard.step(good(-from));
+    EXPECT_GE(guard.step(good(-1.0))[0], -limits.force_n) << from;
+  }
+}
+
 }  // namespace
 }  // namespace dcnn

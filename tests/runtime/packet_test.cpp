@@ -1,6 +1,7 @@
 #include "dcnn/runtime/packet.h"
 
 #include <gtest/gtest.h>
+#include <sodium.h>
 
 #include <cmath>
 #include <cstring>
@@ -119,6 +120,134 @@ TEST(Packet, WhatIsNoSampleOfNowIsNamed) {
   EXPECT_EQ(gate.last(), 10U);
   EXPECT_EQ(judge(sealed(11, 1.002), 5.003), Verdict::kAccepted);
   EXPECT_EQ(judge(sealed(12, -70.0), 6.0), Verdict::kAccepted);  // another clock after a silence
+}
+
+TEST(Packet, AHeaderNeedsRoomForItselfAndATag) {
+  Bytes bytes = sealed(77, 2.5);
+  const auto header = header_of(bytes);
+  ASSERT_TRUE(header);
+  EXPECT_EQ(header->kind, PacketKind::kSample);
+  EXPECT_EQ(header->session, kSession);
+  EXPECT_EQ(header->sequence, 77U);
+  EXPECT_EQ(header->t, 2.5);
+  bytes.resize(kHeaderBytes + kTagBytes);
+  EXPECT_TRUE(header_of(bytes));
+  bytes.resize(kHeaderBytes + kTagBytes - 1);
+  EXPECT_FALSE(header_of(bytes));
+  EXPECT_FALSE(header_of(Bytes()));
+}
+
+/// The tag of the key's holder under something that is no packet of this program.
+TEST(Packet, ATagMakesNoPacketOfWhatIsNone) {
+  const PacketKey key = key_of(1);
+  const auto tagged = [&](std::size_t place, std::uint8_t value) {
+    Bytes bytes = sealed(1, 0.0);
+    bytes[place] = value;
+    const std::size_t body = bytes.size() - kTagBytes;
+    crypto_generichash(&bytes[body], kTagBytes, bytes.data(), body, key.data(), key.size());
+    return bytes;
+  };
+  EXPECT_TRUE(is_authentic(tagged(0, 'D'), key));
+  EXPECT_FALSE(is_authentic(tagged(0, 'X'), key));  // magic
+  EXPECT_FALSE(is_authentic(tagged(4, 2), key));    // version
+  PacketGate gate(key, kSession);
+  OnlineSample got;
+  for (const int kind : {0, 1, 2, 4, 5, 255}) {
+    EXPECT_EQ(gate.judge(tagged(6, static_cast<std::uint8_t>(kind)), 0.0, got), Verdict::kFormat)
+        << kind;
+  }
+  EXPECT_EQ(gate.judge(tagged(7, 1), 0.0, got), Verdict::kFormat);
+}
+
+TEST(Packet, NoWriterWritesBeyondItsRoom) {
+  PacketWriter packet({PacketKind::kExtra, 0, 0, 0.0});
+  for (int k = 0; k < 200; ++k) packet.put(static_cast<double>(k));
+  const auto bytes = packet.seal(key_of(1));
+  EXPECT_EQ(bytes.size(), kMostBytes);
+  EXPECT_TRUE(is_authentic(bytes, key_of(1)));
+  PacketReader reader(bytes.first(3));
+  EXPECT_EQ(reader.take(8), 0x4E4344U) << "zero beyond the end";
+  EXPECT_EQ(reader.take(8), 0U);
+}
+
+/// The wire has more values than the enumerations.
+TEST(Packet, AnUnknownStateOrReasonIsTheLastOne) {
+  OnlineResult result;
+  result.state = static_cast<RunState>(200);
+  result.reason = static_cast<Reason>(200);
+  result.limited = true;
+  PacketGate gate(key_of(1), kSession);
+  const WireResult wire = read_result(gate.answer(result, 0.0));
+  EXPECT_EQ(wire.result.state, RunState::kFault);
+  EXPECT_EQ(wire.result.reason, Reason::kLatched);
+  EXPECT_TRUE(wire.result.limited);
+  EXPECT_FALSE(wire.result.contact);
+}
+
+TEST(Packet, AWelcomeSaysTheSessionTheLastSequenceAndTheNonce) {
+  PacketGate gate(key_of(1), kSession);
+  OnlineSample got;
+  ASSERT_EQ(gate.judge(sealed(5, 0.0), 0.0, got), Verdict::kAccepted);
+  PacketWriter hello({PacketKind::kHello, 0, 0, 0.0});
+  hello.put(0xABCDEF, 8);
+  ASSERT_EQ(gate.judge(hello.seal(key_of(1)), 0.0, got), Verdict::kHello);
+  const auto welcome = gate.welcome();
+  ASSERT_EQ(welcome.size(), kHelloBytes);
+  const auto header = header_of(welcome);
+  EXPECT_EQ(header->kind, PacketKind::kWelcome);
+  EXPECT_EQ(header->session, kSession);
+  EXPECT_EQ(header->sequence, 5U);
+  EXPECT_EQ(PacketReader(welcome.subspan(kHeaderBytes)).take(8), 0xABCDEFU);
+  const auto first = header_of(gate.answer({}, 0.0))->sequence;
+  EXPECT_EQ(header_of(gate.answer({}, 0.0))->sequence, first + 1);
+  EXPECT_EQ(gate.count(Verdict::kAccepted), 1U);
+  EXPECT_EQ(gate.count(Verdict::kHello), 1U);
+  EXPECT_EQ(gate.count(Verdict::kTag), 0U);
+}
+
+/// The bounds themselves belong to what is taken.
+TEST(Packet, TheWindowAndTheAgeEndWhereTheyAreSaidTo) {
+  constexpr double kOldest = PacketGate::kOldest;
+  OnlineSample got;
+  PacketGate gate(key_of(1), kSession);
+  EXPECT_EQ(gate.judge(sealed(PacketGate::kWindow, 0.0), 0.0, got), Verdict::kAccepted);
+  EXPECT_EQ(gate.judge(sealed(2 * PacketGate::kWindow + 1, 0.0), 0.0, got), Verdict::kLead);
+  EXPECT_EQ(gate.judge(sealed(2 * PacketGate::kWindow, 0.0), 0.0, got), Verdict::kAccepted);
+  // Clocks may drift by 100 ppm: after 0.4 s the fastest packet is 40 us later than it was.
+  for (const double later : {0.9, 1.1}) {
+    PacketGate aged(key_of(1), kSession);
+    ASSERT_EQ(aged.judge(sealed(1, 10.0), 3.0, got), Verdict::kAccepted);
+    const double sent = 10.4, now = 3.4 + kOldest + later * 4e-5;
+    EXPECT_EQ(aged.judge(sealed(2, sent), now, got),
+              later < 1.0 ? Verdict::kAccepted : Verdict::kStale)
+        << later;
+  }
+  // The latest is the caller's.
+  PacketGate patient(key_of(1), kSession, 1.0);
+  ASSERT_EQ(patient.judge(sealed(1, 0.0), 0.0, got), Verdict::kAccepted);
+  EXPECT_EQ(patient.judge(sealed(2, 0.4), 0.4 + 0.3, got), Verdict::kAccepted);
+  // A packet that is stale does not make the next one stale or fresh.
+  PacketGate steady(key_of(1), kSession);
+  ASSERT_EQ(steady.judge(sealed(1, 0.0), 0.0, got), Verdict::kAccepted);
+  for (int k = 0; k < 10; ++k) {
+    EXPECT_EQ(steady.judge(sealed(2, 0.002), 0.1, got), Verdict::kStale);
+  }
+  EXPECT_EQ(steady.judge(sealed(2, 0.1), 0.1 + 0.5 * kOldest, got), Verdict::kAccepted);
+  const double drift = 1e-4 * 0.25;  // after a quarter of a second
+  PacketGate exact(key_of(1), kSession, 1.25 - drift);
+  ASSERT_EQ(exact.judge(sealed(1, 0.0), 0.0, got), Verdict::kAccepted);
+  EXPECT_EQ(exact.judge(sealed(2, -1.0), 0.25, got), Verdict::kAccepted);
+  PacketGate still(key_of(1), kSession);
+  ASSERT_EQ(still.judge(sealed(1, 0.0), 0.0, got), Verdict::kAccepted);
+  EXPECT_EQ(still.judge(sealed(2, 0.0), PacketGate::kForgotten, got), Verdict::kStale);
+  // Half a second of silence and less: the old comparison; more: a new one.
+  for (const bool silent : {false, true}) {
+    PacketGate waking(key_of(1), kSession);
+    ASSERT_EQ(waking.judge(sealed(1, 0.0), 0.0, got), Verdict::kAccepted);
+    const double now = silent ? 0.51 : 0.49;
+    EXPECT_EQ(waking.judge(sealed(2, 0.0), now, got),
+              silent ? Verdict::kAccepted : Verdict::kStale);
+  }
 }
 
 TEST(Packet, ASequenceNearItsEndGoesOn) {

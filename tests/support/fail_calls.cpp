@@ -1,11 +1,13 @@
 // Preloaded into a program: the FAIL_AT-th call of FAIL_CALL (open, read, write, fsync, rename,
-// mmap, flock, ftruncate) fails with the number FAIL_ERRNO, or, where that is 0, does one byte of
-// what it was asked (read, write). The file FAIL_MARK is made when it has. Calls of the C library
-// within itself do not come here.
+// mmap, flock, ftruncate, socket, bind, connect, recv, send, ppoll) fails with the number
+// FAIL_ERRNO, or, where that is 0, does one byte of what it was asked (read, write). The file
+// FAIL_MARK is made when it has. Calls of the C library within itself do not come here.
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/file.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -103,6 +105,31 @@ void* mmap(void* address, size_t size, int protection, int flags, int file, off_
   static const auto next = next_of<void* (*)(void*, size_t, int, int, int, off_t)>("mmap");
   return passed<void*>("mmap", MAP_FAILED,
                        [&] { return next(address, size, protection, flags, file, place); });
+}
+int socket(int domain, int type, int protocol) noexcept {
+  static const auto next = next_of<int (*)(int, int, int)>("socket");
+  return passed<int>("socket", -1, [&] { return next(domain, type, protocol); });
+}
+int bind(int file, const sockaddr* name, socklen_t size) noexcept {
+  static const auto next = next_of<int (*)(int, const sockaddr*, socklen_t)>("bind");
+  return passed<int>("bind", -1, [&] { return next(file, name, size); });
+}
+int connect(int file, const sockaddr* name, socklen_t size) {
+  static const auto next = next_of<int (*)(int, const sockaddr*, socklen_t)>("connect");
+  return passed<int>("connect", -1, [&] { return next(file, name, size); });
+}
+ssize_t recv(int file, void* buffer, size_t size, int flags) {
+  static const auto next = next_of<ssize_t (*)(int, void*, size_t, int)>("recv");
+  return passed<ssize_t>("recv", -1, [&] { return next(file, buffer, size, flags); });
+}
+ssize_t send(int file, const void* buffer, size_t size, int flags) {
+  static const auto next = next_of<ssize_t (*)(int, const void*, size_t, int)>("send");
+  return passed<ssize_t>("send", -1, [&] { return next(file, buffer, size, flags); });
+}
+int ppoll(pollfd* files, nfds_t count, const timespec* wait, const sigset_t* mask) {
+  static const auto next =
+      next_of<int (*)(pollfd*, nfds_t, const timespec*, const sigset_t*)>("ppoll");
+  return passed<int>("ppoll", -1, [&] { return next(files, count, wait, mask); });
 }
 
 }  // extern "C"

@@ -59,12 +59,21 @@ struct Surroundings {
   std::vector<std::string> wrapper = {};      ///< program and arguments that run it, e.g. strace
 };
 
-/// A program of this build under way: dcnn-<verb> with arguments.
+/// Another program than those of this build.
+struct Program {
+  std::filesystem::path path;
+};
+
+/// A program under way: dcnn-<verb> of this build, or another one, with arguments.
 class Process {
  public:
   Process(const std::string& verb, std::vector<std::string> arguments,
+          const Surroundings& around = {})
+      : Process(Program{std::string(DCNN_BIN_DIR) + "/dcnn-" + verb}, std::move(arguments),
+                around) {}
+  Process(const Program& program, std::vector<std::string> arguments,
           const Surroundings& around = {}) {
-    arguments.insert(arguments.begin(), std::string(DCNN_BIN_DIR) + "/dcnn-" + verb);
+    arguments.insert(arguments.begin(), program.path.string());
     arguments.insert(arguments.begin(), around.wrapper.begin(), around.wrapper.end());
     std::vector<char*> argv;
     for (auto& argument : arguments) argv.push_back(argument.data());

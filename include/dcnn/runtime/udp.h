@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "dcnn/runtime/packet.h"
+#include "dcnn/runtime/robot_session.h"
 
 namespace dcnn {
 
@@ -54,11 +54,8 @@ class RobotLink {
   std::optional<WireResult> receive(double deadline) noexcept;
 
  private:
-  bool take_welcome(std::span<const std::uint8_t> bytes, std::uint64_t nonce) noexcept;
-
   UdpSocket socket_;
-  PacketKey key_;
-  std::uint64_t session_ = 0, sequence_ = 0, newest_ = 0;
+  RobotSession session_;
 };
 
 }  // namespace dcnn
