@@ -33,7 +33,8 @@ void print_plan(const Json& plan) {
     std::snprintf(seconds, sizeof seconds, "%9.1f s  ", step["seconds"].get<double>());
     std::cout << seconds << step["step"].get<std::string>() << "\n";
   }
-  std::cout << "about " << minutes(plan["seconds"].get<double>()) << " on one core\n";
+  std::cout << "sum " << minutes(plan["seconds"].get<double>())
+            << " on one core: an estimate from another machine, idle; a run measures its own\n";
 }
 
 void print_claims(const Json& summary) {
@@ -53,9 +54,8 @@ void print_claims(const Json& summary) {
 Exit work(const ReproductionRequest& request, const Tool& tool) {
   catch_interrupts();
   if (!request.prepare) {
-    const double expected = reproduction_plan(request)["seconds"];
-    tool.note("about " + minutes(expected / request.jobs) + " on " + std::to_string(request.jobs) +
-              " idle cores, if nothing is done yet");
+    tool.note(std::to_string(reproduction_plan(request)["steps"].size()) + " cells on " +
+              std::to_string(request.jobs) + " cores; the time left is told from those that were measured");
   }
   Progress bar(tool.common().quiet);
   CellRunObserver observer;

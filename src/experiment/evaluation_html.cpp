@@ -7,17 +7,13 @@
 #include "dcnn/experiment/evaluate.h"
 #include "dcnn/experiment/report.h"
 #include "dcnn/experiment/train.h"
+#include "experiment/evaluation_table.h"
 #include "experiment/levels.h"
 #include "experiment/markup.h"
 #include "experiment/report_words.h"
 
 namespace dcnn {
 namespace {
-
-/// One draw has no spread.
-std::string with_spread(const Spread& s, int runs) {
-  return significant(s.mean, 3) + (runs > 1 ? " ± " + significant(s.deviation, 2) : "");
-}
 
 std::vector<std::string> level_names(const Evaluation& evaluation) {
   std::vector<std::string> names;
@@ -77,11 +73,12 @@ void add_table(HtmlReport& page, const Evaluation& evaluation) {
   const auto forces = static_cast<std::ptrdiff_t>(
       std::count(evaluation.targets.units.begin(), evaluation.targets.units.end(), unit));
   header.insert(header.end(), {"overall [" + unit + "]", "largest error [" + unit + "]", "least R²"});
+  const std::vector<int> decimals = column_decimals(evaluation);
   std::vector<std::vector<std::string>> rows;
   for (const auto& s : evaluation.summary) {
     std::vector<std::string> row{s.file, level_name(s.snr_db), std::to_string(s.runs)};
-    for (const Spread& axis : s.rmse) row.push_back(with_spread(axis, s.runs));
-    row.push_back(s.overall ? with_spread(*s.overall, s.runs) : "–");
+    for (std::size_t j = 0; j < s.rmse.size(); ++j) row.push_back(with_spread(s.rmse[j], s.runs, decimals[j]));
+    row.push_back(s.overall ? with_spread(*s.overall, s.runs, decimals.back()) : "–");
     char text[64];
     std::snprintf(text, sizeof text, "%.3f",
                   *std::max_element(s.first.max_abs.begin(), s.first.max_abs.begin() + forces));
@@ -94,8 +91,8 @@ void add_table(HtmlReport& page, const Evaluation& evaluation) {
   const auto reference = [&](const std::string& name, const std::vector<double>& rmse,
                              const std::optional<double>& overall) {
     std::vector<std::string> row{name, "clean", "–"};
-    for (const double value : rmse) row.push_back(significant(value, 3));
-    row.push_back(overall ? significant(*overall, 3) : "–");
+    for (std::size_t j = 0; j < rmse.size(); ++j) row.push_back(fixed(rmse[j], decimals[j]));
+    row.push_back(overall ? fixed(*overall, decimals.back()) : "–");
     row.insert(row.end(), {"–", "–"});
     rows.push_back(row);
   };
@@ -133,7 +130,7 @@ Chart trace_chart(const Evaluation& evaluation, std::size_t j) {
 /// One picture beside the answer: the error over noise, or where no noise was asked for a trace.
 void add_picture(HtmlReport& page, const Evaluation& evaluation) {
   if (evaluation.summary.front().overall && level_names(evaluation).size() > 1) {
-    page.chart(level_chart(evaluation, "overall", evaluation.targets.units[0],
+    page.chart(level_chart(evaluation, "Error over noise on the input", evaluation.targets.units[0],
                            [](const EvaluationSummary& s) { return *s.overall; }),
                "Mean of the RMSEs per axis (Eq. 6); bars: mean, whiskers: one standard deviation "
                "over draws.");

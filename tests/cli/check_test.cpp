@@ -4,6 +4,7 @@
 #include "data/testing.h"
 #include "dcnn/core/json.h"
 #include "dcnn/core/file.h"
+#include "support/page.h"
 #include "support/process.h"
 
 namespace dcnn {
@@ -32,6 +33,7 @@ TEST(CheckTool, NamesTheFaultAndWritesItsPage) {
   EXPECT_EQ(read_json(folder / "check/check.json", Exit::kData)["faults"].size(), json["faults"].size());
   const std::string page = read_file(folder / "check/check.html", 1 << 24, Exit::kData);
   EXPECT_TRUE(contains(page, "position_unit") && contains(page, "<svg"));
+  test::expect_usable_page(page);
 }
 
 TEST(CheckTool, ACertainFaultStopsATrainingUnlessItIsAccepted) {

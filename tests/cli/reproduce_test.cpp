@@ -6,6 +6,7 @@
 
 #include "dcnn/core/json.h"
 #include "dcnn/experiment/evaluate.h"
+#include "support/page.h"
 #include "support/process.h"
 
 namespace dcnn {
@@ -78,8 +79,6 @@ TEST_F(Reproduce, WritesReportFiguresAndVerdicts) {
 TEST_F(Reproduce, TheReportIsOneSmallFile) {
   const std::string html = slurp(at("out/report.html"));
   EXPECT_LT(html.size(), std::size_t{8} << 20);
-  for (const char* word : {"src=\"http", "href=\"http", "url(http", "@import", "<link"})
-    EXPECT_EQ(html.find(word), std::string::npos) << word;
   for (const char* word : {"Fig. 5", "Table I", "C5", "D26", "SHA-256", "Residuals", "not tested"})
     EXPECT_NE(html.find(word), std::string::npos) << word;
 }
@@ -215,19 +214,7 @@ TEST_F(Reproduce, EveryKthSampleIsScoredAsItWouldBeAmongAll) {
               1e-6);
 }
 
-TEST_F(Reproduce, ABrowserShowsTheReport) {
-  if (std::system("command -v chromium >/dev/null 2>&1") != 0)
-    GTEST_SKIP() << "chromium is not installed";
-  const std::string command =
-      "chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --window-size=1000,3000 "
-      "--user-data-dir='" +
-      at("profile") + "' --screenshot='" + at("page.png") + "' 'file://" + at("out/report.html") +
-      "' >/dev/null 2>&1";
-  ASSERT_EQ(std::system(command.c_str()), 0);
-  const std::string png = slurp(at("page.png"));
-  ASSERT_TRUE(png.starts_with("\x89PNG"));
-  EXPECT_GT(png.size(), 60'000U) << "a blank page of this size has 15 kB";
-}
+TEST_F(Reproduce, TheReportIsUsable) { test::expect_usable_page(slurp(at("out/report.html"))); }
 
 }  // namespace
 }  // namespace dcnn

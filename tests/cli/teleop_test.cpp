@@ -3,6 +3,7 @@
 
 #include "data/testing.h"
 #include "dcnn/core/json.h"
+#include "support/page.h"
 #include "support/process.h"
 
 namespace dcnn {
@@ -62,6 +63,7 @@ TEST(TeleopTool, AModelInTheLoopTakesMostOfTheWeightOffTheHand) {
   EXPECT_LT(rows[5]["master_drift_m"].get<double>(), 1e-3);
   const std::string page = test::slurp(out / "report.html");
   EXPECT_TRUE(contains(page, "Fig. 6 with rigid") && contains(page, "robot base B"));
+  test::expect_usable_page(page);
   for (const char* file : {"teleop.json", "frames.svg", "comparison_0.svg", "rigid.csv"}) {
     EXPECT_TRUE(std::filesystem::exists(out / file)) << file;
   }

@@ -56,6 +56,12 @@ std::vector<std::string> fault_names();
 
 Report check(const Log& log);
 
+/// "centre of mass, x" for "com_x": a key of Report::identifiable.
+std::string words_of_number(const std::string& key);
+
+/// "nothing is wrong that can be told from the data", or the likeliest fault in words.
+std::string verdict(const Report& report);
+
 /// The form of docs/use/check.md.
 Json to_json(const Report& report);
 std::string to_text(const Report& report);
