@@ -37,7 +37,13 @@ void print_plan(const Json& plan) {
             << " on one core: an estimate from another machine, idle; a run measures its own\n";
 }
 
-void print_claims(const Json& summary) {
+void print_claims(const Json& summary, const std::string& preset) {
+  if (preset == "quick") {
+    std::cout << "a first look with networks of a few epochs: the numbers are in the report, the "
+                 "paper's claims need\n"
+                 "--preset standard or fair\n";
+    return;
+  }
   for (const auto& [series, claims] : summary["claims"].items()) {
     std::cout << series << "\n";
     for (const Json& claim : claims) {
@@ -55,7 +61,8 @@ Exit work(const ReproductionRequest& request, const Tool& tool) {
   catch_interrupts();
   if (!request.prepare) {
     tool.note(std::to_string(reproduction_plan(request)["steps"].size()) + " cells on " +
-              std::to_string(request.jobs) + " cores; the time left is told from those that were measured");
+              std::to_string(request.jobs) +
+              " cores; the time left is told from those that were measured");
   }
   Progress bar(tool.common().quiet);
   CellRunObserver observer;
@@ -80,7 +87,7 @@ Exit work(const ReproductionRequest& request, const Tool& tool) {
   if (tool.common().json) {
     Tool::print(outcome.summary);
   } else {
-    print_claims(outcome.summary);
+    print_claims(outcome.summary, request.preset);
     std::cout << "report: " << outcome.report.string() << "\n";
   }
   return Exit::kDone;

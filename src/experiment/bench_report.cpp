@@ -102,15 +102,14 @@ Chart sample_chart(const Bench& bench) {
 
 /// The first row in one sentence.
 std::string bench_answer(const BenchRow& row) {
-  return row.file + " takes " + time_text(row.p50) + " (median) and at most " + time_text(row.maximum) +
-         " for a call of " + std::to_string(row.length) + (row.length == 1 ? " sample" : " samples") +
-         " on one thread of this machine.";
+  return row.file + " takes " + time_text(row.p50) + " (median) and at most " +
+         time_text(row.maximum) + " for a call of " + std::to_string(row.length) +
+         (row.length == 1 ? " sample" : " samples") + " on one thread of this machine.";
 }
 
 void add_calls(HtmlReport& page, const Bench& bench, const BenchRequest& request) {
   page.paragraph(bench_answer(bench.rows.front()));
   page.chart(sample_chart(bench), "time per sample over the samples predicted in one call");
-  page.heading("Time per call");
   std::vector<std::vector<std::string>> rows;
   for (const BenchRow& row : bench.rows) rows.push_back(cells(row));
   page.table(kHeader, rows);

@@ -107,8 +107,8 @@ std::string effects_in_words(const Json& ids) {
 /// How often the first name was right, and how often nothing was named where nothing was hidden.
 std::string challenge_answer(const Json& scores) {
   const std::size_t count = scores["scenarios"].size();
-  std::string text = "Of " + std::to_string(count) + " sealed scenario" + (count == 1 ? "" : "s") + " of seed " +
-                     scores["seed"].dump();
+  std::string text = "Of " + std::to_string(count) + " sealed scenario" + (count == 1 ? "" : "s") +
+                     " of seed " + scores["seed"].dump();
   const std::string first = score_text(scores["tables"]["all"].value("top1", Json())),
                     silent = score_text(scores["tables"]["all"].value("null_without_name", Json()));
   if (!first.empty()) text += ", the first name is right in " + first;
@@ -125,8 +125,8 @@ void add_failures(HtmlReport& page, const Json& scenarios) {
         (s["class_set"].get<bool>() || s["group"] == "unlisted" || s["group"] == "faint")) {
       continue;
     }
-    rows.push_back({s["id"], s["drawn"], effects_in_words(s["hidden"]), effects_in_words(s["named"]),
-                    s["verdict"], s["seconds"].dump()});
+    rows.push_back({s["id"], s["drawn"], effects_in_words(s["hidden"]),
+                    effects_in_words(s["named"]), s["verdict"], s["seconds"].dump()});
   }
   if (rows.empty()) {
     page.paragraph("Nowhere: every name and every verdict is right.");
@@ -149,7 +149,9 @@ std::string challenge_html(const Json& scores) {
   page.paragraph(
       "Rates with Wilson's 95 % intervals. The answers were sealed before the first diagnosis; "
       "their "
-      "SHA-256 is " + scores["sha256"].get<std::string>() + ". Amplitudes are the rms of what an effect alone changes on its strongest "
+      "SHA-256 is " +
+      scores["sha256"].get<std::string>() +
+      ". Amplitudes are the rms of what an effect alone changes on its strongest "
       "axis, in standard deviations of the sensor noise.");
   page.heading("Rates by effect and by amplitude");
   add_rates(page, tables["effect"], "found_class", "Effects named or among the alternatives");

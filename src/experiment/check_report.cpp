@@ -10,8 +10,9 @@ namespace {
 
 std::vector<std::string> fault_row(const check::Fault& fault) {
   const std::string remedy = fault.remedy + (fault.flag.empty() ? "" : " (" + fault.flag + ")");
-  const std::string where =
-      fault.interval_s ? significant(fault.interval_s->first, 6) + " to " + significant(fault.interval_s->second, 6) : "";
+  const std::string where = fault.interval_s ? significant(fault.interval_s->first, 6) + " to " +
+                                                   significant(fault.interval_s->second, 6)
+                                             : "";
   return {fault.id, significant(fault.probability, 4), fault.words, where, remedy};
 }
 
@@ -30,7 +31,8 @@ void add_forces(const check::Report& report, HtmlReport& page) {
     chart.series.push_back({"as logged", list_of(logged.t), list_of(logged.values), {}});
     chart.series.push_back({"rigid tool", list_of(rigid.t), list_of(rigid.values), {}});
     const bool last = k + 1 == report.measured.size();
-    page.chart(chart, last ? "The force, in the likeliest reading of the log, beside the best fit of a rigid tool (mass, "
+    page.chart(chart, last ? "The force, in the likeliest reading of the log, beside the best fit "
+                             "of a rigid tool (mass, "
                              "centre of mass, offset), both smoothed over 0.12 s."
                            : "");
   }
@@ -48,7 +50,8 @@ void add_readings(const check::Report& report, HtmlReport& page) {
 void add_identifiable(const check::Report& report, HtmlReport& page) {
   if (report.identifiable.empty()) return;
   std::vector<std::vector<std::string>> rows;
-  for (const auto& [what, shown] : report.identifiable) rows.push_back({check::words_of_number(what), shown ? "yes" : "no"});
+  for (const auto& [what, shown] : report.identifiable)
+    rows.push_back({check::words_of_number(what), shown ? "yes" : "no"});
   page.paragraph("What the motion shows:");
   page.table({"number", "identifiable"}, rows);
 }

@@ -135,7 +135,8 @@ void add_budget(const Json& report, HtmlReport& page) {
 std::string to_html(const Diagnosis& diagnosis) {
   const Json& report = diagnosis.report;
   HtmlReport page("Diagnosis: what the simulator leaves out");
-  for (const Json& line : report.value("check", Json::array())) page.paragraph(line.get<std::string>());
+  for (const Json& line : report.value("check", Json::array()))
+    page.paragraph(line.get<std::string>());
   page.paragraph(headline(report));
   add_picture(diagnosis, page);
   add_errors(report, page);

@@ -61,7 +61,8 @@ void add_errors(const Json& report, HtmlReport& page) {
   for (std::size_t j = 0; j < report["targets"].size(); ++j) {
     std::vector<double> column;
     for (const auto& [key, label] : kStages) {
-      if (!fit[key].is_null() && !fit[key][j].is_null()) column.push_back(fit[key][j].get<double>());
+      if (!fit[key].is_null() && !fit[key][j].is_null())
+        column.push_back(fit[key][j].get<double>());
     }
     decimals.push_back(common_decimals(column, 3));
   }
@@ -156,11 +157,12 @@ void add_places(const Json& report, HtmlReport& page) {
                     share_text(s["share"]), shown(s["excess_rms"])});
   }
   for (const Json& r : report["where"]["regimes"]) {
-    rows.push_back(
-        {words_of_signal(plain_text(r["signal"])) + ": " + plain_text(r["condition"]), share_text(r["share"]), ""});
+    rows.push_back({words_of_signal(plain_text(r["signal"])) + ": " + plain_text(r["condition"]),
+                    share_text(r["share"]), ""});
   }
   for (const Json& b : report["where"]["bands"]) {
-    rows.push_back({shown(b["hz"][0]) + " to " + shown(b["hz"][1]) + " Hz", share_text(b["share"]), ""});
+    rows.push_back(
+        {shown(b["hz"][0]) + " to " + shown(b["hz"][1]) + " Hz", share_text(b["share"]), ""});
   }
   page.table({"place", "share of the excess", "excess"}, rows);
 }

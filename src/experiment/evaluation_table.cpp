@@ -21,7 +21,8 @@ std::vector<int> column_decimals(const Evaluation& evaluation) {
     for (const Spread& axis : s.rmse) means.push_back(axis.mean);
     add(means, s.overall ? std::optional(s.overall->mean) : std::nullopt);
   }
-  if (evaluation.references.rigid) add(evaluation.references.rigid->rmse, evaluation.references.rigid->overall);
+  if (evaluation.references.rigid)
+    add(evaluation.references.rigid->rmse, evaluation.references.rigid->overall);
   add(evaluation.unidentified.rmse, evaluation.unidentified.overall);
   add(evaluation.references.noise, std::nullopt);
   std::vector<int> decimals;

@@ -122,7 +122,8 @@ std::string to_text(const Evaluation& evaluation) {
   const auto reference = [&](const std::string& name, const std::vector<double>& rmse,
                              const std::optional<double>& overall) {
     text += padded(name, width) + padded("clean", 10) + padded("1", 6);
-    for (std::size_t j = 0; j < rmse.size(); ++j) text += padded(fixed(rmse[j], decimals[j]), column);
+    for (std::size_t j = 0; j < rmse.size(); ++j)
+      text += padded(fixed(rmse[j], decimals[j]), column);
     text += (overall ? fixed(*overall, decimals.back()) : "-") + "\n";
   };
   const auto& beside = evaluation.references;

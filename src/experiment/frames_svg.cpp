@@ -30,7 +30,8 @@ std::string axes_of(Point origin, const Eigen::Matrix4d& T, const std::string& n
 }
 
 /// A frame and, by a dashed line, another one in it; one pair of axes where they are the same.
-std::string pair_of(Point origin, const std::string& base, const Eigen::Matrix4d& T, const std::string& name) {
+std::string pair_of(Point origin, const std::string& base, const Eigen::Matrix4d& T,
+                    const std::string& name) {
   const Eigen::Matrix4d identity = Eigen::Matrix4d::Identity();
   if (T.isApprox(identity)) return axes_of(origin, identity, base + " = " + name);
   return line(project(origin, Eigen::Vector3d::Zero()), project(origin, T.topRightCorner<3, 1>()),

@@ -47,7 +47,8 @@ struct TableText {
   const std::vector<std::vector<std::string>>& rows;
   std::vector<bool> numeric;
 
-  TableText(const std::vector<std::string>& heads, const std::vector<std::vector<std::string>>& lines)
+  TableText(const std::vector<std::string>& heads,
+            const std::vector<std::vector<std::string>>& lines)
       : header(heads), rows(lines) {
     for (std::size_t i = 0; i < header.size(); ++i) {
       numeric.push_back(!rows.empty() && column_is_numeric(rows, i));
@@ -164,9 +165,11 @@ void HtmlReport::table(const std::vector<std::string>& header,
   constexpr int kPage = 860, kNarrow = 360;  // px for a table on a page, and on a screen of 400 px
   const TableText table(header, rows);
   const bool stacked = table.width(true) > kNarrow;
-  const std::string kind = std::string(table.width(false) > kPage ? " many" : "") + (stacked ? " stack" : "");
-  body_ += "<div class=\"wide\"><table" + (kind.empty() ? "" : " class=\"" + kind.substr(1) + "\"") +
-           ">\n<thead>" + table_row(header, table, "th", false) + "</thead>\n<tbody>\n";
+  const std::string kind =
+      std::string(table.width(false) > kPage ? " many" : "") + (stacked ? " stack" : "");
+  body_ += "<div class=\"wide\"><table" +
+           (kind.empty() ? "" : " class=\"" + kind.substr(1) + "\"") + ">\n<thead>" +
+           table_row(header, table, "th", false) + "</thead>\n<tbody>\n";
   for (const auto& row : rows) body_ += table_row(row, table, "td", stacked);
   body_ += "</tbody>\n</table></div>\n";
 }

@@ -149,9 +149,11 @@ std::string words_of_signal(const std::string& signal) {
 }
 
 std::string words_of_part(const std::string& part) {
-  static const std::map<std::string, std::string> kWords{
-      {"parameter", "own numbers"}, {"state", "rates, angles"}, {"memory", "history"},
-      {"clock", "time"},            {"event", "foreign forces"}};
+  static const std::map<std::string, std::string> kWords{{"parameter", "own numbers"},
+                                                         {"state", "rates, angles"},
+                                                         {"memory", "history"},
+                                                         {"clock", "time"},
+                                                         {"event", "foreign forces"}};
   const auto known = kWords.find(part);
   return known == kWords.end() ? part : known->second;
 }

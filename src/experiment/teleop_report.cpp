@@ -104,9 +104,10 @@ Table signals(const TeleopTrace& trace) {
 
 /// What the compensation does to the force that the hand feels in free motion, in one sentence.
 std::string teleop_answer(const std::vector<TeleopResult>& results) {
-  static const std::map<std::string, std::string> kWords{{"ideal", "where the tool's own force is known exactly"},
-                                                         {"none", "without force feedback"},
-                                                         {"ns", "with the sensor's raw force"}};
+  static const std::map<std::string, std::string> kWords{
+      {"ideal", "where the tool's own force is known exactly"},
+      {"none", "without force feedback"},
+      {"ns", "with the sensor's raw force"}};
   std::string text;
   for (const TeleopResult& r : results) {
     const Json& felt = r.row["handle_force_free_rms_n"];
@@ -122,10 +123,10 @@ std::string teleop_answer(const std::vector<TeleopResult>& results) {
 
 std::string teleop_line(const Json& row) {
   const Json& contact = row["contact_interval_s"];
-  const std::string text =
-      contact.is_null() ? "no contact"
-                        : "contact from " + fixed(contact[0], 1) + " to " + fixed(contact[1], 1) +
-                              " s, at most " + cell(row["force_max_n"], 1) + " N";
+  const std::string text = contact.is_null() ? "no contact"
+                                             : "contact from " + fixed(contact[0], 1) + " to " +
+                                                   fixed(contact[1], 1) + " s, at most " +
+                                                   cell(row["force_max_n"], 1) + " N";
   return row["name"].get<std::string>() + ": " + text + "; the master drifts by " +
          cell(row["master_drift_m"], 1e3) + " mm";
 }
@@ -135,7 +136,8 @@ void write_teleop(const std::filesystem::path& folder, const TeleopConfig& confi
   HtmlReport page("Bilateral teleoperation");
   page.paragraph(teleop_answer(results));
   const auto compared = comparison(results);
-  page.chart(compared[1], "'ideal' knows the tool exactly, 'none' sends no force back, 'ns' the raw force.");
+  page.chart(compared[1],
+             "'ideal' knows the tool exactly, 'none' sends no force back, 'ns' the raw force.");
   add_table(results, page);
   page.paragraph("A simulated demonstration (seed " + std::to_string(seed) +
                  "); every mass, stiffness and delay is a free assumption and stands in the "

@@ -107,7 +107,8 @@ TEST(Dispatch, ListsEveryProgramAndRunsIt) {
 std::vector<std::filesystem::path> scripts_of(const std::string& folder) {
   std::vector<std::filesystem::path> all;
   for (const auto& entry : std::filesystem::directory_iterator(DCNN_SOURCE_DIR "/" + folder)) {
-    const bool runs = (entry.status().permissions() & std::filesystem::perms::owner_exec) != std::filesystem::perms::none;
+    const bool runs = (entry.status().permissions() & std::filesystem::perms::owner_exec) !=
+                      std::filesystem::perms::none;
     if (entry.is_regular_file() && runs) all.push_back(entry.path());
   }
   return all;
@@ -123,7 +124,8 @@ TEST(Scripts, PrintTheirHelpAndDoNothing) {
       EXPECT_EQ(std::system(command.c_str()), 0) << script;
       const std::string text = test::slurp(folder / "out.txt");
       EXPECT_GE(std::count(text.begin(), text.end(), '\n'), 2) << script;
-      EXPECT_NE(text.find(script.filename().string()), text.npos) << script << " does not name itself";
+      EXPECT_NE(text.find(script.filename().string()), text.npos)
+          << script << " does not name itself";
       EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << script;
       ++count;
     }

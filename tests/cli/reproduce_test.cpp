@@ -90,6 +90,8 @@ TEST_F(Reproduce, FinishedWorkIsNotRedone) {
   const Result again = run("reproduce", arguments("out"));
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_NE(again.err.find("0 cells done"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("the time left is told from those that were measured"),
+            std::string::npos);
   EXPECT_EQ(model, fs::last_write_time(at("out/models/A/dcnn/dcnn.dcnn")));
   EXPECT_EQ(scores, fs::last_write_time(at("out/scores/feature/A/dcnn/evaluation.json")));
   EXPECT_EQ(report, slurp(at("out/report.html")));
@@ -215,6 +217,14 @@ TEST_F(Reproduce, EveryKthSampleIsScoredAsItWouldBeAmongAll) {
 }
 
 TEST_F(Reproduce, TheReportIsUsable) { test::expect_usable_page(slurp(at("out/report.html"))); }
+
+/// A few epochs are no verdict: the first look shows no crosses.
+TEST_F(Reproduce, AFirstLookJudgesNoClaim) {
+  const std::string html = slurp(at("out/report.html"));
+  EXPECT_EQ(html.find("✗"), std::string::npos);
+  EXPECT_NE(html.find("– not judged"), std::string::npos);
+  EXPECT_NE(html.find("predicts the test recording best"), std::string::npos);
+}
 
 }  // namespace
 }  // namespace dcnn

@@ -67,12 +67,15 @@ TEST(TeleopTool, AModelInTheLoopTakesMostOfTheWeightOffTheHand) {
   for (const char* file : {"teleop.json", "frames.svg", "comparison_0.svg", "rigid.csv"}) {
     EXPECT_TRUE(std::filesystem::exists(out / file)) << file;
   }
-  const auto refused =
-      run("teleop", {"--model", (folder / "off.dcnn").string(), "--out", (folder / "none").string()});
+  const auto refused = run(
+      "teleop", {"--model", (folder / "off.dcnn").string(), "--out", (folder / "none").string()});
   EXPECT_EQ(refused.exit_code, 4);
   EXPECT_TRUE(contains(refused.err, "--online")) << refused.err;
-  EXPECT_EQ(run("teleop", {"--config", "absent.json", "--out", (folder / "none").string()}).exit_code, 2);
-  EXPECT_EQ(run("teleop", {"--corrected", "absent.json", "--out", (folder / "none").string()}).exit_code, 3);
+  EXPECT_EQ(
+      run("teleop", {"--config", "absent.json", "--out", (folder / "none").string()}).exit_code, 2);
+  EXPECT_EQ(
+      run("teleop", {"--corrected", "absent.json", "--out", (folder / "none").string()}).exit_code,
+      3);
 }
 
 }  // namespace

@@ -220,8 +220,8 @@ TEST_F(Tools, AddsNothingToASimulatorThatLeavesNothing) {
   std::ofstream(at("whole.json")) << whole.dump();
   for (const char* kind : {"mlp", "dcnn"}) {
     const std::string model = std::string(kind) + "_more.dcnn";
-    const Result trained = run(
-        "train", training(model, {"--base", at("whole.json"), "--model", kind, "--json"}));
+    const Result trained =
+        run("train", training(model, {"--base", at("whole.json"), "--model", kind, "--json"}));
     ASSERT_EQ(trained.exit_code, 0) << trained.err;
     const Json trust = parse_json(trained.out, "train", Exit::kFailure)["trust"];
     const Result result =

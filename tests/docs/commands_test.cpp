@@ -146,7 +146,8 @@ TEST(DocumentedCommands, TheReadmesFirstResultIsWhatItsCommandPrints) {
     const auto at = readme.find("\n> ");
     ASSERT_NE(at, readme.npos);
     const std::string quoted = readme.substr(at + 3, readme.find('\n', at + 1) - at - 2);
-    EXPECT_NE(("\n" + clone.printed()).find("\n" + quoted), std::string::npos) << quoted << clone.printed();
+    EXPECT_NE(("\n" + clone.printed()).find("\n" + quoted), std::string::npos)
+        << quoted << clone.printed();
     return;
   }
   FAIL() << "the README has no command that begins with dcnn diagnose";

@@ -1,5 +1,7 @@
 // Pages as people use them: zoom, values under the pointer, series, sorting, dark mode, narrow
 // screens, a million samples.
+#include "support/page.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,10 +9,9 @@
 
 #include "dcnn/experiment/calibration_report.h"
 #include "dcnn/experiment/diagnosis_report.h"
+#include "dcnn/experiment/report.h"
 #include "experiment/markup.h"
 #include "experiment/report_words.h"
-#include "dcnn/experiment/report.h"
-#include "support/page.h"
 
 namespace dcnn {
 namespace {

@@ -41,10 +41,10 @@ struct Curve {
 
 struct Report {
   std::string log;
-  std::vector<Fault> faults;  ///< by falling probability
+  std::vector<Fault> faults;            ///< by falling probability
   std::vector<ReadingWeight> readings;  ///< by falling probability, the likeliest few
   std::map<std::string, bool> identifiable;
-  std::vector<std::string> notes;  ///< why something could not be looked at
+  std::vector<std::string> notes;      ///< why something could not be looked at
   std::vector<Curve> measured, rigid;  ///< per axis: as logged, and the rigid tool's best fit
 
   /// The first fault that is certain and stops.
