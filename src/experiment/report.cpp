@@ -58,7 +58,7 @@ struct TableText {
   /// Width in px: cells on one line each or, on a narrow screen, broken between words where they
   /// are no numbers. Sizes are those of page.css with a common sans-serif face.
   int width(bool narrow) const {
-    const int character = narrow ? 7 : 8, padding = narrow ? 12 : 26;
+    const int character = 9, padding = narrow ? 12 : 26;
     int sum = 0;
     for (std::size_t i = 0; i < header.size(); ++i) {
       int widest = longest_word(header[i]);
