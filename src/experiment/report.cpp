@@ -66,6 +66,7 @@ struct TableText {
         if (i >= row.size()) continue;
         const bool whole = numeric[i] || (!narrow && !is_long(row[i]));
         widest = std::max(widest, whole ? character_count(row[i]) : longest_word(row[i]));
+        if (is_long(row[i])) widest = std::max(widest, narrow ? 12 : 19);  // the least width of .t
       }
       sum += character * widest + padding;
     }
