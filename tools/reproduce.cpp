@@ -33,10 +33,17 @@ void print_plan(const Json& plan) {
     std::snprintf(seconds, sizeof seconds, "%9.1f s  ", step["seconds"].get<double>());
     std::cout << seconds << step["step"].get<std::string>() << "\n";
   }
-  std::cout << "about " << minutes(plan["seconds"].get<double>()) << " on one core\n";
+  std::cout << "sum " << minutes(plan["seconds"].get<double>())
+            << " on one core: an estimate from another machine, idle; a run measures its own\n";
 }
 
-void print_claims(const Json& summary) {
+void print_claims(const Json& summary, const std::string& preset) {
+  if (preset == "quick") {
+    std::cout << "a first look with networks of a few epochs: the numbers are in the report, the "
+                 "paper's claims need\n"
+                 "--preset standard or fair\n";
+    return;
+  }
   for (const auto& [series, claims] : summary["claims"].items()) {
     std::cout << series << "\n";
     for (const Json& claim : claims) {
@@ -53,9 +60,9 @@ void print_claims(const Json& summary) {
 Exit work(const ReproductionRequest& request, const Tool& tool) {
   catch_interrupts();
   if (!request.prepare) {
-    const double expected = reproduction_plan(request)["seconds"];
-    tool.note("about " + minutes(expected / request.jobs) + " on " + std::to_string(request.jobs) +
-              " idle cores, if nothing is done yet");
+    tool.note(std::to_string(reproduction_plan(request)["steps"].size()) + " cells on " +
+              std::to_string(request.jobs) +
+              " cores; the time left is told from those that were measured");
   }
   Progress bar(tool.common().quiet);
   CellRunObserver observer;
@@ -80,7 +87,7 @@ Exit work(const ReproductionRequest& request, const Tool& tool) {
   if (tool.common().json) {
     Tool::print(outcome.summary);
   } else {
-    print_claims(outcome.summary);
+    print_claims(outcome.summary, request.preset);
     std::cout << "report: " << outcome.report.string() << "\n";
   }
   return Exit::kDone;

@@ -91,9 +91,7 @@ int main(int argc, char** argv) {
       Tool::print({{"variants", rows}});
     } else {
       for (const auto& row : rows) {
-        std::cout << row["name"].get<std::string>() << ": contact " << row["contact_interval_s"]
-                  << " s, " << row["force_max_n"] << " N, drift " << row["master_drift_m"]
-                  << " m\n";
+        std::cout << teleop_line(row) << "\n";
       }
       std::cout << (out / "report.html").string() << "\n";
     }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 
 #include "dcnn/check/check.h"
@@ -7,7 +8,9 @@ namespace {
 
 std::string sureness(double probability) {
   char text[40];
-  const char* word = probability >= kCertain ? "certain" : probability >= kLikely ? "likely" : "possible";
+  const char* word = probability >= kCertain  ? "certain"
+                     : probability >= kLikely ? "likely"
+                                              : "possible";
   std::snprintf(text, sizeof text, "%-8s %.3f", word, probability);
   return text;
 }
@@ -17,7 +20,8 @@ Json json_of(const Fault& fault) {
   json["fault"] = fault.id;
   json["probability"] = fault.probability;
   json["channel"] = fault.channel.empty() ? Json() : Json(fault.channel);
-  json["interval_s"] = fault.interval_s ? Json{fault.interval_s->first, fault.interval_s->second} : Json();
+  json["interval_s"] =
+      fault.interval_s ? Json{fault.interval_s->first, fault.interval_s->second} : Json();
   json["words"] = fault.words;
   json["remedy"] = fault.remedy;
   json["flag"] = fault.flag.empty() ? Json() : Json(fault.flag);
@@ -25,14 +29,41 @@ Json json_of(const Fault& fault) {
   return json;
 }
 
+/// "99.7 %"; never 100 for what is not certain.
+std::string percent_text(double probability) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.3g %%",
+                std::min(100.0 * probability, probability < 1.0 ? 99.9 : 100.0));
+  return text;
+}
+
 std::string interval_text(const Fault& fault) {
   if (!fault.interval_s) return "";
   char text[64];
-  std::snprintf(text, sizeof text, " (t from %.6g to %.6g)", fault.interval_s->first, fault.interval_s->second);
+  std::snprintf(text, sizeof text, " (t from %.6g to %.6g)", fault.interval_s->first,
+                fault.interval_s->second);
   return text;
 }
 
 }  // namespace
+
+std::string words_of_number(const std::string& key) {
+  const auto cut = key.find('_');
+  const std::string stem = key.substr(0, cut),
+                    axis = cut == key.npos ? "" : ", " + key.substr(cut + 1);
+  return (stem == "com" ? "centre of mass" : stem == "bias" ? "sensor offset" : stem) + axis;
+}
+
+std::string verdict(const Report& report) {
+  if (report.faults.empty()) return "nothing is wrong that can be told from the data";
+  const Fault& first = report.faults.front();
+  const std::size_t more = report.faults.size() - 1;
+  const std::string others = more == 0   ? ""
+                             : more == 1 ? ", and one more fault"
+                                         : ", and " + std::to_string(more) + " more faults";
+  return first.words + " (probability " + percent_text(first.probability) + ")" + others + "; " +
+         first.remedy;
+}
 
 Json to_json(const Report& report) {
   Json json;
@@ -51,15 +82,16 @@ Json to_json(const Report& report) {
 
 std::string to_text(const Report& report) {
   std::string text = report.log + ": ";
-  if (report.faults.empty()) text += "nothing is wrong that can be told from the data";
+  if (report.faults.empty()) text += verdict(report);
   text += "\n";
   for (const Fault& fault : report.faults) {
-    text += "  " + sureness(fault.probability) + "  " + fault.id + ": " + fault.words + interval_text(fault) +
-            "\n                    mend: " + fault.remedy + (fault.flag.empty() ? "" : " (" + fault.flag + ")") + "\n";
+    text += "  " + sureness(fault.probability) + "  " + fault.id + ": " + fault.words +
+            interval_text(fault) + "\n                    mend: " + fault.remedy +
+            (fault.flag.empty() ? "" : " (" + fault.flag + ")") + "\n";
   }
   std::string hidden;
   for (const auto& [what, shown] : report.identifiable) {
-    if (!shown) hidden += (hidden.empty() ? "" : ", ") + what;
+    if (!shown) hidden += (hidden.empty() ? "" : "; ") + words_of_number(what);
   }
   if (!hidden.empty()) text += "  the motion does not show: " + hidden + "\n";
   for (const std::string& note : report.notes) text += "  " + note + "\n";

@@ -48,7 +48,17 @@ std::string format(const char* how, double a, double b) {
   return text;
 }
 
-std::string micro(double seconds) { return format("%.2f", 1e6 * seconds, 0.0); }
+/// Microseconds with three digits or more: "0.32", "52.1", "52080".
+std::string micro(double seconds) {
+  const double us = 1e6 * seconds;
+  return fixed(us, us >= 100.0 ? 0 : us >= 10.0 ? 1 : 2);
+}
+
+/// "0.32 µs", "52.1 ms", "1.2 s".
+std::string time_text(double seconds) {
+  if (seconds < 1e-3) return significant(1e6 * seconds, 3) + " µs";
+  return seconds < 1.0 ? significant(1e3 * seconds, 3) + " ms" : significant(seconds, 3) + " s";
+}
 
 std::vector<std::string> cells(const BenchRow& row) {
   const PaperRow* paper = paper_row(row);
@@ -56,19 +66,19 @@ std::vector<std::string> cells(const BenchRow& row) {
           row.features_included ? "pose" : "X",
           std::to_string(row.length),
           std::to_string(row.calls),
-          format("%.2f +- %.2f", 1e6 * row.call.mean, 1e6 * row.call.deviation),
-          format("%.3f +- %.3f", row.total.mean, row.total.deviation),
+          micro(row.call.mean) + " ± " + micro(row.call.deviation),
+          format("%.3f ± %.3f", row.total.mean, row.total.deviation),
           micro(row.p50),
           micro(row.p99),
           micro(row.maximum),
           micro(row.per_sample),
-          paper ? format("%.4f +- %.5f", paper->mean, paper->deviation) : "-",
-          paper ? format("%.2f +- %.2f", paper->total, paper->total_deviation) : "-"};
+          paper ? format("%.4f ± %.5f", paper->mean, paper->deviation) : "-",
+          paper ? format("%.2f ± %.2f", paper->total, paper->total_deviation) : "-"};
 }
 
 const std::vector<std::string> kHeader{
-    "file",     "from",     "L",        "calls",           "call [us]",      "total [s]",
-    "p50 [us]", "p99 [us]", "max [us]", "per sample [us]", "paper call [s]", "paper total [s]"};
+    "file",     "from",     "L",        "calls",           "call [µs]",      "total [s]",
+    "p50 [µs]", "p99 [µs]", "max [µs]", "per sample [µs]", "paper call [s]", "paper total [s]"};
 
 Chart sample_chart(const Bench& bench) {
   Chart chart;
@@ -92,15 +102,14 @@ Chart sample_chart(const Bench& bench) {
 
 /// The first row in one sentence.
 std::string bench_answer(const BenchRow& row) {
-  return row.file + " takes " + micro(row.p50) + " µs (median) and at most " + micro(row.maximum) +
-         " µs for a call of " + std::to_string(row.length) + (row.length == 1 ? " sample" : " samples") +
-         " on one thread of this machine.";
+  return row.file + " takes " + time_text(row.p50) + " (median) and at most " +
+         time_text(row.maximum) + " for a call of " + std::to_string(row.length) +
+         (row.length == 1 ? " sample" : " samples") + " on one thread of this machine.";
 }
 
 void add_calls(HtmlReport& page, const Bench& bench, const BenchRequest& request) {
   page.paragraph(bench_answer(bench.rows.front()));
   page.chart(sample_chart(bench), "time per sample over the samples predicted in one call");
-  page.heading("Time per call");
   std::vector<std::vector<std::string>> rows;
   for (const BenchRow& row : bench.rows) rows.push_back(cells(row));
   page.table(kHeader, rows);
@@ -144,7 +153,9 @@ std::string to_text(const Bench& bench) {
   for (const BenchRow& row : bench.rows) lines.push_back(cells(row));
   std::vector<std::size_t> widths(kHeader.size(), 0);
   for (const auto& line : lines) {
-    for (std::size_t k = 0; k < line.size(); ++k) widths[k] = std::max(widths[k], line[k].size());
+    for (std::size_t k = 0; k < line.size(); ++k) {
+      widths[k] = std::max(widths[k], static_cast<std::size_t>(character_count(line[k])));
+    }
   }
   std::string text;
   for (const auto& line : lines) {

@@ -5,6 +5,7 @@
 #include "dcnn/core/file.h"
 #include "dcnn/experiment/report.h"
 #include "experiment/challenge_tables.h"
+#include "experiment/report_words.h"
 
 namespace dcnn {
 namespace {
@@ -22,7 +23,9 @@ void add_table(HtmlReport& page, const std::string& title, const Json& table,
   std::vector<std::string> header{""};
   for (const auto& [key, heading] : columns) header.push_back(heading);
   std::vector<std::vector<std::string>> rows;
-  for (const auto& [label, summary] : table.items()) rows.push_back(row(label, summary, columns));
+  for (const auto& [label, summary] : table.items()) {
+    rows.push_back(row(words_of_effect(label), summary, columns));
+  }
   page.table(header, rows);
 }
 
@@ -95,6 +98,25 @@ void add_comparisons(HtmlReport& page, const Json& scores) {
   }
 }
 
+std::string effects_in_words(const Json& ids) {
+  Json names = Json::array();
+  for (const Json& id : ids) names.push_back(words_of_effect(id.get<std::string>()));
+  return joined_names(names);
+}
+
+/// How often the first name was right, and how often nothing was named where nothing was hidden.
+std::string challenge_answer(const Json& scores) {
+  const std::size_t count = scores["scenarios"].size();
+  std::string text = "Of " + std::to_string(count) + " sealed scenario" + (count == 1 ? "" : "s") +
+                     " of seed " + scores["seed"].dump();
+  const std::string first = score_text(scores["tables"]["all"].value("top1", Json())),
+                    silent = score_text(scores["tables"]["all"].value("null_without_name", Json()));
+  if (!first.empty()) text += ", the first name is right in " + first;
+  if (!silent.empty()) text += first.empty() ? ", " : "; ";
+  if (!silent.empty()) text += "where nothing is hidden, nothing is named in " + silent;
+  return text + " (95 % intervals in brackets).";
+}
+
 void add_failures(HtmlReport& page, const Json& scenarios) {
   page.heading("Where it fails");
   std::vector<std::vector<std::string>> rows;
@@ -103,8 +125,8 @@ void add_failures(HtmlReport& page, const Json& scenarios) {
         (s["class_set"].get<bool>() || s["group"] == "unlisted" || s["group"] == "faint")) {
       continue;
     }
-    rows.push_back({s["id"], s["drawn"], s["hidden"].dump(), s["named"].dump(), s["verdict"],
-                    s["seconds"].dump()});
+    rows.push_back({s["id"], s["drawn"], effects_in_words(s["hidden"]),
+                    effects_in_words(s["named"]), s["verdict"], s["seconds"].dump()});
   }
   if (rows.empty()) {
     page.paragraph("Nowhere: every name and every verdict is right.");
@@ -117,17 +139,21 @@ void add_failures(HtmlReport& page, const Json& scenarios) {
 
 std::string challenge_html(const Json& scores) {
   HtmlReport page("Sealed challenge");
-  page.preformatted(challenge_text(scores));
-  page.paragraph(
-      "Rates with Wilson's 95 % intervals. The answers were sealed before the first diagnosis; "
-      "their "
-      "SHA-256 is above. Amplitudes are the rms of what an effect alone changes on its strongest "
-      "axis, in standard deviations of the sensor noise.");
+  page.paragraph(challenge_answer(scores));
   const Json& tables = scores["tables"];
   const Chart holdout = holdout_chart(tables["effect"]);
   if (!holdout.categories.empty()) {
     page.chart(holdout, "1 is the error of the true law at the true pose.");
   }
+  page.table({"over all scenarios", "rate with its interval, or median"}, headline_rows(scores));
+  page.paragraph(
+      "Rates with Wilson's 95 % intervals. The answers were sealed before the first diagnosis; "
+      "their "
+      "SHA-256 is " +
+      scores["sha256"].get<std::string>() +
+      ". Amplitudes are the rms of what an effect alone changes on its strongest "
+      "axis, in standard deviations of the sensor noise.");
+  page.heading("Rates by effect and by amplitude");
   add_rates(page, tables["effect"], "found_class", "Effects named or among the alternatives");
   add_rates(page, tables["amplitude"], "found_class",
             "Effects named or among the alternatives, by amplitude");
@@ -153,6 +179,8 @@ std::string challenge_html(const Json& scores) {
   add_table(page, "By motion", tables["motion"], groups);
   add_table(page, "By noise", tables["noise"], groups);
   add_failures(page, scores["scenarios"]);
+  page.heading("As text");
+  page.preformatted(challenge_text(scores));
   return page.html();
 }
 

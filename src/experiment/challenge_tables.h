@@ -14,6 +14,12 @@ using Columns = std::vector<std::pair<std::string, std::string>>;  // key, headi
 /// "97 % [91, 99] of 40", or "1.002, 90 % below 1.02" (median); empty where there is nothing.
 std::string score_text(const Json& value);
 
+/// "nothing", or names one after the other.
+std::string joined_names(const Json& names);
+
+/// What was counted over all scenarios: words and value, without what there was none of.
+std::vector<std::vector<std::string>> headline_rows(const Json& scores);
+
 /// The diagnosis, what is measured by it, and the true law. (Nobody but the diagnosis speaks the
 /// verdicts that are scored.)
 Json beside_rivals(const Json& scores);

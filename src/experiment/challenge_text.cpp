@@ -5,6 +5,7 @@
 
 #include "dcnn/experiment/challenge_report.h"
 #include "experiment/challenge_tables.h"
+#include "experiment/markup.h"
 
 namespace dcnn {
 namespace {
@@ -89,12 +90,6 @@ std::string singles_text(const Json& table) {
   return text + "\n";
 }
 
-std::string joined(const Json& names) {
-  std::string text;
-  for (const Json& name : names) text += (text.empty() ? "" : ", ") + name.get<std::string>();
-  return text.empty() ? "nothing" : text;
-}
-
 /// What was hidden and what was said of it.
 std::string story(const Json& s) {
   std::string hidden;
@@ -104,7 +99,7 @@ std::string story(const Json& s) {
   }
   std::string text = s["id"].get<std::string>() +
                      "  hidden:  " + (hidden.empty() ? "nothing" : hidden) +
-                     "\n       named:   " + joined(s["named"]) +
+                     "\n       named:   " + joined_names(s["named"]) +
                      "\n       verdict: " + s["verdict"].get<std::string>() + "\n";
   const Json& error = s["holdout"];
   if (error.contains("after") && error.contains("oracle")) {
@@ -116,6 +111,21 @@ std::string story(const Json& s) {
 }
 
 }  // namespace
+
+std::string joined_names(const Json& names) {
+  std::string text;
+  for (const Json& name : names) text += (text.empty() ? "" : ", ") + name.get<std::string>();
+  return text.empty() ? "nothing" : text;
+}
+
+std::vector<std::vector<std::string>> headline_rows(const Json& scores) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [key, heading] : kHeadline) {
+    const std::string value = score_text(scores["tables"]["all"].value(key, Json()));
+    if (!value.empty()) rows.push_back({heading, value});
+  }
+  return rows;
+}
 
 std::string score_text(const Json& value) {
   if (value.is_null()) return "";
@@ -151,13 +161,7 @@ std::string challenge_text(const Json& scores) {
     for (const Json& s : scores["scenarios"]) text += story(s);
     return text;
   }
-  for (const auto& [key, heading] : kHeadline) {
-    const std::string value = score_text(scores["tables"]["all"].value(key, Json()));
-    if (value.empty()) continue;
-    std::string label = heading;
-    label.resize(46, ' ');
-    text += label + value + "\n";
-  }
+  for (const auto& row : headline_rows(scores)) text += padded(row[0], 46) + row[1] + "\n";
   if (!scores["missing"].empty()) {
     text += std::to_string(scores["missing"].size()) + " scenarios are not yet run\n";
   }

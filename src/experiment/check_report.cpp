@@ -10,34 +10,32 @@ namespace {
 
 std::vector<std::string> fault_row(const check::Fault& fault) {
   const std::string remedy = fault.remedy + (fault.flag.empty() ? "" : " (" + fault.flag + ")");
-  const std::string where =
-      fault.interval_s ? significant(fault.interval_s->first, 6) + " to " + significant(fault.interval_s->second, 6) : "";
+  const std::string where = fault.interval_s ? significant(fault.interval_s->first, 6) + " to " +
+                                                   significant(fault.interval_s->second, 6)
+                                             : "";
   return {fault.id, significant(fault.probability, 4), fault.words, where, remedy};
 }
 
 void add_faults(const check::Report& report, HtmlReport& page) {
-  if (report.faults.empty()) {
-    page.paragraph("Nothing is wrong that can be told from the data.");
-    return;
-  }
+  if (report.faults.empty()) return;
   std::vector<std::vector<std::string>> rows;
   for (const check::Fault& fault : report.faults) rows.push_back(fault_row(fault));
   page.table({"fault", "probability", "what is wrong", "t", "what mends it"}, rows);
 }
 
 void add_forces(const check::Report& report, HtmlReport& page) {
-  std::vector<Chart> charts;
   for (std::size_t k = 0; k < report.measured.size(); ++k) {
     const check::Curve& logged = report.measured[k];
     const check::Curve& rigid = report.rigid[k];
-    Chart chart{logged.label, "t [s]", "N", {}, {}, false, 440, 260, false};
+    Chart chart{logged.label, "time [s]", "force [N]", {}, {}, false, 720, 220};
     chart.series.push_back({"as logged", list_of(logged.t), list_of(logged.values), {}});
     chart.series.push_back({"rigid tool", list_of(rigid.t), list_of(rigid.values), {}});
-    charts.push_back(chart);
+    const bool last = k + 1 == report.measured.size();
+    page.chart(chart, last ? "The force, in the likeliest reading of the log, beside the best fit "
+                             "of a rigid tool (mass, "
+                             "centre of mass, offset), both smoothed over 0.12 s."
+                           : "");
   }
-  if (charts.empty()) return;
-  page.panels(charts, "The force, in the likeliest reading of the log, beside the best fit of a rigid tool (mass, centre "
-                      "of mass, offset), both smoothed over 0.12 s.");
 }
 
 void add_readings(const check::Report& report, HtmlReport& page) {
@@ -52,7 +50,8 @@ void add_readings(const check::Report& report, HtmlReport& page) {
 void add_identifiable(const check::Report& report, HtmlReport& page) {
   if (report.identifiable.empty()) return;
   std::vector<std::vector<std::string>> rows;
-  for (const auto& [what, shown] : report.identifiable) rows.push_back({what, shown ? "yes" : "no"});
+  for (const auto& [what, shown] : report.identifiable)
+    rows.push_back({check::words_of_number(what), shown ? "yes" : "no"});
   page.paragraph("What the motion shows:");
   page.table({"number", "identifiable"}, rows);
 }
@@ -81,9 +80,14 @@ Json check_json(const std::vector<check::Report>& reports) {
 std::string check_html(const std::vector<check::Report>& reports) {
   HtmlReport page("Check of recordings");
   for (const check::Report& report : reports) {
-    page.heading(report.log);
-    add_faults(report, page);
+    page.paragraph(report.log + ": " + check::verdict(report) + ".");
+  }
+  const bool one = reports.size() == 1;  // then picture and table stand beside the answer
+  for (const check::Report& report : reports) {
+    if (!one) page.heading(report.log);
     add_forces(report, page);
+    add_faults(report, page);
+    if (one) page.heading("What the recording shows");
     add_readings(report, page);
     add_identifiable(report, page);
     for (const std::string& note : report.notes) page.paragraph(note);

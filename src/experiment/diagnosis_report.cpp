@@ -59,8 +59,12 @@ Chart difference_chart(const Diagnosis& diagnosis, Eigen::Index j) {
   const Eigen::VectorXd before =
       (record.measured.col(j) - record.before.col(j)).segment(from, rows);
   const Eigen::VectorXd after = (record.measured.col(j) - record.after.col(j)).segment(from, rows);
-  chart.series.push_back({"as given", t, list_of(before), {}});
-  chart.series.push_back({"with all findings", t, list_of(after), {}});
+  if (before == after) {
+    chart.series.push_back({"as given, and with all findings", t, list_of(before), {}});
+  } else {
+    chart.series.push_back({"as given", t, list_of(before), {}});
+    chart.series.push_back({"with all findings", t, list_of(after), {}});
+  }
   return chart;
 }
 
@@ -107,7 +111,7 @@ void add_budget(const Json& report, HtmlReport& page) {
   chart.legend = false;
   Series shares{"share", {}, {}, {}, Series::Style::kBars};
   for (const Json& part : parts) {
-    const std::string name = plain_text(part["part"]);
+    const std::string name = words_of_part(plain_text(part["part"]));
     const auto known = std::find(chart.categories.begin(), chart.categories.end(), name);
     const auto at = static_cast<std::size_t>(known - chart.categories.begin());
     if (known == chart.categories.end()) {
@@ -131,7 +135,8 @@ void add_budget(const Json& report, HtmlReport& page) {
 std::string to_html(const Diagnosis& diagnosis) {
   const Json& report = diagnosis.report;
   HtmlReport page("Diagnosis: what the simulator leaves out");
-  for (const Json& line : report.value("check", Json::array())) page.paragraph(line.get<std::string>());
+  for (const Json& line : report.value("check", Json::array()))
+    page.paragraph(line.get<std::string>());
   page.paragraph(headline(report));
   add_picture(diagnosis, page);
   add_errors(report, page);

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "dcnn/diagnosis/diagnose.h"
+#include "experiment/markup.h"
 #include "experiment/report_words.h"
 
 namespace dcnn {
@@ -13,6 +14,10 @@ std::string shown(const Json& value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value.get<double>());
   return text;
+}
+
+std::string share_text(const Json& value) {
+  return value.is_null() ? "" : percent(value.get<double>());
 }
 
 const std::vector<std::pair<const char*, const char*>> kStages{
@@ -34,7 +39,7 @@ std::string unit_of_target(const Json& report, const Json& target) {
 std::string least_size(const Json& report, const Json& entry) {
   if (entry.contains("least") && entry["least"].is_object()) {
     const Json& least = entry["least"];
-    return words_of_parameter(plain_text(least["parameter"])) + " " +
+    return words_of_parameter(plain_text(least["parameter"])) + ": " +
            with_unit(least["value"].get<double>(),
                      unit_in_words(plain_text(least["parameter"]), plain_text(least["unit"])));
   }
@@ -52,11 +57,22 @@ std::string plain_text(const Json& value) {
 
 void add_errors(const Json& report, HtmlReport& page) {
   const Json& fit = report["fit"];
+  std::vector<int> decimals;
+  for (std::size_t j = 0; j < report["targets"].size(); ++j) {
+    std::vector<double> column;
+    for (const auto& [key, label] : kStages) {
+      if (!fit[key].is_null() && !fit[key][j].is_null())
+        column.push_back(fit[key][j].get<double>());
+    }
+    decimals.push_back(common_decimals(column, 3));
+  }
   std::vector<std::vector<std::string>> rows;
   for (const auto& [key, label] : kStages) {
     if (fit[key].is_null()) continue;
     std::vector<std::string> row{label};
-    for (const Json& value : fit[key]) row.push_back(shown(value));
+    for (std::size_t j = 0; j < decimals.size(); ++j) {
+      row.push_back(fit[key][j].is_null() ? "" : fixed(fit[key][j].get<double>(), decimals[j]));
+    }
     rows.push_back(row);
   }
   std::vector<std::string> header{"RMSE on held-out data"};
@@ -76,7 +92,7 @@ void add_findings(const Json& report, HtmlReport& page) {
   for (const Json& f : in_lines(report["findings"])) {
     std::string parameters;
     for (const auto& [name, p] : f["parameters"].items()) {
-      parameters += (parameters.empty() ? "" : "; ") + words_of_parameter(name) + " ";
+      parameters += (parameters.empty() ? "" : "; ") + words_of_parameter(name) + ": ";
       const Json& interval = p["ci95"];
       const auto value = p["value"].get<double>();
       const std::string unit = unit_in_words(name, p["unit"].get<std::string>());
@@ -91,7 +107,8 @@ void add_findings(const Json& report, HtmlReport& page) {
       alternatives += (alternatives.empty() ? "" : ", ") + words_of_effect(plain_text(effect));
     }
     rows.push_back({words_of_effect(plain_text(f["effect"])), words_of_axis(plain_text(f["axis"])),
-                    parameters, shown(f["confidence"]), shown(f["holdout_gain"]), alternatives});
+                    parameters, share_text(f["confidence"]), share_text(f["holdout_gain"]),
+                    alternatives.empty() ? "nothing else" : alternatives});
   }
   std::string refuted;
   for (const Json& name : report.value("refuted", Json::array())) {
@@ -132,19 +149,20 @@ void add_places(const Json& report, HtmlReport& page) {
       "place (targets, times, conditions, frequencies) are of the excess' energy.");
   std::vector<std::vector<std::string>> rows;
   for (const Json& a : report["where"]["axes"]) {
-    rows.push_back({plain_text(a["axis"]), shown(a["share"]),
+    rows.push_back({plain_text(a["axis"]), share_text(a["share"]),
                     with_unit(a["excess_rms"].get<double>(), unit_of_target(report, a["axis"]))});
   }
   for (const Json& s : report["where"]["segments"]) {
     rows.push_back({"time " + shown(s["interval_s"][0]) + " to " + shown(s["interval_s"][1]) + " s",
-                    shown(s["share"]), shown(s["excess_rms"])});
+                    share_text(s["share"]), shown(s["excess_rms"])});
   }
   for (const Json& r : report["where"]["regimes"]) {
-    rows.push_back(
-        {plain_text(r["signal"]) + ": " + plain_text(r["condition"]), shown(r["share"]), ""});
+    rows.push_back({words_of_signal(plain_text(r["signal"])) + ": " + plain_text(r["condition"]),
+                    share_text(r["share"]), ""});
   }
   for (const Json& b : report["where"]["bands"]) {
-    rows.push_back({shown(b["hz"][0]) + " to " + shown(b["hz"][1]) + " Hz", shown(b["share"]), ""});
+    rows.push_back(
+        {shown(b["hz"][0]) + " to " + shown(b["hz"][1]) + " Hz", share_text(b["share"]), ""});
   }
   page.table({"place", "share of the excess", "excess"}, rows);
 }

@@ -7,17 +7,13 @@
 #include "dcnn/experiment/evaluate.h"
 #include "dcnn/experiment/report.h"
 #include "dcnn/experiment/train.h"
+#include "experiment/evaluation_table.h"
 #include "experiment/levels.h"
 #include "experiment/markup.h"
 #include "experiment/report_words.h"
 
 namespace dcnn {
 namespace {
-
-/// One draw has no spread.
-std::string with_spread(const Spread& s, int runs) {
-  return significant(s.mean, 3) + (runs > 1 ? " ± " + significant(s.deviation, 2) : "");
-}
 
 std::vector<std::string> level_names(const Evaluation& evaluation) {
   std::vector<std::string> names;
@@ -58,9 +54,11 @@ std::string answer(const Evaluation& evaluation) {
   const auto& beside = evaluation.references;
   if (!s.overall) return s.file + " on " + std::to_string(evaluation.samples) + " samples.";
   std::string text = s.file + " predicts " + evaluation.data.front() + " with an RMSE of " +
-                     significant(s.overall->mean, 3) + " " + unit + " (" + level_name(s.snr_db) + ")";
+                     significant(s.overall->mean, 3) + " " + unit + " (" + level_name(s.snr_db) +
+                     ")";
   if (evaluation.unidentified.overall) {
-    text += "; without identification it is " + significant(*evaluation.unidentified.overall, 3) + " " + unit;
+    text += "; without identification it is " + significant(*evaluation.unidentified.overall, 3) +
+            " " + unit;
   }
   if (beside.rigid && beside.rigid->overall) {
     text += ", with the rigid tool " + significant(*beside.rigid->overall, 3) + " " + unit;
@@ -71,17 +69,21 @@ std::string answer(const Evaluation& evaluation) {
 void add_table(HtmlReport& page, const Evaluation& evaluation) {
   std::vector<std::string> header{"model", "SNR", "runs"};
   for (std::size_t j = 0; j < evaluation.targets.names.size(); ++j) {
-    header.push_back(evaluation.targets.names[j] + " [" + unit_text(evaluation.targets.units[j]) + "]");
+    header.push_back(evaluation.targets.names[j] + " [" + unit_text(evaluation.targets.units[j]) +
+                     "]");
   }
   const std::string& unit = evaluation.targets.units.front();
   const auto forces = static_cast<std::ptrdiff_t>(
       std::count(evaluation.targets.units.begin(), evaluation.targets.units.end(), unit));
-  header.insert(header.end(), {"overall [" + unit + "]", "largest error [" + unit + "]", "least R²"});
+  header.insert(header.end(),
+                {"overall [" + unit + "]", "largest error [" + unit + "]", "least R²"});
+  const std::vector<int> decimals = column_decimals(evaluation);
   std::vector<std::vector<std::string>> rows;
   for (const auto& s : evaluation.summary) {
     std::vector<std::string> row{s.file, level_name(s.snr_db), std::to_string(s.runs)};
-    for (const Spread& axis : s.rmse) row.push_back(with_spread(axis, s.runs));
-    row.push_back(s.overall ? with_spread(*s.overall, s.runs) : "–");
+    for (std::size_t j = 0; j < s.rmse.size(); ++j)
+      row.push_back(with_spread(s.rmse[j], s.runs, decimals[j]));
+    row.push_back(s.overall ? with_spread(*s.overall, s.runs, decimals.back()) : "–");
     char text[64];
     std::snprintf(text, sizeof text, "%.3f",
                   *std::max_element(s.first.max_abs.begin(), s.first.max_abs.begin() + forces));
@@ -94,8 +96,8 @@ void add_table(HtmlReport& page, const Evaluation& evaluation) {
   const auto reference = [&](const std::string& name, const std::vector<double>& rmse,
                              const std::optional<double>& overall) {
     std::vector<std::string> row{name, "clean", "–"};
-    for (const double value : rmse) row.push_back(significant(value, 3));
-    row.push_back(overall ? significant(*overall, 3) : "–");
+    for (std::size_t j = 0; j < rmse.size(); ++j) row.push_back(fixed(rmse[j], decimals[j]));
+    row.push_back(overall ? fixed(*overall, decimals.back()) : "–");
     row.insert(row.end(), {"–", "–"});
     rows.push_back(row);
   };
@@ -107,7 +109,9 @@ void add_table(HtmlReport& page, const Evaluation& evaluation) {
   page.paragraph(
       "RMSE: root mean square of measured - predicted, mean ± standard deviation over draws of the "
       "noise on the input, whose power relative to the signal is the SNR (clean: none added). "
-      "Overall: the mean over the targets in " + unit + ". Largest error: over these targets; "
+      "Overall: the mean over the targets in " +
+      unit +
+      ". Largest error: over these targets; "
       "R²: 1 - squared error / variance of the target, the least over all targets; both of the "
       "first draw. The rigid tool was fitted to the training rows of the first model; no model "
       "can be better than the white noise of the sensor.");
@@ -133,7 +137,7 @@ Chart trace_chart(const Evaluation& evaluation, std::size_t j) {
 /// One picture beside the answer: the error over noise, or where no noise was asked for a trace.
 void add_picture(HtmlReport& page, const Evaluation& evaluation) {
   if (evaluation.summary.front().overall && level_names(evaluation).size() > 1) {
-    page.chart(level_chart(evaluation, "overall", evaluation.targets.units[0],
+    page.chart(level_chart(evaluation, "Error over noise on the input", evaluation.targets.units[0],
                            [](const EvaluationSummary& s) { return *s.overall; }),
                "Mean of the RMSEs per axis (Eq. 6); bars: mean, whiskers: one standard deviation "
                "over draws.");
@@ -147,7 +151,8 @@ void add_levels(HtmlReport& page, const Evaluation& evaluation) {
   if (level_names(evaluation).size() < 2) return;
   const auto& targets = evaluation.targets;
   page.heading("Error of each target against input noise");
-  for (const std::string& unit : std::set<std::string>(targets.units.begin(), targets.units.end())) {
+  for (const std::string& unit :
+       std::set<std::string>(targets.units.begin(), targets.units.end())) {
     std::vector<Chart> panels;
     for (std::size_t j = 0; j < targets.names.size(); ++j) {
       if (targets.units[j] != unit) continue;
@@ -175,8 +180,8 @@ void add_traces(HtmlReport& page, const Evaluation& evaluation) {
       labels.push_back(trace.model);
     }
     page.chart(histogram(evaluation.targets.names[j],
-                         "measured - predicted [" + unit_text(evaluation.targets.units[j]) + "]", residuals,
-                         labels, 60),
+                         "measured - predicted [" + unit_text(evaluation.targets.units[j]) + "]",
+                         residuals, labels, 60),
                "how the residual is spread, input without added noise");
   }
 }

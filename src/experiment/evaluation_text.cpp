@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "dcnn/experiment/evaluate.h"
+#include "experiment/evaluation_table.h"
 #include "experiment/levels.h"
 #include "experiment/markup.h"
 
@@ -53,11 +54,6 @@ std::string cell(const char* format, double value) {
   return text;
 }
 
-/// Four digits; one draw of the noise has no spread.
-std::string cell_with_spread(const Spread& s, int runs) {
-  return significant(s.mean, 4) + (runs > 1 ? " +- " + significant(s.deviation, 2) : "");
-}
-
 /// Width of a target's column.
 std::size_t column_width(const Evaluation& evaluation) {
   const bool spread = std::any_of(evaluation.summary.begin(), evaluation.summary.end(),
@@ -101,6 +97,7 @@ Json to_json(const Evaluation& evaluation) {
 
 std::string to_text(const Evaluation& evaluation) {
   const std::size_t column = column_width(evaluation);
+  const std::vector<int> decimals = column_decimals(evaluation);
   std::size_t width = std::string(kUnidentified).size() + 2;
   for (const auto& s : evaluation.summary) width = std::max(width, s.file.size() + 2);
   std::string text;
@@ -113,10 +110,10 @@ std::string to_text(const Evaluation& evaluation) {
   const auto line = [&](const std::string& name, const std::string& level, int runs,
                         const std::vector<Spread>& rmse, const std::optional<Spread>& overall) {
     text += padded(name, width) + padded(level, 10) + padded(std::to_string(runs), 6);
-    for (const Spread& axis : rmse) {
-      text += padded(cell_with_spread(axis, runs), column);
+    for (std::size_t j = 0; j < rmse.size(); ++j) {
+      text += padded(with_spread(rmse[j], runs, decimals[j]), column);
     }
-    text += overall ? cell_with_spread(*overall, runs) : "-";
+    text += overall ? with_spread(*overall, runs, decimals.back()) : "-";
     text += "\n";
   };
   for (const auto& s : evaluation.summary) {
@@ -125,8 +122,9 @@ std::string to_text(const Evaluation& evaluation) {
   const auto reference = [&](const std::string& name, const std::vector<double>& rmse,
                              const std::optional<double>& overall) {
     text += padded(name, width) + padded("clean", 10) + padded("1", 6);
-    for (const double value : rmse) text += padded(significant(value, 4), column);
-    text += (overall ? significant(*overall, 4) : "-") + "\n";
+    for (std::size_t j = 0; j < rmse.size(); ++j)
+      text += padded(fixed(rmse[j], decimals[j]), column);
+    text += (overall ? fixed(*overall, decimals.back()) : "-") + "\n";
   };
   const auto& beside = evaluation.references;
   if (beside.rigid) reference("(rigid tool)", beside.rigid->rmse, beside.rigid->overall);

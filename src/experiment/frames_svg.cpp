@@ -26,26 +26,26 @@ std::string axes_of(Point origin, const Eigen::Matrix4d& T, const std::string& n
     svg += line(from, to, stroke(static_cast<std::size_t>(k)) + " stroke-width=\"2\"");
     svg += words({to.x + 3, to.y}, std::string(1, "xyz"[k]), "font-size=\"12\"");
   }
-  return svg + words({from.x - 10, from.y + 18}, name, "font-size=\"12\"");
+  return svg + words({from.x - 10, from.y + 40}, name, "font-size=\"12\"");  // below the tip of y
 }
 
-std::string link(Point origin, const Eigen::Matrix4d& T) {
+/// A frame and, by a dashed line, another one in it; one pair of axes where they are the same.
+std::string pair_of(Point origin, const std::string& base, const Eigen::Matrix4d& T,
+                    const std::string& name) {
+  const Eigen::Matrix4d identity = Eigen::Matrix4d::Identity();
+  if (T.isApprox(identity)) return axes_of(origin, identity, base + " = " + name);
   return line(project(origin, Eigen::Vector3d::Zero()), project(origin, T.topRightCorner<3, 1>()),
-              "stroke=\"#888\" stroke-dasharray=\"4 3\"");
+              "stroke=\"#888\" stroke-dasharray=\"4 3\"") +
+         axes_of(origin, identity, base) + axes_of(origin, T, name);
 }
 
 }  // namespace
 
 std::string frames_svg(const TeleopConfig& config) {
-  const Eigen::Matrix4d identity = Eigen::Matrix4d::Identity();
-  const Point master{90, 270}, slave{330, 290}, workspace{520, 290};
   std::string body = box({0, 0}, kWidth, kHeight, "fill=\"#fff\"");
-  body += link(master, config.T_master_slave) + axes_of(master, identity, "master M") +
-          axes_of(master, config.T_master_slave, "slave in M");
-  body += link(slave, config.T_base_tip) + axes_of(slave, identity, "robot base B") +
-          axes_of(slave, config.T_base_tip, "tip E");
-  body += link(workspace, config.T_workspace_camera) + axes_of(workspace, identity, "workspace W") +
-          axes_of(workspace, config.T_workspace_camera, "camera");
+  body += pair_of({90, 270}, "master M", config.T_master_slave, "slave") +
+          pair_of({330, 290}, "robot base B", config.T_base_tip, "tip E") +
+          pair_of({520, 290}, "workspace W", config.T_workspace_camera, "camera");
   return svg_document(kWidth, kHeight, "Frames of the set-up", body);
 }
 

@@ -56,14 +56,31 @@ std::string fixed(double value, int decimals) {
   return zero && text.front() == '-' ? text.substr(1) : text;
 }
 
+int common_decimals(const std::vector<double>& values, int digits) {
+  constexpr int kMost = 9;
+  double least = INFINITY;
+  for (const double value : values) {
+    if (std::isfinite(value) && value != 0.0) least = std::min(least, std::abs(value));
+  }
+  if (!std::isfinite(least)) return 0;
+  return std::clamp(digits - 1 - static_cast<int>(std::floor(std::log10(least))), 0, kMost);
+}
+
+std::string percent(double share) {
+  const double value = 100.0 * share;
+  if (value > 0.0 && value < 0.01) return "< 0.01 %";
+  const int decimals = std::abs(value) >= 10.0 || value == 0.0 ? 0 : std::abs(value) >= 1.0 ? 1 : 2;
+  return std::isfinite(value) ? fixed(value, decimals) + " %" : "–";
+}
+
 int character_count(const std::string& text) {
   return static_cast<int>(
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 std::string padded(std::string text, std::size_t width) {
-  text.resize(std::max(width, text.size()), ' ');
-  return text;
+  const auto length = static_cast<std::size_t>(character_count(text));
+  return text + std::string(width - std::min(width, length), ' ');
 }
 
 }  // namespace dcnn

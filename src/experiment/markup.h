@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace dcnn {
 
@@ -14,7 +15,14 @@ std::string significant(double value, int digits);
 /// A fixed number of decimals, never "-0".
 std::string fixed(double value, int decimals);
 
-/// Filled with spaces to `width` bytes.
+/// Decimals with which the least of these sizes has `digits` significant digits, 9 at most; zeros
+/// and what is not finite do not count. Numbers of one column have the same.
+int common_decimals(const std::vector<double>& values, int digits);
+
+/// "97 %", "0.71 %", "< 0.01 %" for a share.
+std::string percent(double share);
+
+/// Filled with spaces to `width` characters.
 std::string padded(std::string text, std::size_t width);
 
 /// Characters of a UTF-8 text.

@@ -30,13 +30,60 @@ bool column_is_numeric(const std::vector<std::vector<std::string>>& rows, std::s
   });
 }
 
-std::string table_row(const std::vector<std::string>& cells, const std::vector<bool>& numeric,
-                      const std::string& tag) {
+/// Widest word of a text, in characters.
+int longest_word(const std::string& text) {
+  int longest = 0;
+  for (std::size_t from = 0; from <= text.size();) {
+    const auto to = std::min(text.find(' ', from), text.size());
+    longest = std::max(longest, character_count(text.substr(from, to - from)));
+    from = to + 1;
+  }
+  return longest;
+}
+
+/// A table before it is written: what browsers will make of it decides how it is shown.
+struct TableText {
+  const std::vector<std::string>& header;
+  const std::vector<std::vector<std::string>>& rows;
+  std::vector<bool> numeric;
+
+  TableText(const std::vector<std::string>& heads,
+            const std::vector<std::vector<std::string>>& lines)
+      : header(heads), rows(lines) {
+    for (std::size_t i = 0; i < header.size(); ++i) {
+      numeric.push_back(!rows.empty() && column_is_numeric(rows, i));
+    }
+  }
+
+  /// Width in px: cells on one line each or, on a narrow screen, broken between words where they
+  /// are no numbers. Sizes are those of page.css with a common sans-serif face.
+  int width(bool narrow) const {
+    const int character = 9, padding = narrow ? 12 : 26;
+    int sum = 0;
+    for (std::size_t i = 0; i < header.size(); ++i) {
+      int widest = longest_word(header[i]);
+      for (const auto& row : rows) {
+        if (i >= row.size()) continue;
+        const bool whole = numeric[i] || (!narrow && !is_long(row[i]));
+        widest = std::max(widest, whole ? character_count(row[i]) : longest_word(row[i]));
+        if (is_long(row[i])) widest = std::max(widest, narrow ? 12 : 19);  // the least width of .t
+      }
+      sum += character * widest + padding;
+    }
+    return sum;
+  }
+};
+
+std::string table_row(const std::vector<std::string>& cells, const TableText& table,
+                      const std::string& tag, bool labelled) {
   std::string row = "<tr>";
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const bool right = i < numeric.size() && numeric[i];
-    const char* kind = right ? " class=\"n\">" : is_long(cells[i]) ? " class=\"t\">" : ">";
-    row += "<" + tag + kind + escape_markup(cells[i]) + "</" + tag + ">";
+    const bool right = i < table.numeric.size() && table.numeric[i];
+    std::string kind = right ? " class=\"n\"" : is_long(cells[i]) ? " class=\"t\"" : "";
+    if (labelled && i > 0 && i < table.header.size()) {
+      kind += " data-label=\"" + escape_markup(table.header[i]) + "\"";
+    }
+    row += "<" + tag + kind + ">" + escape_markup(cells[i]) + "</" + tag + ">";
   }
   return row + "</tr>\n";
 }
@@ -116,15 +163,15 @@ void HtmlReport::preformatted(const std::string& text) {
 
 void HtmlReport::table(const std::vector<std::string>& header,
                        const std::vector<std::vector<std::string>>& rows) {
-  std::vector<bool> numeric;
-  for (std::size_t i = 0; i < header.size(); ++i) {
-    numeric.push_back(!rows.empty() && column_is_numeric(rows, i));
-  }
-  constexpr std::size_t kMany = 7;  // columns from which on cells are narrow and may break
-  const std::string kind = header.size() > kMany ? " class=\"many\"" : "";
-  body_ += "<div class=\"wide\"><table" + kind + ">\n<thead>" + table_row(header, numeric, "th") +
-           "</thead>\n<tbody>\n";
-  for (const auto& row : rows) body_ += table_row(row, numeric, "td");
+  constexpr int kPage = 860, kNarrow = 300;  // px, of 900 and 370: faces differ in width
+  const TableText table(header, rows);
+  const bool stacked = table.width(true) > kNarrow;
+  const std::string kind =
+      std::string(table.width(false) > kPage ? " many" : "") + (stacked ? " stack" : "");
+  body_ += "<div class=\"wide\"><table" +
+           (kind.empty() ? "" : " class=\"" + kind.substr(1) + "\"") + ">\n<thead>" +
+           table_row(header, table, "th", false) + "</thead>\n<tbody>\n";
+  for (const auto& row : rows) body_ += table_row(row, table, "td", stacked);
   body_ += "</tbody>\n</table></div>\n";
 }
 

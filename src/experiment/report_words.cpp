@@ -134,6 +134,30 @@ std::string words_of_axis(const std::string& axis) {
   return axis;
 }
 
+std::string words_of_signal(const std::string& signal) {
+  if (signal == "v_z") return "velocity along the tool";
+  if (signal == "t") return "time";
+  for (const auto& [start, words] : {std::pair{"v_base_", "velocity along the base's "},
+                                     std::pair{"w_", "angular velocity about the sensor's "}}) {
+    const std::string begin = start;
+    if (signal.starts_with(begin) && signal.size() == begin.size() + 1) {
+      return words + signal.substr(begin.size()) + " axis";
+    }
+  }
+  if (signal == "alpha" || signal == "beta" || signal == "gamma") return "angle " + signal;
+  return signal;
+}
+
+std::string words_of_part(const std::string& part) {
+  static const std::map<std::string, std::string> kWords{{"parameter", "own numbers"},
+                                                         {"state", "rates, angles"},
+                                                         {"memory", "history"},
+                                                         {"clock", "time"},
+                                                         {"event", "foreign forces"}};
+  const auto known = kWords.find(part);
+  return known == kWords.end() ? part : known->second;
+}
+
 std::string words_of_parameter(const std::string& name) {
   if (name.size() == 4 && name.starts_with("c_")) {
     std::string text = "share of f";

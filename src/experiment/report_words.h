@@ -11,6 +11,10 @@ std::string words_of_effect(const std::string& id);
 std::string words_of_axis(const std::string& axis);
 /// "friction force" for "fc_n", "centre of mass, x" for "delta_com_x_m".
 std::string words_of_parameter(const std::string& name);
+/// "velocity along the tool" for "v_z": a signal of where.regimes; another one's name as it is.
+std::string words_of_signal(const std::string& signal);
+/// "own numbers" for "parameter": the kinds of a difference in where.budget.
+std::string words_of_part(const std::string& part);
 /// "N·m" for "N*m".
 std::string unit_text(const std::string& unit);
 /// The unit to give the two below for a parameter: shares without a unit are shown in per cent.

@@ -1,9 +1,12 @@
 #include "dcnn/experiment/teleop_report.h"
 
+#include <map>
+
 #include "dcnn/core/file.h"
 #include "dcnn/data/csv.h"
 #include "dcnn/experiment/report.h"
 #include "experiment/markup.h"
+#include "experiment/report_words.h"
 #include "experiment/series.h"
 
 namespace dcnn {
@@ -44,7 +47,7 @@ std::vector<Chart> figure_six(const TeleopResult& result, const TeleopConfig& co
 
 /// The contact of all variants side by side: where the slave went, and what the hand felt.
 std::vector<Chart> comparison(const std::vector<TeleopResult>& results) {
-  Chart z = time_chart("Slave during the contact", "z [mm]");
+  Chart z = time_chart("Slave, z", "z [mm]");
   Chart felt = time_chart("Force on the hand, z", "force [N]");
   for (const TeleopResult& result : results) {
     const auto t = list_of(result.trace.t);
@@ -101,25 +104,40 @@ Table signals(const TeleopTrace& trace) {
 
 /// What the compensation does to the force that the hand feels in free motion, in one sentence.
 std::string teleop_answer(const std::vector<TeleopResult>& results) {
+  static const std::map<std::string, std::string> kWords{
+      {"ideal", "where the tool's own force is known exactly"},
+      {"none", "without force feedback"},
+      {"ns", "with the sensor's raw force"}};
   std::string text;
   for (const TeleopResult& r : results) {
-    const Json& contact = r.row["contact_interval_s"];
-    text += (text.empty() ? "" : "; ") + r.name + ": " + cell(r.row["handle_force_free_rms_n"], 1) +
-            " N rms on the hand in free motion, " +
-            (contact.is_null() ? std::string("no contact")
-                               : "up to " + cell(r.row["force_max_n"], 1) + " N in contact");
+    const Json& felt = r.row["handle_force_free_rms_n"];
+    if (!felt.is_number()) continue;
+    const auto known = kWords.find(r.name);
+    text += (text.empty() ? "" : ", ") + with_unit(felt.get<double>(), "N") + " " +
+            (known == kWords.end() ? "with " + r.name : known->second);
   }
-  return "What the hand feels. " + text + ".";
+  return "In free motion, where there is nothing to feel, the hand feels " + text + " (rms).";
 }
 
 }  // namespace
+
+std::string teleop_line(const Json& row) {
+  const Json& contact = row["contact_interval_s"];
+  const std::string text = contact.is_null() ? "no contact"
+                                             : "contact from " + fixed(contact[0], 1) + " to " +
+                                                   fixed(contact[1], 1) + " s, at most " +
+                                                   cell(row["force_max_n"], 1) + " N";
+  return row["name"].get<std::string>() + ": " + text + "; the master drifts by " +
+         cell(row["master_drift_m"], 1e3) + " mm";
+}
 
 void write_teleop(const std::filesystem::path& folder, const TeleopConfig& config,
                   const std::vector<TeleopResult>& results, std::uint64_t seed) {
   HtmlReport page("Bilateral teleoperation");
   page.paragraph(teleop_answer(results));
   const auto compared = comparison(results);
-  page.chart(compared[1], "'ideal' knows the tool exactly, 'none' sends no force back, 'ns' the raw force.");
+  page.chart(compared[1],
+             "'ideal' knows the tool exactly, 'none' sends no force back, 'ns' the raw force.");
   add_table(results, page);
   page.paragraph("A simulated demonstration (seed " + std::to_string(seed) +
                  "); every mass, stiffness and delay is a free assumption and stands in the "
@@ -129,9 +147,9 @@ void write_teleop(const std::filesystem::path& folder, const TeleopConfig& confi
       "energy is what link, slave and wall took from the hand: below zero they gave "
       "back more than they had been given.");
   Json variants = Json::array();
-  page.heading("All variants");
+  page.heading("The slave in all variants");
+  page.chart(compared[0], "");
   for (std::size_t k = 0; k < compared.size(); ++k) {
-    page.chart(compared[k], "");
     write_file(folder / ("comparison_" + std::to_string(k) + ".svg"), to_svg(compared[k]));
   }
   for (const TeleopResult& result : results) {

@@ -2,8 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "data/testing.h"
-#include "dcnn/core/json.h"
 #include "dcnn/core/file.h"
+#include "dcnn/core/json.h"
+#include "support/page.h"
 #include "support/process.h"
 
 namespace dcnn {
@@ -14,8 +15,8 @@ using testing::contains;
 
 /// FOLDER/log.csv and sim.json with a fault.
 void make_log(const test::TemporaryFolder& folder, const std::string& fault) {
-  ASSERT_EQ(run("conceal", {"--fault", fault, "--seed", "1", "--out", folder.path().string(), "--seal",
-                            folder.path().string() + ".seal", "--force"})
+  ASSERT_EQ(run("conceal", {"--fault", fault, "--seed", "1", "--out", folder.path().string(),
+                            "--seal", folder.path().string() + ".seal", "--force"})
                 .exit_code,
             0);
 }
@@ -24,35 +25,42 @@ TEST(CheckTool, NamesTheFaultAndWritesItsPage) {
   const test::TemporaryFolder folder;
   make_log(folder, "position_mm");
   const auto out = (folder / "check").string();
-  const auto result = run("check", {(folder / "log.csv").string(), "--sim", (folder / "sim.json").string(), "--out", out, "--json"});
+  const auto result = run("check", {(folder / "log.csv").string(), "--sim",
+                                    (folder / "sim.json").string(), "--out", out, "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Json json = parse_json(result.out, "check", Exit::kFailure);
   EXPECT_EQ(json["faults"][0]["fault"], "position_unit");
   EXPECT_EQ(json["faults"][0]["flag"], "--position-unit mm");
-  EXPECT_EQ(read_json(folder / "check/check.json", Exit::kData)["faults"].size(), json["faults"].size());
+  EXPECT_EQ(read_json(folder / "check/check.json", Exit::kData)["faults"].size(),
+            json["faults"].size());
   const std::string page = read_file(folder / "check/check.html", 1 << 24, Exit::kData);
   EXPECT_TRUE(contains(page, "position_unit") && contains(page, "<svg"));
+  test::expect_usable_page(page);
 }
 
 TEST(CheckTool, ACertainFaultStopsATrainingUnlessItIsAccepted) {
   const test::TemporaryFolder folder;
   make_log(folder, "position_mm");
-  const std::vector<std::string> train{"--model", "rigid", "--train", (folder / "log.csv").string(), "--out", (folder / "m.dcnn").string()};
+  const std::vector<std::string> train{"--model", "rigid",
+                                       "--train", (folder / "log.csv").string(),
+                                       "--out",   (folder / "m.dcnn").string()};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.begin(), train.begin(), train.end());
     return run("train", more);
   };
   const auto stopped = with({});
   EXPECT_EQ(stopped.exit_code, 3);
-  EXPECT_TRUE(contains(stopped.err, "millimetres") && contains(stopped.err, "--position-unit mm")) << stopped.err;
+  EXPECT_TRUE(contains(stopped.err, "millimetres") && contains(stopped.err, "--position-unit mm"))
+      << stopped.err;
   EXPECT_EQ(with({"--position-unit", "mm"}).exit_code, 0);
 }
 
 TEST(CheckTool, ALikelyFaultIsTheFirstLineOfADiagnosis) {
   const test::TemporaryFolder folder;
   make_log(folder, "gaps");
-  const auto result = run("diagnose", {"--sim", (folder / "sim.json").string(), "--fit", (folder / "log.csv").string(),
-                                       "--out", (folder / "report").string()});
+  const auto result =
+      run("diagnose", {"--sim", (folder / "sim.json").string(), "--fit",
+                       (folder / "log.csv").string(), "--out", (folder / "report").string()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(result.out.starts_with("likely: log.csv: gaps")) << result.out;
   EXPECT_FALSE(read_json(folder / "report/report.json", Exit::kData)["check"].empty());
@@ -61,10 +69,13 @@ TEST(CheckTool, ALikelyFaultIsTheFirstLineOfADiagnosis) {
 TEST(CheckTool, ADiagnosisOfAForceInTheBaseFrameIsRefused) {
   const test::TemporaryFolder folder;
   make_log(folder, "base_frame");
-  const std::vector<std::string> diagnose{"--sim", (folder / "sim.json").string(), "--fit", (folder / "log.csv").string(), "--out", (folder / "report").string()};
+  const std::vector<std::string> diagnose{"--sim", (folder / "sim.json").string(),
+                                          "--fit", (folder / "log.csv").string(),
+                                          "--out", (folder / "report").string()};
   const auto result = run("diagnose", diagnose);
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_TRUE(contains(result.err, "base frame") && contains(result.err, "--accept base_frame")) << result.err;
+  EXPECT_TRUE(contains(result.err, "base frame") && contains(result.err, "--accept base_frame"))
+      << result.err;
 }
 
 }  // namespace

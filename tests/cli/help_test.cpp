@@ -103,20 +103,34 @@ TEST(Dispatch, ListsEveryProgramAndRunsIt) {
   EXPECT_NE(words.find("did you mean 'diagnose'?"), std::string::npos) << words;
 }
 
+/// Every program of a folder of the source that is run by its name.
+std::vector<std::filesystem::path> scripts_of(const std::string& folder) {
+  std::vector<std::filesystem::path> all;
+  for (const auto& entry : std::filesystem::directory_iterator(DCNN_SOURCE_DIR "/" + folder)) {
+    const bool runs = (entry.status().permissions() & std::filesystem::perms::owner_exec) !=
+                      std::filesystem::perms::none;
+    if (entry.is_regular_file() && runs) all.push_back(entry.path());
+  }
+  return all;
+}
+
 TEST(Scripts, PrintTheirHelpAndDoNothing) {
   const test::TemporaryFolder folder;
-  for (const char* script :
-       {"accuracy", "challenge", "check-rooms", "demo", "hybrid", "install-deps", "package", "real",
-        "real-identifiers", "reproduce", "teleop-live", "test", "test-engines", "test-neon"}) {
-    const std::string out = folder / "out.txt";
-    const std::string command = "cd '" + folder.path().string() +
-                                "' && timeout 10 '" DCNN_SOURCE_DIR "/tools/" + script +
-                                "' --help > out.txt 2>&1";
-    EXPECT_EQ(std::system(command.c_str()), 0) << script;
-    const std::string text = test::slurp(out);
-    EXPECT_GE(std::count(text.begin(), text.end(), '\n'), 2) << script;
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << script;
+  std::size_t count = 0;
+  for (const char* place : {"tools", "bench", ".ci"}) {
+    for (const auto& script : scripts_of(place)) {
+      const std::string command = "cd '" + folder.path().string() + "' && timeout 10 '" +
+                                  script.string() + "' --help > out.txt 2>&1";
+      EXPECT_EQ(std::system(command.c_str()), 0) << script;
+      const std::string text = test::slurp(folder / "out.txt");
+      EXPECT_GE(std::count(text.begin(), text.end(), '\n'), 2) << script;
+      EXPECT_NE(text.find(script.filename().string()), text.npos)
+          << script << " does not name itself";
+      EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << script;
+      ++count;
+    }
   }
+  EXPECT_GE(count, 20U);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "dcnn/core/json.h"
 #include "dcnn/experiment/evaluate.h"
+#include "support/page.h"
 #include "support/process.h"
 
 namespace dcnn {
@@ -78,8 +79,6 @@ TEST_F(Reproduce, WritesReportFiguresAndVerdicts) {
 TEST_F(Reproduce, TheReportIsOneSmallFile) {
   const std::string html = slurp(at("out/report.html"));
   EXPECT_LT(html.size(), std::size_t{8} << 20);
-  for (const char* word : {"src=\"http", "href=\"http", "url(http", "@import", "<link"})
-    EXPECT_EQ(html.find(word), std::string::npos) << word;
   for (const char* word : {"Fig. 5", "Table I", "C5", "D26", "SHA-256", "Residuals", "not tested"})
     EXPECT_NE(html.find(word), std::string::npos) << word;
 }
@@ -91,6 +90,8 @@ TEST_F(Reproduce, FinishedWorkIsNotRedone) {
   const Result again = run("reproduce", arguments("out"));
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_NE(again.err.find("0 cells done"), std::string::npos) << again.err;
+  EXPECT_NE(again.err.find("the time left is told from those that were measured"),
+            std::string::npos);
   EXPECT_EQ(model, fs::last_write_time(at("out/models/A/dcnn/dcnn.dcnn")));
   EXPECT_EQ(scores, fs::last_write_time(at("out/scores/feature/A/dcnn/evaluation.json")));
   EXPECT_EQ(report, slurp(at("out/report.html")));
@@ -215,18 +216,14 @@ TEST_F(Reproduce, EveryKthSampleIsScoredAsItWouldBeAmongAll) {
               1e-6);
 }
 
-TEST_F(Reproduce, ABrowserShowsTheReport) {
-  if (std::system("command -v chromium >/dev/null 2>&1") != 0)
-    GTEST_SKIP() << "chromium is not installed";
-  const std::string command =
-      "chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --window-size=1000,3000 "
-      "--user-data-dir='" +
-      at("profile") + "' --screenshot='" + at("page.png") + "' 'file://" + at("out/report.html") +
-      "' >/dev/null 2>&1";
-  ASSERT_EQ(std::system(command.c_str()), 0);
-  const std::string png = slurp(at("page.png"));
-  ASSERT_TRUE(png.starts_with("\x89PNG"));
-  EXPECT_GT(png.size(), 60'000U) << "a blank page of this size has 15 kB";
+TEST_F(Reproduce, TheReportIsUsable) { test::expect_usable_page(slurp(at("out/report.html"))); }
+
+/// A few epochs are no verdict: the first look shows no crosses.
+TEST_F(Reproduce, AFirstLookJudgesNoClaim) {
+  const std::string html = slurp(at("out/report.html"));
+  EXPECT_EQ(html.find("✗"), std::string::npos);
+  EXPECT_NE(html.find("does not judge the paper&#39;s claims"), std::string::npos);
+  EXPECT_NE(html.find("predicts the test recording best"), std::string::npos);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "data/testing.h"
 #include "dcnn/core/json.h"
+#include "support/page.h"
 #include "support/process.h"
 
 namespace dcnn {
@@ -62,15 +63,19 @@ TEST(TeleopTool, AModelInTheLoopTakesMostOfTheWeightOffTheHand) {
   EXPECT_LT(rows[5]["master_drift_m"].get<double>(), 1e-3);
   const std::string page = test::slurp(out / "report.html");
   EXPECT_TRUE(contains(page, "Fig. 6 with rigid") && contains(page, "robot base B"));
+  test::expect_usable_page(page);
   for (const char* file : {"teleop.json", "frames.svg", "comparison_0.svg", "rigid.csv"}) {
     EXPECT_TRUE(std::filesystem::exists(out / file)) << file;
   }
-  const auto refused =
-      run("teleop", {"--model", (folder / "off.dcnn").string(), "--out", (folder / "none").string()});
+  const auto refused = run(
+      "teleop", {"--model", (folder / "off.dcnn").string(), "--out", (folder / "none").string()});
   EXPECT_EQ(refused.exit_code, 4);
   EXPECT_TRUE(contains(refused.err, "--online")) << refused.err;
-  EXPECT_EQ(run("teleop", {"--config", "absent.json", "--out", (folder / "none").string()}).exit_code, 2);
-  EXPECT_EQ(run("teleop", {"--corrected", "absent.json", "--out", (folder / "none").string()}).exit_code, 3);
+  EXPECT_EQ(
+      run("teleop", {"--config", "absent.json", "--out", (folder / "none").string()}).exit_code, 2);
+  EXPECT_EQ(
+      run("teleop", {"--corrected", "absent.json", "--out", (folder / "none").string()}).exit_code,
+      3);
 }
 
 }  // namespace

@@ -96,6 +96,8 @@ class Clone {
     if (std::system(line.c_str()) == 0) return testing::AssertionSuccess();
     return testing::AssertionFailure() << test::slurp(folder_ / "printed");
   }
+  /// What the last command printed.
+  std::string printed() const { return test::slurp(folder_ / "printed"); }
   bool has(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
 
  private:
@@ -133,6 +135,24 @@ TEST(DocumentedCommands, OfTheReadmeRunOrSayWhyNot) {
     if (reason_of(command)) continue;
     EXPECT_TRUE(clone.run(command)) << command;
   }
+}
+
+/// The README's first result, a quotation, is a line that its first command prints.
+TEST(DocumentedCommands, TheReadmesFirstResultIsWhatItsCommandPrints) {
+  if (test::kSanitized) GTEST_SKIP() << "as any program under sanitizers, by tests of its own";
+  const Clone clone;
+  for (const std::string& command : commands_of(DCNN_SOURCE_DIR "/README.md")) {
+    if (!command.starts_with("dcnn diagnose")) continue;
+    ASSERT_TRUE(clone.run(command)) << command;
+    const std::string readme = test::slurp(DCNN_SOURCE_DIR "/README.md");
+    const auto at = readme.find("\n> ");
+    ASSERT_NE(at, readme.npos);
+    const std::string quoted = readme.substr(at + 3, readme.find('\n', at + 1) - at - 2);
+    EXPECT_NE(("\n" + clone.printed()).find("\n" + quoted), std::string::npos)
+        << quoted << clone.printed();
+    return;
+  }
+  FAIL() << "the README has no command that begins with dcnn diagnose";
 }
 
 TEST(DocumentedCommands, AreOfKnownPagesAndTheListIsNotStale) {

@@ -1,5 +1,7 @@
 // Pages as people use them: zoom, values under the pointer, series, sorting, dark mode, narrow
 // screens, a million samples.
+#include "support/page.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,9 +9,9 @@
 
 #include "dcnn/experiment/calibration_report.h"
 #include "dcnn/experiment/diagnosis_report.h"
+#include "dcnn/experiment/report.h"
+#include "experiment/markup.h"
 #include "experiment/report_words.h"
-#include "support/chromium.h"
-#include "support/sanitizer.h"
 
 namespace dcnn {
 namespace {
@@ -94,80 +96,60 @@ ForcePairs example_pairs() {
   return pairs;
 }
 
-constexpr const char* kUse = R"js(
-  const out = {width: innerWidth, wide: document.documentElement.scrollWidth, plots: 0, together: true};
-  out.background = getComputedStyle(document.body).backgroundColor;
-  const group = [...groups.values()][0];
-  if (group) {
-    out.plots = group.length;
-    const graph = group[0], area = graph.getArea(), box = graph.graphDiv.getBoundingClientRect();
-    const event = (kind, share) => new MouseEvent(kind, {bubbles: true, cancelable: true, view: window, detail: 1,
-      clientX: box.left + area.x + share * area.w, clientY: box.top + area.y + area.h / 2});
-    const canvas = graph.graphDiv.querySelectorAll('canvas')[1];
-    canvas.dispatchEvent(event('mousemove', 0.5));
-    out.value = document.querySelector('.plot output').textContent;
-    const whole = graph.xAxisRange();
-    canvas.dispatchEvent(event('mousedown', 0.3));
-    document.dispatchEvent(event('mousemove', 0.6));
-    document.dispatchEvent(event('mouseup', 0.6));
-    const part = graph.xAxisRange();
-    out.zoom = (part[1] - part[0]) / (whole[1] - whole[0]);
-    for (const other of group) out.together = out.together && Math.abs(other.xAxisRange()[0] - part[0]) < 1e-9;
-    document.querySelector('.key input').click();
-    out.visible = graph.visibility();
-    document.querySelector('.key button').click();
-    const again = graph.xAxisRange();
-    out.reset = (again[1] - again[0]) / (whole[1] - whole[0]);
-  }
-  const table = document.querySelector('table'), head = table.tHead.rows[0].cells[1];
-  head.click();
-  out.sorted = Array.from(table.tBodies[0].rows, row => row.cells[1].textContent);
-  out.order = head.getAttribute('aria-sort');
-  return out;
-)js";
-
 class Pages : public ::testing::Test {
  protected:
   void SetUp() override {
     if (test::kSanitized || !test::has_chromium()) GTEST_SKIP() << "no chromium here";
   }
-  static void expect_no_errors(const Json& seen) {
-    EXPECT_TRUE(seen["errors"].empty()) << seen["errors"].dump();
-  }
 };
 
-TEST_F(Pages, ZoomHoverSeriesAndSortingWork) {
-  const Json seen = test::browse(to_html(example_diagnosis(4000)), kUse);
-  expect_no_errors(seen);
-  ASSERT_TRUE(seen.contains("zoom")) << seen.dump();
-  EXPECT_EQ(seen["plots"].get<int>(), 4);  // one for each target, the telling one beside the answer
-  EXPECT_NEAR(seen["zoom"].get<double>(), 0.3, 0.02);
-  EXPECT_TRUE(seen["together"].get<bool>());
-  EXPECT_NE(seen["value"].get<std::string>().find(" at "), std::string::npos);
-  EXPECT_FALSE(seen["visible"][0].get<bool>());
-  EXPECT_NEAR(seen["reset"].get<double>(), 1.0, 1e-9);
-  EXPECT_EQ(seen["order"].get<std::string>(), "ascending");
+TEST_F(Pages, OfADiagnosisAndACalibrationAreUsable) {
+  test::expect_usable_page(to_html(example_diagnosis(4000)));
+  test::expect_usable_page(to_html(example_calibration(), example_pairs()));
 }
 
-TEST_F(Pages, FitANarrowScreenAndKnowDarkMode) {
-  const std::string dark = "--blink-settings=preferredColorScheme=0";
-  for (const auto& html :
-       {to_html(example_diagnosis(2000)), to_html(example_calibration(), example_pairs())}) {
-    const Json seen = test::browse(html, kUse, 400, dark);
-    expect_no_errors(seen);
-    EXPECT_LE(seen["wide"].get<int>(), seen["width"].get<int>()) << "the page scrolls sideways";
-    EXPECT_EQ(seen["width"].get<int>(), 400);
-    EXPECT_EQ(seen["background"].get<std::string>(), "rgb(22, 24, 27)");
-  }
+TEST_F(Pages, HaveAPlotForEachTarget) {
+  const Json seen = test::browse(to_html(example_diagnosis(2000)), test::kUse);
+  EXPECT_EQ(seen["plots"].get<int>(), 4) << seen.dump();
+}
+
+/// Units with a prefix are in one column with those without.
+TEST_F(Pages, SortNumbersInTheirUnits) {
+  HtmlReport page("units");
+  page.paragraph("sizes");
+  page.table({"what", "size"}, {{"a", "0.389 N"}, {"b", "35.8 mN"}, {"c", "2 kN"}, {"d", "70 µN"}});
+  const Json seen = test::browse(page.html(), test::kUse);
+  EXPECT_EQ(seen["sorted"], Json({"70 µN", "35.8 mN", "0.389 N", "2 kN"})) << seen.dump();
+}
+
+/// A table of many columns is a list of its cells on a narrow screen, and whole in print.
+TEST_F(Pages, CutNoTable) {
+  HtmlReport page("wide");
+  page.paragraph("a table");
+  std::vector<std::string> header{"model"}, row{"a/long/name/of/a/model.dcnn"};
+  for (int k = 0; k < 9; ++k) header.push_back("largest error " + std::to_string(k) + " [N·m]");
+  for (int k = 0; k < 9; ++k) row.push_back("0.01234 ± 0.00056");
+  page.table(header, {row, row});
+  test::expect_worked(test::browse(page.html(), test::kUse, 1000), 1000);
+  test::expect_worked(test::browse(page.html(), test::kUse, 400), 400);
 }
 
 TEST_F(Pages, OfAMillionSamplesStaySmallAndWork) {
   const std::string html = to_html(example_diagnosis(1'000'000));
   EXPECT_LT(html.size(), 8U << 20U);
   RecordProperty("bytes", static_cast<int>(html.size()));
-  const Json seen = test::browse(html, kUse);
-  expect_no_errors(seen);
-  EXPECT_NEAR(seen["zoom"].get<double>(), 0.3, 0.02);
+  test::expect_worked(test::browse(html, test::kUse), 1000);
+}
+
+TEST(Markup, NumbersOfAColumnHaveTheSameDecimals) {
+  EXPECT_EQ(common_decimals({0.3947, 0.404, 0.04038}, 3), 4);
+  EXPECT_EQ(common_decimals({1234.0, 56.0}, 3), 1);
+  EXPECT_EQ(common_decimals({0.0, NAN, 1e9}, 3), 0);
+  EXPECT_EQ(common_decimals({1e-30}, 3), 9);
+  EXPECT_EQ(percent(0.8791), "88 %");
+  EXPECT_EQ(percent(0.007091), "0.71 %");
+  EXPECT_EQ(percent(1e-5), "< 0.01 %");
+  EXPECT_EQ(percent(0.0), "0 %");
 }
 
 TEST(ReportWords, SayUnitsAndNamesPeopleUse) {
@@ -184,6 +166,8 @@ TEST(ReportWords, SayUnitsAndNamesPeopleUse) {
   EXPECT_EQ(words_of_effect("coulomb_friction"), "dry friction");
   EXPECT_EQ(words_of_parameter("fc_n"), "friction force");
   EXPECT_EQ(words_of_parameter("c_xy"), "share of fy in fx");
+  EXPECT_EQ(words_of_signal("v_base_z"), "velocity along the base's z axis");
+  EXPECT_EQ(words_of_part("memory"), "history");
 }
 
 /// A report says nothing in names of the code: every published parameter has words.

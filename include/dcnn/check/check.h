@@ -41,10 +41,10 @@ struct Curve {
 
 struct Report {
   std::string log;
-  std::vector<Fault> faults;  ///< by falling probability
+  std::vector<Fault> faults;            ///< by falling probability
   std::vector<ReadingWeight> readings;  ///< by falling probability, the likeliest few
   std::map<std::string, bool> identifiable;
-  std::vector<std::string> notes;  ///< why something could not be looked at
+  std::vector<std::string> notes;      ///< why something could not be looked at
   std::vector<Curve> measured, rigid;  ///< per axis: as logged, and the rigid tool's best fit
 
   /// The first fault that is certain and stops.
@@ -55,6 +55,12 @@ struct Report {
 std::vector<std::string> fault_names();
 
 Report check(const Log& log);
+
+/// "centre of mass, x" for "com_x": a key of Report::identifiable.
+std::string words_of_number(const std::string& key);
+
+/// "nothing is wrong that can be told from the data", or the likeliest fault in words.
+std::string verdict(const Report& report);
 
 /// The form of docs/use/check.md.
 Json to_json(const Report& report);

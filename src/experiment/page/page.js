@@ -64,9 +64,11 @@ function draw(script) {
   figure.classList.add('drawn');
 }
 
+// The first number of a cell, in the unit without its prefix: 35.8 mN is less than 0.389 N.
+const prefixes = { 'n': 1e-9, 'µ': 1e-6, 'm': 1e-3, 'k': 1e3 };
 const number = text => {
-  const match = /[-+−]?\d[\d.]*(?:e[-+]?\d+)?/i.exec(text);
-  return match ? Number(match[0].replace('−', '-')) : NaN;
+  const match = /([-+−]?\d[\d.]*(?:e[-+]?\d+)?)(?:\s*([nµmk])(?=[A-Za-z]))?/i.exec(text);
+  return match ? Number(match[1].replace('−', '-')) * (prefixes[match[2]] || 1) : NaN;
 };
 
 // Some browsers give pages from files no clipboard; then a selection is copied.

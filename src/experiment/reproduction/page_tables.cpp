@@ -15,7 +15,9 @@ std::string level_with_spread(const Spread& s, int runs) {
   return fixed(s.mean, 4) + " ± " + fixed(s.deviation, 4);
 }
 
-std::string mark(Claim::Verdict verdict) {
+/// Networks of a few epochs neither confirm a claim nor refute it.
+std::string mark(Claim::Verdict verdict, bool judged) {
+  if (!judged && verdict != Claim::Verdict::kNotTested) return "– not judged";
   switch (verdict) {
     case Claim::Verdict::kHolds:
       return "✓ true";
@@ -45,14 +47,14 @@ void add_level_table(HtmlReport& page, const Scores& scores, const std::vector<E
 
 }  // namespace
 
-void add_claim_table(HtmlReport& page, const std::vector<Verdicts>& verdicts) {
+void add_claim_table(HtmlReport& page, const std::vector<Verdicts>& verdicts, bool judged) {
   Cells header{"", "claim"};
   for (const Verdicts& v : verdicts) header.push_back(v.series);
   std::vector<Cells> rows;
   const auto& first = verdicts.front().claims;
   for (std::size_t k = 0; k < first.size(); ++k) {
     Cells row{first[k].id, first[k].text};
-    for (const Verdicts& v : verdicts) row.push_back(mark(v.claims[k].verdict));
+    for (const Verdicts& v : verdicts) row.push_back(mark(v.claims[k].verdict, judged));
     rows.push_back(row);
   }
   page.table(header, rows);
@@ -70,12 +72,15 @@ void add_claim_table(HtmlReport& page, const std::vector<Verdicts>& verdicts) {
   page.table({"", "reading", "numbers"}, numbers);
 }
 
+void add_overall_table(HtmlReport& page, const Scores& scores, const std::vector<Entry>& entries) {
+  if (!scores.models.front().levels.front().overall) return;
+  add_level_table(
+      page, scores, entries, "overall [" + scores.units[0] + "]",
+      [](const LevelScore& level) { return level_with_spread(*level.overall, level.runs); });
+}
+
 void add_score_table(HtmlReport& page, const Scores& scores, const std::vector<Entry>& entries) {
-  if (scores.models.front().levels.front().overall) {
-    add_level_table(
-        page, scores, entries, "overall [" + scores.units[0] + "]",
-        [](const LevelScore& level) { return level_with_spread(*level.overall, level.runs); });
-  }
+  add_overall_table(page, scores, entries);
   for (std::size_t j = 0; j < scores.targets.size(); ++j) {
     add_level_table(
         page, scores, entries, scores.targets[j] + " [" + scores.units[j] + "]",

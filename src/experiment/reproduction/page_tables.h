@@ -8,8 +8,10 @@
 
 namespace dcnn {
 
-/// Claims against readings, then the numbers of each.
-void add_claim_table(HtmlReport& page, const std::vector<Verdicts>& verdicts);
+/// Claims against readings, then the numbers of each; not `judged`: the numbers alone count.
+void add_claim_table(HtmlReport& page, const std::vector<Verdicts>& verdicts, bool judged);
+/// Overall RMSE per model and level.
+void add_overall_table(HtmlReport& page, const Scores& scores, const std::vector<Entry>& entries);
 /// Overall RMSE per model and level, then per target.
 void add_score_table(HtmlReport& page, const Scores& scores, const std::vector<Entry>& entries);
 /// Table I with the paper's columns beside ours.

@@ -1,0 +1,3 @@
+function null = isNull(pointer)
+  null = pointer == 0;
+end

@@ -1,0 +1,4 @@
+function loaded = libisloaded(name)
+  global loaded_libraries
+  loaded = isfield(loaded_libraries, name);
+end
