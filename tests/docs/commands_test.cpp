@@ -31,7 +31,6 @@ const std::vector<NotRun> kNotRun{
      "recordings of others (docs/results/real.md)"},
     {"dcnn diagnose --sim data/sample", "the command of docs/use/first-log.md by its other name"},
     {"dcnn-forward report/model.json", "the log of a machine; tests/cli/forward_test.cpp"},
-    {"tools/records", "recordings of others (docs/results/records.md)"},
     {"dcnn-identify a.csv", "logs of the reader's own arm; tests/cli/identify_test.cpp"},
     {"dcnn-teleop --model", "a minute; tests/cli/teleop_test.cpp runs it with less"},
 };
