@@ -31,7 +31,8 @@ std::vector<std::vector<Alternative>> Search::alternatives() const {
     for (const Trial& trial : others(m)) {
       // What explains a remainder better than the member explains its own is none in its place.
       if (remains_ && trial.member.axis != own.axis) continue;
-      if (trial.member.kind == own.kind ||
+      const bool same = trial.member.kind == own.kind;
+      if ((same && (trial.member.form == own.form || trial.member.axis != own.axis)) ||
           trial.net_gain() < net - std::max(0.4 * kAsLikely * price, doubt(trial))) {
         continue;
       }
@@ -48,12 +49,16 @@ std::vector<std::vector<Alternative>> Search::alternatives() const {
         least = std::min(least, kBend * own_gain - near);
       // Nor does noise stand in its place.
       const double noise = least_gain(*setting_, numbers, rest.members.empty()) - near;
-      const bool listed = std::any_of(all[m].begin(), all[m].end(), [&](const Alternative& a) {
+      if (fit_.chi2 - other.chi2 <= least || rest.chi2 - other.chi2 <= noise) continue;
+      const Alternative found{trial.member.name(), other.members, other.base, log_odds_of(other),
+                              other.chi2 - fit_.chi2};
+      const auto listed = std::find_if(all[m].begin(), all[m].end(), [&](const Alternative& a) {
         return a.name == trial.member.name();
       });
-      if (fit_.chi2 - other.chi2 > least && rest.chi2 - other.chi2 > noise && !listed) {
-        all[m].push_back(
-            {trial.member.name(), other.members, log_odds_of(other), other.chi2 - fit_.chi2});
+      if (listed == all[m].end()) {
+        all[m].push_back(found);
+      } else if (found.log_odds > listed->log_odds) {
+        *listed = found;
       }
     }
   }

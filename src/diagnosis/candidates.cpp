@@ -280,7 +280,7 @@ std::vector<Member> candidates(const Scan& scan, const Signals& left,
     for (const EffectFit& form : kind->fits) {
       const bool follows = !form.shapes.empty() && std::string(form.shapes[0].name) == "t_ref";
       if (follows && !has_temperature(study)) continue;
-      if (form.machines_only && !study.axis) continue;
+      if (form.use == (study.axis ? EffectFit::Use::kTools : EffectFit::Use::kMachines)) continue;
       for (const auto& axis : axes_of(study, *kind)) {
         const auto grid = follows ? reference_temperatures(study) : seed_grid(study, form, axis);
         for (const auto& shapes : grid) {

@@ -1,5 +1,7 @@
 #include "diagnosis/confidence.h"
 
+#include "core/elementary.h"
+#include "diagnosis/evidence/marginal.h"
 #include "diagnosis/evidence/posterior.h"
 
 namespace dcnn {
@@ -17,6 +19,44 @@ std::vector<std::optional<double>> confidences(const Search& search, const HoldO
                                     holdout.log_support(with, without, search.floors()));
   }
   return list;
+}
+
+std::vector<double> masses_of(const Search& search, const HoldOut& holdout,
+                              const std::vector<Alternative>& alternatives) {
+  const JointFit& fit = search.fit();
+  const Signals own = holdout.prediction(fit.members, fit.base);
+  std::vector<double> odds{0.0};  // ln
+  for (const Alternative& other : alternatives) {
+    const Signals theirs = holdout.prediction(other.members, other.base);
+    odds.push_back(other.log_odds + holdout.log_support(theirs, own, search.floors()));
+  }
+  const double sum = evidence::log_sum(odds);
+  for (double& odd : odds) odd = elementary::exp(odd - sum);
+  return odds;
+}
+
+std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldOut& holdout) {
+  constexpr double kLikelier = 2.0;  // odds: rounding decides nothing between equals
+  constexpr int kMostRounds = 4;
+  for (int round = 0;; ++round) {
+    auto alternatives = search.alternatives();
+    double most = kLikelier;
+    const Alternative* best = nullptr;
+    for (const auto& of_member : alternatives) {
+      const auto masses = masses_of(search, holdout, of_member);
+      for (std::size_t k = 0; k < of_member.size(); ++k) {
+        const double odds = masses[k + 1] / masses[0];
+        if (odds > most) most = odds, best = &of_member[k];
+      }
+    }
+    if (!best || round == kMostRounds) return alternatives;
+    const std::vector<Member> before = search.fit().members;
+    const bool remained = search.remains();
+    search.adopt(best->members);
+    if (remained || !search.remains()) continue;
+    search.adopt(before);  // the likelier one leaves what no noise explains
+    return alternatives;
+  }
 }
 
 Json leave_refuted(Search& search, const HoldOut& holdout) {

@@ -10,6 +10,16 @@ namespace dcnn {
 /// is fixed none: a test of its own found it.
 std::vector<std::optional<double>> confidences(const Search& search, const HoldOut& holdout);
 
+/// Of a member and of other effects in its place, which the recordings cannot exclude: their shares
+/// of the mass of all, by their evidence and what the held-out data say for or against each; the
+/// member's own first.
+std::vector<double> masses_of(const Search& search, const HoldOut& holdout,
+                              const std::vector<Alternative>& alternatives);
+
+/// Puts an effect in the place of a member where it is twice as likely, by masses_of(): the
+/// alternatives to what then stands.
+std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldOut& holdout);
+
 /// Takes back, the least likely first, the names that are rather wrong than right by the held-out
 /// data too: what they were, and how likely.
 Json leave_refuted(Search& search, const HoldOut& holdout);

@@ -122,6 +122,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   if (replaced || !laws.empty()) {
     for (const Json& name : leave_refuted(search, holdout)) refuted_names.push_back(name);
   }
+  const auto alternatives = adopt_likelier(search, holdout);
   const Case& study = search.study();
   const JointFit &fit = search.fit(), given = joint_fit(search.setting(), {});
 
@@ -133,7 +134,6 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
             {"holdout_recordings", names_of(loaded.holdout)}};
   const std::vector<std::string> without = study.without.names();
   if (!without.empty()) report["without"] = without;
-  const auto alternatives = search.alternatives();
   report["findings"] = findings_json(search, holdout, alternatives);
   report["refuted"] = refuted_names;
   report["search"] = {{"passes", search.passes()}, {"complete", !search.is_spent()}};

@@ -4,113 +4,18 @@
 #include <cmath>
 #include <map>
 
-#include "dcnn/discovery/discover.h"
+#include "diagnosis/law_search.h"
 #include "discovery/priors.h"
 
 namespace dcnn {
 namespace {
 
 using discovery::Discovered;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kLawInterval = 1.96;  // of a standard deviation: 95 %
 constexpr int kFewestNumbers = 2;      // of a law: its size, and a scale or a power
 constexpr double kStillGained = 0.5;   // of a law's gain, once all are fitted through the chain
-
-/// The force on the tool to which a law is added.
-MatrixXd load_of(const Simulator& simulator, const std::vector<EffectSpec>& effects,
-                 const Log& log) {
-  ToolModel model = changed_tool(simulator.model, effects);
-  model.bias.setZero();
-  model.bias_torque.setZero();
-  Wrench wrench = rigid_wrench(model, log.motion);
-  if (log.base.force.rows() > 0) wrench.force += log.base.force;
-  for (const EffectSpec& effect : effects) {
-    if (find_effect(effect.effect)->stage == Stage::kForce) {
-      apply_effect(effect, log.motion, model, wrench);
-    }
-  }
-  return wrench.force;
-}
-
-/// Forces as the channels that a case measures.
-Signals channels_of(const Case& study, const std::vector<MatrixXd>& forces) {
-  Signals signals;
-  for (const MatrixXd& force : forces) {
-    signals.push_back(measured_part(study, {force, MatrixXd::Zero(force.rows(), 3)}));
-  }
-  return signals;
-}
-
-/// Channels as forces.
-std::vector<MatrixXd> forces_of(const Case& study, const Signals& signals) {
-  std::vector<MatrixXd> forces;
-  for (const MatrixXd& signal : signals) {
-    forces.emplace_back(MatrixXd::Zero(signal.rows(), 3));
-    for (Index j = 0; j < signal.cols(); ++j) {
-      const int channel = study.channels[static_cast<std::size_t>(j)];
-      if (channel < 3) forces.back().col(channel) = signal.col(j);
-    }
-  }
-  return forces;
-}
-
-/// What the effects behind the forces on the tool, up to the sensor's offsets, make of forces.
-class Passage {
- public:
-  Passage(const Case& study, const std::vector<EffectSpec>& effects)
-      : study_(study), model_(changed_tool(study.simulator.model, effects)) {
-    for (const EffectSpec& effect : effects) {
-      const Stage stage = find_effect(effect.effect)->stage;
-      if (stage > Stage::kForce && stage < Stage::kOffset) behind_.push_back(effect);
-    }
-    model_.bias.setZero();
-    model_.bias_torque.setZero();
-  }
-  Signals operator()(const std::vector<MatrixXd>& forces) const {
-    if (behind_.empty()) return channels_of(study_, forces);
-    std::vector<MatrixXd> passed;
-    for (std::size_t k = 0; k < forces.size(); ++k) {
-      Wrench wrench{forces[k], MatrixXd::Zero(forces[k].rows(), 3)};
-      pass_on(behind_, Stage::kResonance, study_.logs[k].motion, model_, wrench);
-      passed.push_back(std::move(wrench.force));
-    }
-    return channels_of(study_, passed);
-  }
-
- private:
-  const Case& study_;
-  ToolModel model_;
-  std::vector<EffectSpec> behind_;
-};
-
-/// The residual of a fit as a problem at the rate of `study`, whose rows `whitener` gives; both
-/// must outlive it.
-discovery::Problem problem_of(const Setting& setting, const JointFit& fit, const Case& study,
-                              const Whitener& whitener) {
-  discovery::Problem problem;
-  const auto effects = specs_of(fit.members);
-  std::vector<Index> sizes;
-  for (const Log& log : study.logs) {
-    problem.records.push_back({&log.motion, load_of(setting.study.simulator, effects, log)});
-    sizes.push_back(log.motion.samples());
-  }
-  problem.whiten = [passage = Passage(study, effects), &whitener,
-                    &setting](const std::vector<MatrixXd>& forces) {
-    return VectorXd(whitener(passage(forces)).cwiseProduct(setting.mask));
-  };
-  problem.transposed = [&study, &whitener, &setting, sizes](const VectorXd& rows) {
-    return forces_of(study, whitener.transposed(rows.cwiseProduct(setting.mask), sizes));
-  };
-  for (const Whitener::Row& row : whitener.row_info()) {
-    problem.rows.push_back({row.log, row.channel, row.t});
-  }
-  problem.known = orthonormal(fit.tangent);
-  problem.residual = fit.residual - problem.known * (problem.known.transpose() * fit.residual);
-  problem.residual = problem.residual.cwiseProduct(setting.mask);
-  return problem;
-}
 
 bool can_hold_laws(const Case& study) {
   if (study.is_static() || study.axis) return false;
@@ -118,16 +23,6 @@ bool can_hold_laws(const Case& study) {
     return log.motion.v_B.rows() == log.motion.samples() &&
            log.motion.a_B.rows() == log.motion.samples();
   });
-}
-
-/// Looked for in block means, then fitted again at the log's rate.
-std::vector<Discovered> laws_in(const Setting& setting, const JointFit& fit) {
-  const Index block = setting.whitener.block();
-  const Case thin = thinned(setting.study, block);
-  const Whitener coarse = setting.whitener.at_stride(block);
-  const auto laws = discovery::discover(problem_of(setting, fit, thin, coarse));
-  if (laws.empty()) return laws;
-  return discovery::refitted(problem_of(setting, fit, setting.study, setting.whitener), laws);
 }
 
 Member member_of(const law::Law& law, const Json& told) {
@@ -199,6 +94,68 @@ Laws borne_out(const Setting& setting, const JointFit& names) {
   return laws;
 }
 
+/// Looks for names beside laws; those that are found stand where both, fitted again, leave nothing.
+void name_beside(Search& search, Laws& laws) {
+  const std::vector<Member> before = search.fit().members;
+  if (!search.name_beside_laws()) return;
+  Laws again = borne_out(search.setting(), joint_fit(search.setting(), search.names()));
+  if (!again.found.empty()) search.put_beside(again.members);
+  if (!search.confirms_names()) {
+    search.hold(before);
+  } else if (!again.found.empty()) {
+    laws = std::move(again);
+  }
+}
+
+/// Numbers that were fitted: a law's that have a deviation, and those of names.
+int numbers_of(const Laws& laws, const std::vector<Member>& members) {
+  int sum = 0;
+  for (const Discovered& law : laws.found) {
+    sum += static_cast<int>((law.deviation.array() > 0.0).count());
+  }
+  for (const Member& member : members) {
+    if (member.law.is_null()) sum += member.parameters();
+  }
+  return sum;
+}
+
+/// Of several laws one may be an effect that has a name: whether a name in the place of one
+/// explains as much, but for what any law must gain to be accepted in the place of names. It then
+/// stands.
+bool name_in_place_of_one(Search& search, Laws& laws) {
+  if (laws.found.size() < 2) return false;
+  const std::vector<Member> before = search.fit().members;
+  for (std::size_t k = 0; k < laws.found.size(); ++k) {
+    Laws others = laws;
+    others.found.erase(others.found.begin() + static_cast<std::ptrdiff_t>(k));
+    others.members.erase(others.members.begin() + static_cast<std::ptrdiff_t>(k));
+    search.put_beside(others.members);
+    auto trials = search.additions();
+    std::erase_if(trials, [](const Trial& trial) { return trial.member.interval_s.has_value(); });
+    if (!trials.empty()) {
+      std::vector<Member> named = search.fit().members;
+      named.push_back(trials.front().member);
+      search.settle(named);
+      const double lost = search.fit().chi2 - joint_fit(search.setting(), before).chi2,
+                   saved = search.setting().price *
+                           (numbers_of(laws, before) - numbers_of(others, named));
+      if (lost < saved + discovery::prior::kAccepted) {
+        const Setting& setting = search.setting();
+        Laws again = borne_out(setting, joint_fit(setting, search.names()));
+        if (again.found.size() == others.found.size()) {  // fitted beside the name
+          search.put_beside(again.members);
+          others = std::move(again);
+        }
+        search.confirms_names();
+        laws = std::move(others);
+        return true;
+      }
+    }
+    search.hold(before);
+  }
+  return false;
+}
+
 }  // namespace
 
 bool prefer_one_law(Search& search) {
@@ -239,13 +196,9 @@ std::vector<Discovered> add_discovered(Search& search) {
   Laws laws = borne_out(search.setting(), search.fit());
   if (laws.found.empty()) return {};
   search.put_beside(laws.members);
-  const std::vector<Member> before = search.fit().members;
-  if (!search.name_beside_laws()) return laws.found;
-  // Names that were found beside a formula stand where both, fitted again, leave nothing.
-  Laws again = borne_out(search.setting(), joint_fit(search.setting(), search.names()));
-  if (!again.found.empty()) search.put_beside(again.members);
-  if (search.confirms_names()) return again.found.empty() ? laws.found : again.found;
-  search.hold(before);
+  name_beside(search, laws);
+  while (name_in_place_of_one(search, laws)) {
+  }
   return laws.found;
 }
 

@@ -41,11 +41,13 @@ class Writer {
       entry["confidence"] = nullptr;
       entry["p_value"] = nullptr;
       if (!member.fixed) {
-        entry["confidence"] = *likely[m];
         entry["p_value"] = flip_p_value(search_.setting(), fit, m);
       }
       entry["alternatives"] = Json::array();
-      for (const Alternative& other : alternatives[m]) entry["alternatives"].push_back(other.name);
+      for (const Alternative& other : alternatives[m]) {
+        if (other.name != member.name()) entry["alternatives"].push_back(other.name);
+      }
+      if (!member.fixed) share(*likely[m], alternatives[m], entry);
       entry["holdout_gain"] = nullptr;
       if (held) {
         entry["holdout_gain"] =
@@ -99,6 +101,23 @@ class Writer {
     }
     if (!member.recording.empty()) entry["recording"] = member.recording;
     return entry;
+  }
+
+  /// Divides a probability among a name, in any of its forms, and the effects that may stand in its
+  /// place.
+  void share(double probability, const std::vector<Alternative>& others, Json& entry) const {
+    const auto masses = masses_of(search_, holdout_, others);
+    double own = masses[0];
+    Json shared = Json::object();
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      if (entry["effect"] == others[k].name) {
+        own += masses[k + 1];
+      } else {
+        shared[others[k].name] = probability * masses[k + 1];
+      }
+    }
+    entry["confidence"] = probability * own;
+    if (!shared.empty()) entry["shared_with"] = shared;
   }
 
   Json found_apart(const Member& member) const {

@@ -269,6 +269,12 @@ void Search::run() {
     }
     explore();
   }
+  if (knocking_ && !still_knocks()) {
+    settle(fit_.members);
+    while (simplify()) {
+    }
+    explore();
+  }
   let_ring();
   judge();
   weigh();

@@ -25,6 +25,7 @@ struct Span {
 struct Alternative {
   std::string name;
   std::vector<Member> members;  ///< the whole model with it, fitted
+  Eigen::VectorXd base;         ///< and the coefficients of its linear base, where there is one
   double log_odds = 0.0;        ///< ln of its evidence over that of the model that was chosen
   double chi2_above = 0.0;      ///< its chi-square less that of the chosen
 };
@@ -60,6 +61,8 @@ class Search {
 
   /// Takes back members that other data or another law refute, and judges what is left.
   void leave_out(const std::vector<std::size_t>& members);
+  /// Takes another model, whose members were fitted, and judges what it leaves.
+  void adopt(const std::vector<Member>& members);
   /// Fits laws without a name beside the names, in place of those that were there.
   void put_beside(const std::vector<Member>& laws);
   /// Looks for names beside the laws: whether there are more than before.
@@ -122,6 +125,7 @@ class Search {
   void explore();
   void detect();
   bool hear_knocks();
+  bool still_knocks();
   void drop_coincidences();
   void drop_unconfirmed();
   void let_ring();
@@ -161,7 +165,7 @@ class Search {
   JointFit fit_;
   mutable std::vector<Place> places_;  // one a member, of fit_
   Signals left_;
-  std::vector<Span> held_out_, masked_;
+  std::vector<Span> held_out_, masked_, knock_spans_;
   std::vector<Member> apart_;                  // members found by tests of their own
   std::optional<Member> rounding_, knocking_;  // named, but no part of what is fitted
   std::vector<BandTest> bands_;

@@ -75,7 +75,9 @@ void Search::make_setting(const std::vector<Member>& members) {
   setting_ = std::make_unique<Setting>(Setting{
       study_, whitener, thinned(study_, stride), whitener.at_stride(stride), measured, {}, {}});
   const Index rows = setting_->whitener.rows();
-  setting_->mask = mask_of(setting_->whitener, held_out_, masked_);
+  std::vector<Span> masked = masked_;
+  masked.insert(masked.end(), knock_spans_.begin(), knock_spans_.end());
+  setting_->mask = mask_of(setting_->whitener, held_out_, masked);
   setting_->nuisance.resize(rows, 0);
   for (std::size_t k = 0; k < study_.logs.front().regressors.size(); ++k) {
     Signals column;

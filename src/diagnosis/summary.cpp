@@ -121,7 +121,15 @@ std::string to_text(const Diagnosis& diagnosis) {
       out << " [" << brief(number["ci95"][0].get<double>()) << ", "
           << brief(number["ci95"][1].get<double>()) << "]";
     }
-    if (!finding["alternatives"].empty()) out << "  or " << finding["alternatives"].dump();
+    if (!finding["confidence"].is_null()) {
+      out << "  confidence " << brief(finding["confidence"].get<double>());
+    }
+    for (const Json& other : finding["alternatives"]) {
+      const auto name = other.get<std::string>();
+      out << "  or " << name;
+      const Json& shared = finding.value("shared_with", Json::object());
+      if (shared.contains(name)) out << " " << brief(shared[name].get<double>());
+    }
     out << "\n";
   }
   if (!report["search"]["complete"].get<bool>()) {

@@ -58,8 +58,16 @@ bool Search::hear_knocks() {
   const Knocks knocks = find_knocks(study_, left_);
   if (!knocks.member) return false;
   knocking_ = knocks.member;
-  masked_.insert(masked_.end(), knocks.spans.begin(), knocks.spans.end());
+  knock_spans_ = knocks.spans;
   return true;
+}
+
+/// Whether the knocks are heard beside all that was found since: what is fitted may have made them.
+bool Search::still_knocks() {
+  const Knocks knocks = find_knocks(study_, left_);
+  knocking_ = knocks.member;
+  if (!knocks.member) knock_spans_.clear();
+  return knocks.member.has_value();
 }
 
 /// Takes back, the most doubtful first, what signs drawn at random for each second explain as

@@ -75,7 +75,11 @@ void Search::leave_out(const std::vector<std::size_t>& members) {
       rest.push_back(fit_.members[m]);
     }
   }
-  settle(rest);
+  adopt(rest);
+}
+
+void Search::adopt(const std::vector<Member>& members) {
+  settle(members);
   weigh_once();
   if (!study_.axis) judge_rest();
 }

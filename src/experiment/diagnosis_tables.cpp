@@ -104,7 +104,10 @@ void add_findings(const Json& report, HtmlReport& page) {
     std::string alternatives;
     for (const Json& a : f["alternatives"]) {
       const Json& effect = a.is_object() ? a["effect"] : a;
-      alternatives += (alternatives.empty() ? "" : ", ") + words_of_effect(plain_text(effect));
+      const auto id = plain_text(effect);
+      alternatives += (alternatives.empty() ? "" : ", ") + words_of_effect(id);
+      const Json shared = f.value("shared_with", Json::object());
+      if (shared.contains(id)) alternatives += " (" + share_text(shared[id]) + ")";
     }
     rows.push_back({words_of_effect(plain_text(f["effect"])), words_of_axis(plain_text(f["axis"])),
                     parameters, share_text(f["confidence"]), share_text(f["holdout_gain"]),

@@ -34,6 +34,24 @@ TEST(BesideLaws, AListedEffectKeepsItsName) {
   }
 }
 
+// Both are laws to the discoverer; one of them has a name.
+TEST(BesideLaws, AnEffectWithANameIsNoSecondLaw) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  Json guide = hidden("discovered", nullptr,
+                      {{"amplitude_n", -1.0}, {"scale_1_mps", 0.08}, {"scale_2_m", 0.1}});
+  guide["law"] = {
+      {"axis", "base_x"},
+      {"factors", {{{"shape", "linear"}, {"of", "v_base_x"}}, {{"shape", "linear"}, {"of", "y"}}}}};
+  const Bench bench(configuration(
+      {guide, hidden("cable_spring", "gamma:base_y", {{"k_nprad", 1.2}, {"rest_rad", 3.2}})}));
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(test::names(report), std::vector<std::string>{"cable_spring"})
+      << report["findings"].dump(1);
+  EXPECT_EQ(report["verdict"], "partly-explained");
+  ASSERT_EQ(report["findings"].size(), 2u);
+  EXPECT_EQ(report["findings"][1]["axis"], "base_x");
+}
+
 // The 1.5th power of the speed lies between a viscous friction and a drag that grows as its square.
 TEST(BesideLaws, OneLawTakesThePlaceOfTwoNamesThatImitateIt) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
@@ -55,6 +73,29 @@ TEST(BesideLaws, TwoNamesThatActStayTwo) {
   EXPECT_EQ(test::found(report), (std::set<std::string>{"coulomb_friction", "viscous_friction"}));
   EXPECT_EQ(report["verdict"], "explained");
   EXPECT_TRUE(report["refuted"].empty());
+}
+
+// A scale of all axes and a mass make the same force: each is as likely as the other.
+TEST(SharedConfidence, IsThatOfAliases) {
+  const Bench bench(configuration(Json::array(
+      {hidden("gain", nullptr, {{"gain_x", 0.03}, {"gain_y", 0.03}, {"gain_z", 0.03}})})));
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(report["verdict"], "explained");
+  ASSERT_EQ(test::names(report), std::vector<std::string>{"mass"}) << report["findings"].dump(1);
+  const Json& mass = report["findings"][0];
+  EXPECT_EQ(mass["alternatives"], Json::array({"gain"}));
+  EXPECT_NEAR(mass["confidence"].get<double>(), 0.5, 0.05);
+  EXPECT_NEAR(mass["shared_with"]["gain"].get<double>(), 0.5, 0.05);
+}
+
+// Scales that differ are no mass.
+TEST(SharedConfidence, IsWholeWhereTheRecordingsDecide) {
+  const Bench bench(configuration(Json::array(
+      {hidden("gain", nullptr, {{"gain_x", 0.03}, {"gain_y", -0.03}, {"gain_z", 0.02}})})));
+  const Json report = bench.diagnose().report;
+  ASSERT_EQ(test::names(report), std::vector<std::string>{"gain"}) << report["findings"].dump(1);
+  EXPECT_GT(report["findings"][0]["confidence"].get<double>(), 0.95);
+  EXPECT_FALSE(report["findings"][0].contains("shared_with"));
 }
 
 TEST(HeldOutData, TakeBackWhatTheyRefute) {

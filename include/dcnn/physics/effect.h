@@ -19,7 +19,8 @@ namespace dcnn {
 struct Wrench {
   Eigen::MatrixXd force;   ///< (T,3) N
   Eigen::MatrixXd torque;  ///< (T,3) N·m, or (0,3)
-  /// (T,3) N, what is carried before any effect of Stage::kForce; no rows where nothing asks for it.
+  /// (T,3) N, what is carried before any effect of Stage::kForce; no rows where nothing asks for
+  /// it.
   Eigen::MatrixXd load = {};
 };
 
@@ -101,7 +102,8 @@ struct EffectFit {
   std::vector<ShapeParameter> shapes = {};
   /// The published parameters that belong to amplitudes and shapes.
   Json (*parameters)(const Eigen::VectorXd& amplitudes, const Eigen::VectorXd& shapes) = nullptr;
-  bool machines_only = false;  ///< tried on axes of other machines alone
+  enum class Use { kEverywhere, kTools, kMachines };
+  Use use = Use::kEverywhere;  ///< what the diagnosis tries this form on
 };
 
 /// What an effect must know of time: nothing, when a row was taken, or the motion between rows.

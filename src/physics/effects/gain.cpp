@@ -29,7 +29,13 @@ const EffectKind effect{
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"gain_x", a(0)}, {"gain_y", a(1)}, {"gain_z", a(2)}};
-                  }}},
+                  }},
+             {.amplitudes = 1,  // of all axes, as a unit or an amplifier that they share makes it
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return Json{{"gain_x", a(0)}, {"gain_y", a(0)}, {"gain_z", a(0)}};
+                  },
+              .use = EffectFit::Use::kTools}},
 };
 
 }  // namespace dcnn::effects::gain

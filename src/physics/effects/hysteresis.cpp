@@ -136,7 +136,7 @@ const EffectKind effect{
                                 {"gamma", s(1)},
                                 {"m", 1.0}};
                   },
-              .machines_only = true}},
+              .use = EffectFit::Use::kMachines}},
 };
 
 }  // namespace dcnn::effects::hysteresis

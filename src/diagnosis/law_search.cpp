@@ -1,0 +1,114 @@
+#include "diagnosis/law_search.h"
+
+namespace dcnn {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// The force on the tool to which a law is added.
+MatrixXd load_of(const Simulator& simulator, const std::vector<EffectSpec>& effects,
+                 const Log& log) {
+  ToolModel model = changed_tool(simulator.model, effects);
+  model.bias.setZero();
+  model.bias_torque.setZero();
+  Wrench wrench = rigid_wrench(model, log.motion);
+  if (log.base.force.rows() > 0) wrench.force += log.base.force;
+  for (const EffectSpec& effect : effects) {
+    if (find_effect(effect.effect)->stage == Stage::kForce) {
+      apply_effect(effect, log.motion, model, wrench);
+    }
+  }
+  return wrench.force;
+}
+
+/// Forces as the channels that a case measures.
+Signals channels_of(const Case& study, const std::vector<MatrixXd>& forces) {
+  Signals signals;
+  for (const MatrixXd& force : forces) {
+    signals.push_back(measured_part(study, {force, MatrixXd::Zero(force.rows(), 3)}));
+  }
+  return signals;
+}
+
+/// Channels as forces.
+std::vector<MatrixXd> forces_of(const Case& study, const Signals& signals) {
+  std::vector<MatrixXd> forces;
+  for (const MatrixXd& signal : signals) {
+    forces.emplace_back(MatrixXd::Zero(signal.rows(), 3));
+    for (Index j = 0; j < signal.cols(); ++j) {
+      const int channel = study.channels[static_cast<std::size_t>(j)];
+      if (channel < 3) forces.back().col(channel) = signal.col(j);
+    }
+  }
+  return forces;
+}
+
+/// What the effects behind the forces on the tool, up to the sensor's offsets, make of forces.
+class Passage {
+ public:
+  Passage(const Case& study, const std::vector<EffectSpec>& effects)
+      : study_(study), model_(changed_tool(study.simulator.model, effects)) {
+    for (const EffectSpec& effect : effects) {
+      const Stage stage = find_effect(effect.effect)->stage;
+      if (stage > Stage::kForce && stage < Stage::kOffset) behind_.push_back(effect);
+    }
+    model_.bias.setZero();
+    model_.bias_torque.setZero();
+  }
+  Signals operator()(const std::vector<MatrixXd>& forces) const {
+    if (behind_.empty()) return channels_of(study_, forces);
+    std::vector<MatrixXd> passed;
+    for (std::size_t k = 0; k < forces.size(); ++k) {
+      Wrench wrench{forces[k], MatrixXd::Zero(forces[k].rows(), 3)};
+      pass_on(behind_, Stage::kResonance, study_.logs[k].motion, model_, wrench);
+      passed.push_back(std::move(wrench.force));
+    }
+    return channels_of(study_, passed);
+  }
+
+ private:
+  const Case& study_;
+  ToolModel model_;
+  std::vector<EffectSpec> behind_;
+};
+
+/// The residual of a fit as a problem at the rate of `study`, whose rows `whitener` gives; both
+/// must outlive it.
+discovery::Problem problem_of(const Setting& setting, const JointFit& fit, const Case& study,
+                              const Whitener& whitener) {
+  discovery::Problem problem;
+  const auto effects = specs_of(fit.members);
+  std::vector<Index> sizes;
+  for (const Log& log : study.logs) {
+    problem.records.push_back({&log.motion, load_of(setting.study.simulator, effects, log)});
+    sizes.push_back(log.motion.samples());
+  }
+  problem.whiten = [passage = Passage(study, effects), &whitener,
+                    &setting](const std::vector<MatrixXd>& forces) {
+    return VectorXd(whitener(passage(forces)).cwiseProduct(setting.mask));
+  };
+  problem.transposed = [&study, &whitener, &setting, sizes](const VectorXd& rows) {
+    return forces_of(study, whitener.transposed(rows.cwiseProduct(setting.mask), sizes));
+  };
+  for (const Whitener::Row& row : whitener.row_info()) {
+    problem.rows.push_back({row.log, row.channel, row.t});
+  }
+  problem.known = orthonormal(fit.tangent);
+  problem.residual = fit.residual - problem.known * (problem.known.transpose() * fit.residual);
+  problem.residual = problem.residual.cwiseProduct(setting.mask);
+  return problem;
+}
+
+}  // namespace
+
+std::vector<discovery::Discovered> laws_in(const Setting& setting, const JointFit& fit) {
+  const Index block = setting.whitener.block();
+  const Case thin = thinned(setting.study, block);
+  const Whitener coarse = setting.whitener.at_stride(block);
+  const auto laws = discovery::discover(problem_of(setting, fit, thin, coarse));
+  if (laws.empty()) return laws;
+  return discovery::refitted(problem_of(setting, fit, setting.study, setting.whitener), laws);
+}
+
+}  // namespace dcnn

@@ -1,0 +1,14 @@
+// The residual of a fit as a problem of the discoverer.
+#pragma once
+
+#include <vector>
+
+#include "dcnn/discovery/discover.h"
+#include "diagnosis/scan.h"
+
+namespace dcnn {
+
+/// Laws in what a fit leaves: looked for in block means, then fitted again at the log's rate.
+std::vector<discovery::Discovered> laws_in(const Setting& setting, const JointFit& fit);
+
+}  // namespace dcnn
