@@ -1,6 +1,5 @@
 // The effects that would gain most next to a model.
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -62,22 +61,6 @@ void keep_apart(std::vector<Member>& list, const std::vector<Member>& members) {
   std::erase_if(list, [&](const Member& candidate) {
     return candidate.name() == "cable_spring" && beside(candidate, "cogging", slow);
   });
-}
-
-/// Of effects that make the same force on this motion (mass and a scale of all axes) that which the
-/// catalogue has first: rounding decides nothing.
-void put_first_alias_first(std::vector<Trial>& sorted) {
-  constexpr double kSame = 1e-6;  // of a gain: rounding and where a refinement ends
-  if (sorted.empty()) return;
-  const double least = sorted.front().net_gain() - kSame * std::abs(sorted.front().gain);
-  const auto end = std::find_if(sorted.begin(), sorted.end(),
-                                [&](const Trial& trial) { return trial.net_gain() < least; });
-  const auto place = [](const Trial& trial) {
-    const auto& kinds = effect_kinds();
-    return std::find(kinds.begin(), kinds.end(), trial.member.kind) - kinds.begin();
-  };
-  std::stable_sort(sorted.begin(), end,
-                   [&](const Trial& a, const Trial& b) { return place(a) < place(b); });
 }
 
 }  // namespace
@@ -147,7 +130,6 @@ std::vector<Trial> Search::additions(const JointFit& fit, bool events,
   }
   std::erase_if(chosen, [](const Trial& trial) { return trial.gain <= 0.0; });
   std::stable_sort(chosen.begin(), chosen.end(), by_net_gain);
-  put_first_alias_first(chosen);
   return chosen;
 }
 

@@ -1,10 +1,28 @@
 #include "diagnosis/confidence.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/elementary.h"
 #include "diagnosis/evidence/marginal.h"
 #include "diagnosis/evidence/posterior.h"
 
 namespace dcnn {
+namespace {
+
+/// Whether another effect is named rather than a member: the likelier by far, or of two that make
+/// the same force the one that the catalogue has first, so that rounding decides nothing.
+bool goes_before(const Alternative& other, const Member& own, double odds) {
+  constexpr double kLikelier = 2.0, kSame = 1e-3;
+  const auto place = [](const std::string& name) {
+    const auto& kinds = effect_kinds();
+    return std::find(kinds.begin(), kinds.end(), find_effect(name)) - kinds.begin();
+  };
+  return odds > kLikelier ||
+         (std::abs(odds - 1.0) < kSame && place(other.name) < place(own.name()));
+}
+
+}  // namespace
 
 std::vector<std::optional<double>> confidences(const Search& search, const HoldOut& holdout) {
   const JointFit& fit = search.fit();
@@ -36,17 +54,18 @@ std::vector<double> masses_of(const Search& search, const HoldOut& holdout,
 }
 
 std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldOut& holdout) {
-  constexpr double kLikelier = 2.0;  // odds: rounding decides nothing between equals
-  constexpr int kMostRounds = 4;
+  constexpr int kMostRounds = 6;
   for (int round = 0;; ++round) {
     auto alternatives = search.alternatives();
-    double most = kLikelier;
+    double most = 0.0;
     const Alternative* best = nullptr;
-    for (const auto& of_member : alternatives) {
-      const auto masses = masses_of(search, holdout, of_member);
-      for (std::size_t k = 0; k < of_member.size(); ++k) {
+    for (std::size_t m = 0; m < alternatives.size(); ++m) {
+      const auto masses = masses_of(search, holdout, alternatives[m]);
+      for (std::size_t k = 0; k < alternatives[m].size(); ++k) {
+        const Alternative& other = alternatives[m][k];
         const double odds = masses[k + 1] / masses[0];
-        if (odds > most) most = odds, best = &of_member[k];
+        const bool stands = goes_before(other, search.fit().members[m], odds);
+        if (stands && odds > most) most = odds, best = &other;
       }
     }
     if (!best || round == kMostRounds) return alternatives;
