@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/elementary.h"
+#include "core/linear_algebra.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/median.h"
 #include "diagnosis/noise_floor.h"
@@ -84,34 +86,49 @@ std::vector<Knock> knocks_of(const std::vector<Field>& fields, const Slug& slug,
   return knocks;
 }
 
-/// A channel of a recording in deviations of its noise, summed, so that a mean costs nothing.
+/// What finds a force that lasts 2 wide + 1 samples, whatever else goes through the samples around
+/// it as a parabola does, such as a tremor that the model has not quite: the least-squares weights
+/// of that force's mean.
+class Template {
+ public:
+  explicit Template(Index wide) : far_(6 * wide + 3) {
+    const Index n = 2 * far_ + 1;
+    Eigen::MatrixXd parabola(n, 3);
+    weights_ = Eigen::VectorXd::Zero(n);
+    for (Index i = 0; i < n; ++i) {
+      const double t = static_cast<double>(i - far_) / static_cast<double>(far_);
+      parabola.row(i) << 1.0, t, t * t;
+      if (std::abs(i - far_) <= wide) weights_(i) = 1.0;
+    }
+    const Eigen::MatrixXd q = orthonormal(parabola);
+    weights_ -= q * (q.transpose() * weights_);
+    weights_ /= weights_.squaredNorm();
+  }
+  Index far() const { return far_; }
+  const Eigen::VectorXd& weights() const { return weights_; }
+  /// Deviation of the mean in white noise of deviation 1.
+  double deviation() const { return weights_.norm(); }
+
+ private:
+  Index far_;
+  Eigen::VectorXd weights_;
+};
+
+/// A channel of a recording in deviations of its noise.
 class Channel {
  public:
   Channel(const Eigen::VectorXd& r, const Eigen::VectorXd& level)
-      : level_(level), sums_(Eigen::VectorXd::Zero(r.size() + 1)) {
-    for (Index i = 0; i < r.size(); ++i) sums_(i + 1) = sums_(i) + r(i) / level(i);
-  }
+      : level_(level), r_(r.cwiseQuotient(level)) {}
   double level(Index i) const { return level_(i); }
-  /// Mean of 2 wide + 1 samples above that of what is around them; nothing near an end.
-  std::optional<double> above(Index at, Index wide) const {
-    const Index far = around(wide);
-    if (at < far || at + far >= level_.size()) return std::nullopt;
-    return mean(at - wide, at + wide + 1) -
-           0.5 * (mean(at - far, at - wide) + mean(at + wide + 1, at + far + 1));
-  }
-  /// Deviation of that, for white noise of deviation 1.
-  static double deviation(Index wide) {
-    const auto own = static_cast<double>(2 * wide + 1),
-               other = static_cast<double>(2 * (around(wide) - wide));
-    return std::sqrt(1.0 / own + 1.0 / other);
+  /// The force about a sample; nothing near an end.
+  std::optional<double> above(Index at, const Template& shape) const {
+    const Index far = shape.far();
+    if (at < far || at + far >= r_.size()) return std::nullopt;
+    return shape.weights().dot(r_.segment(at - far, 2 * far + 1));
   }
 
  private:
-  static Index around(Index wide) { return 4 * wide + 2; }
-  double mean(Index from, Index to) const {
-    return (sums_(to) - sums_(from)) / static_cast<double>(to - from);
-  }
-  Eigen::VectorXd level_, sums_;
+  Eigen::VectorXd level_, r_;
 };
 
 /// What a slug of 1 kg would explain of what is heard.
@@ -134,10 +151,10 @@ class Ear {
       channels_.emplace_back(left[k].col(static_cast<Index>(channel)),
                              levels[k].col(static_cast<Index>(channel)));
       for (Index i = 0; i < motion.samples(); i += 3) {
-        if (const auto a = channels_.back().above(i, 1)) heights.push_back(std::abs(*a));
+        if (const auto a = channels_.back().above(i, shape(1))) heights.push_back(std::abs(*a));
       }
     }
-    if (!heights.empty()) sigma_ = 1.4826 * median(heights) / Channel::deviation(1);
+    if (!heights.empty()) sigma_ = 1.4826 * median(heights) / shape(1).deviation();
   }
 
   /// The knocks that are heard best.
@@ -181,6 +198,8 @@ class Ear {
   Eigen::Vector2d mean, deviation;
 
  private:
+  const Template& shape(Index wide) const { return shapes_.try_emplace(wide, wide).first->second; }
+
   /// Matched to changes of momentum, `shift` samples after they are due.
   Evidence evidence(const std::vector<Knock>& list, Index shift) const {
     Evidence e;
@@ -188,11 +207,12 @@ class Ear {
       const Channel& channel = channels_[knock.log];
       const double seconds = kSpread * dt_ * static_cast<double>(knock.at - knock.from);
       const Index wide = std::max<Index>(1, std::llround(std::max(kShortest, seconds) / dt_ - 0.5));
-      const auto above = channel.above(knock.at + shift, wide);
+      const Template& found = shape(wide);
+      const auto above = channel.above(knock.at + shift, found);
       if (!above) continue;
-      const double unit = sigma_ * Channel::deviation(wide) * channel.level(knock.at + shift);
+      const double unit = sigma_ * found.deviation() * channel.level(knock.at + shift);
       const double height = knock.change / (static_cast<double>(2 * wide + 1) * dt_) / unit;
-      const double share = *above / (sigma_ * Channel::deviation(wide)) * height;
+      const double share = *above / (sigma_ * found.deviation()) * height;
       e.sum += share;
       e.square += height * height;
       e.most = std::max(e.most, share);
@@ -228,6 +248,7 @@ class Ear {
   double dt_, sigma_ = 1.0;
   std::vector<Field> fields_;
   std::vector<Channel> channels_;
+  mutable std::map<Index, Template> shapes_;
   std::vector<std::pair<double, Evidence>> tried_;
 };
 

@@ -67,15 +67,11 @@ std::vector<double> Search::doubts(double little) {
     // Beside an offset that wanders a bias is its mean.
     if (loud > 1.0 && fit_.members[m].name() == "bias") apart = 0.0;
     // Motion that nobody sees rings in a mode here and there. One that leaves something where modes
-    // are is one of several.
+    // are, or beside which a second one gains, is one of several.
     if (fit_.members[m].kind->stage == Stage::kResonance) {
       const double unseen = kUnseen * net_gain(m);
-      // Nor is it one where a second mode takes off most of what is left.
       const double second = second_mode(*setting_, fit_, fit_.members[m]);
-      const double left = fit_.chi2 - static_cast<double>(setting_->whitener.rows());
-      const bool most = second > kSecondMode && second > 0.5 * left;
-      const bool one = swings <= unseen && second < kSecondMode + unseen && !most;
-      apart = one ? 0.0 : kInfinity;
+      apart = swings <= unseen && second < kSecondMode + unseen ? 0.0 : kInfinity;
     }
   }
   return doubts;

@@ -263,17 +263,17 @@ void Search::run() {
   detect();
   settle(apart_);
   explore();
-  if (hear_knocks()) {  // other forces hid them
-    settle(fit_.members);
-    while (simplify()) {
-    }
+  // What is larger is found first: beside a mode that nobody has named yet much sounds like a
+  // knock.
+  if (hear_knocks()) {
+    settle(apart_);
     explore();
-  }
-  if (knocking_ && !still_knocks()) {
-    settle(fit_.members);
-    while (simplify()) {
+    if (!still_knocks()) {
+      settle(fit_.members);
+      while (simplify()) {
+      }
+      explore();
     }
-    explore();
   }
   let_ring();
   judge();

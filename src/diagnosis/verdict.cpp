@@ -49,12 +49,10 @@ void Search::detect() {
     const bool counts = !study_.axis || 0.5 * hum->amplitudes.squaredNorm() * rows > 0.002 * power;
     if (counts) apart_.push_back(*hum);
   }
-  hear_knocks();
 }
 
 bool Search::hear_knocks() {
-  if (knocking_ || study_.is_static() || !is_listed(study_, *find_effect("loose_load")))
-    return false;
+  if (study_.is_static() || !is_listed(study_, *find_effect("loose_load"))) return false;
   const Knocks knocks = find_knocks(study_, left_);
   if (!knocks.member) return false;
   knocking_ = knocks.member;
@@ -157,7 +155,7 @@ void Search::judge() {
   if (study_.is_static()) return;
   choose_cutoff(fit_.members);  // beside what is no more another one was best
   settle(fit_.members);
-  bands_ = band_tests(*setting_, fit_.residual);
+  remains_ = is_alarming_now();
 }
 
 /// Beside a remainder nobody can name, a name that explains less than what is left is more likely a
