@@ -4,21 +4,31 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "dcnn/diagnosis/decision.h"
 #include "diagnosis/evidence/marginal.h"
 #include "diagnosis/evidence/posterior.h"
 
 namespace dcnn {
 namespace {
 
-/// Whether another effect is named rather than a member: the likelier by far, or of two that make
-/// the same force the one that the catalogue has first, so that rounding decides nothing.
-bool goes_before(const Alternative& other, const Member& own, double odds) {
+/// ln of the factor by which the held-out data change the odds of another effect against the member
+/// in whose place it stands.
+double support_of(const Alternative& other, const Search& search, const HoldOut& holdout) {
+  const JointFit& fit = search.fit();
+  return holdout.log_support(holdout.prediction(other.members, other.base),
+                             holdout.prediction(fit.members, fit.base), search.floors());
+}
+
+/// Whether another effect is named rather than a member: the likelier by far, unless the held-out
+/// data speak against it; or of two that make the same force the one that the catalogue has first,
+/// so that rounding decides nothing.
+bool goes_before(const Alternative& other, const Member& own, double odds, double support) {
   constexpr double kLikelier = 2.0, kSame = 1e-3;
   const auto place = [](const std::string& name) {
     const auto& kinds = effect_kinds();
     return std::find(kinds.begin(), kinds.end(), find_effect(name)) - kinds.begin();
   };
-  return odds > kLikelier ||
+  return (odds > kLikelier && support >= 0.0) ||
          (std::abs(odds - 1.0) < kSame && place(other.name) < place(own.name()));
 }
 
@@ -41,12 +51,12 @@ std::vector<std::optional<double>> confidences(const Search& search, const HoldO
 
 std::vector<double> masses_of(const Search& search, const HoldOut& holdout,
                               const std::vector<Alternative>& alternatives) {
-  const JointFit& fit = search.fit();
-  const Signals own = holdout.prediction(fit.members, fit.base);
+  // On a machine, whose laws err by more than its noise, a number costs more, and evidence says
+  // less.
+  const double weight = kNumberPrice / search.setting().price;
   std::vector<double> odds{0.0};  // ln
   for (const Alternative& other : alternatives) {
-    const Signals theirs = holdout.prediction(other.members, other.base);
-    odds.push_back(other.log_odds + holdout.log_support(theirs, own, search.floors()));
+    odds.push_back(weight * other.log_odds + support_of(other, search, holdout));
   }
   const double sum = evidence::log_sum(odds);
   for (double& odd : odds) odd = elementary::exp(odd - sum);
@@ -64,7 +74,8 @@ std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldO
       for (std::size_t k = 0; k < alternatives[m].size(); ++k) {
         const Alternative& other = alternatives[m][k];
         const double odds = masses[k + 1] / masses[0];
-        const bool stands = goes_before(other, search.fit().members[m], odds);
+        const bool stands =
+            goes_before(other, search.fit().members[m], odds, support_of(other, search, holdout));
         if (stands && odds > most) most = odds, best = &other;
       }
     }
