@@ -9,6 +9,7 @@
 #include <random>
 
 #include "dcnn/core/file.h"
+#include "models/container_header.h"
 
 namespace dcnn {
 namespace {
@@ -247,6 +248,24 @@ TEST(Container, RejectsHostileHeaderLengths) {
   }
   const std::string large(5 << 20, ' ');
   expect_rejected(length_word(large.size()) + large, "header of 5 MB");
+}
+
+TEST(Container, RejectsAHeaderThatGoesOnBeyondTheFile) {
+  const auto header = padded(R"({"__metadata__":{"sha256":")" + kZeros + R"("}})");
+  ASSERT_NO_THROW(decode(sealed(length_word(header.size()) + header), "m.dcnn"));
+  for (const std::size_t beyond : {1U, 8U, 16U}) {
+    expect_rejected(sealed(length_word(header.size() + beyond) + header), "a length too large");
+  }
+}
+
+TEST(Container, TakesTheLongestHeaderAndNoneLonger) {
+  const auto with_header_of = [](std::size_t bytes) {
+    const std::string digest = R"("sha256":")" + kZeros + R"(","x":")";
+    const std::size_t rest = std::string(R"({"__metadata__":{"}})").size() + digest.size();
+    return forged("", "", digest + std::string(bytes - rest, 'x') + '"');
+  };
+  EXPECT_EQ(decode(with_header_of(kMaxHeaderBytes), "m.dcnn").metadata.size(), 2U);
+  expect_rejected(with_header_of(kMaxHeaderBytes + 8), "a header of 4 MiB and 8 bytes");
 }
 
 TEST(Container, RejectsHeadersThatCostTime) {
