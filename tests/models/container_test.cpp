@@ -268,6 +268,43 @@ TEST(Container, TakesTheLongestHeaderAndNoneLonger) {
   expect_rejected(with_header_of(kMaxHeaderBytes + 8), "a header of 4 MiB and 8 bytes");
 }
 
+TEST(Container, WritesNoDescriptionThatItWouldNotRead) {
+  Container container;
+  container.metadata["x"] = "";
+  const std::size_t least = encode(container).size() - 8;
+  container.metadata["x"] = std::string(kMaxHeaderBytes - least, 'x');
+  EXPECT_EQ(decode(encode(container), "m.dcnn").metadata.at("x"), container.metadata["x"]);
+  container.metadata["x"] += "12345678";
+  EXPECT_THROW(encode(container), Error);
+  container.metadata.clear();
+  for (std::size_t k = 0; k < kMaxTensors; ++k) {
+    container.tensors.push_back({std::to_string(k), {0}, std::vector<float>{}});
+  }
+  EXPECT_EQ(decode(encode(container), "m.dcnn").tensors.size(), kMaxTensors);
+  container.tensors.push_back({"more", {0}, std::vector<float>{}});
+  EXPECT_THROW(encode(container), Error);
+}
+
+TEST(Container, AChecksumThatIsMissingIsToldFromAWrongOne) {
+  const auto said = [](const std::string& bytes) -> std::string {
+    try {
+      decode(bytes, "m.dcnn");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto of = [&](const std::string& metadata) {
+    const auto header = padded(R"({"__metadata__":{)" + metadata + "}}");
+    return said(length_word(header.size()) + header);
+  };
+  for (const char* none : {R"("x":"1")", R"("sha256":"00")", R"("sha256":"")"}) {
+    EXPECT_NE(of(none).find("has no SHA-256 checksum"), std::string::npos) << of(none);
+  }
+  const std::string wrong = of(R"("sha256":")" + std::string(64, '1') + '"');
+  EXPECT_NE(wrong.find("its SHA-256 checksum is wrong"), std::string::npos) << wrong;
+}
+
 TEST(Container, RejectsHeadersThatCostTime) {
   const std::string brackets(100'000, '[');
   expect_rejected(forged(brackets, ""), "brackets");
