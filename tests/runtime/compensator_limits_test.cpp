@@ -2,6 +2,7 @@
 // limits.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 #include "runtime/support.h"
@@ -196,6 +197,122 @@ TEST(CompensatorLimits, ContactIsAForceThatLasts) {
   for (int held = 1; held <= 25; ++held) EXPECT_EQ(press(2.0), held > 12) << held;
   // Let go: contact ends below half of the threshold.
   for (int free = 1; free <= 25; ++free) EXPECT_EQ(press(0.0), free <= 18) << free;
+}
+
+/// The newest of n readings has the weight n, the oldest 1 (D30).
+TEST(CompensatorLimits, TheAverageIsWeightedByAge) {
+  const Identifier model = steady_identifier(Vector3d::Zero());
+  for (const int average : {1, 2, 5, 16}) {
+    CompensatorOptions options;
+    options.average = average;
+    OnlineCompensator compensator(&model, nullptr, options, "test");
+    Index k = 0;
+    const auto pushed = [&](double force) {
+      OnlineSample sample = standing_sample(k++);
+      sample.wrench[0] = force;
+      return compensator.step(sample).external[0];
+    };
+    while (k < 200) pushed(0.6);
+    EXPECT_NEAR(pushed(0.6), 0.6, 1e-12);
+    double held = 0.0;  // weight of the readings since the step
+    const double all = 0.5 * average * (average + 1);
+    for (int age = 0; age < 20; ++age) {
+      held += std::max(average - age, 0);
+      EXPECT_NEAR(pushed(1.2), 0.6 + 0.6 * held / all, 1e-12) << average << " " << age;
+    }
+  }
+}
+
+/// A standing robot's samples at times of our choice, and what is said of each.
+class CompensatorClock : public testing::Test {
+ protected:
+  CompensatorClock() {
+    for (Index k = 0; k < 100; ++k) at(0.002 * static_cast<double>(k));
+  }
+  const OnlineResult& at(double t) {
+    OnlineSample sample;
+    sample.t = t;
+    return compensator_.step(sample);
+  }
+  bool refuses(double t) { return at(t).reason == Reason::kClock; }
+  static constexpr double kLast = 0.002 * 99;
+
+ private:
+  const Identifier model_ = steady_identifier(Vector3d::Zero());
+  OnlineCompensator compensator_{&model_, nullptr, {}, "test"};
+};
+
+TEST_F(CompensatorClock, ASampleCountsFromSixTenthsOfItsTime) {
+  EXPECT_TRUE(refuses(kLast + 0.59 * 0.002));
+  EXPECT_FALSE(refuses(kLast + 0.61 * 0.002));
+}
+
+TEST_F(CompensatorClock, AnotherClockIsFollowedAfter25SteadySamples) {
+  // The first sample of the other clock is a jump, then 25 that are steady.
+  for (int k = 0; k < 25; ++k) ASSERT_TRUE(refuses(-1.0 + 0.002 * k)) << k;
+  const Reason last = at(-1.0 + 0.002 * 25).reason;
+  EXPECT_NE(last, Reason::kClock);
+  EXPECT_FALSE(refuses(-1.0 + 0.002 * 26));
+}
+
+TEST_F(CompensatorClock, AnUnsteadyClockIsNeverFollowed) {
+  for (const double step : {0.55, 1.45}) {
+    for (int k = 0; k < 40; ++k) ASSERT_TRUE(refuses(-1.0 + step * 0.002 * k)) << step << " " << k;
+  }
+}
+
+TEST_F(CompensatorClock, SteadySamplesCountInARow) {
+  for (int k = 0; k < 80; ++k) ASSERT_TRUE(refuses(-2.0 + 0.002 * (k + 5 * (k / 20)))) << k;
+}
+
+TEST_F(CompensatorClock, FourMissingSamplesAreBridgedAndFiveAreAGap) {
+  EXPECT_NE(at(kLast + 5.4 * 0.002).reason, Reason::kGap);
+  EXPECT_EQ(at(kLast + (5.4 + 5.6) * 0.002).reason, Reason::kGap);
+}
+
+/// A wrist that turns while samples are missing: what is between is on the way, whichever sign its
+/// quaternion has and whether it comes as angles.
+TEST(CompensatorLimits, MissingSamplesLieOnTheWay) {
+  const Simulator simulator = tool_with_inertia(true);
+  const auto turned = [](Index k, int kind) {
+    OnlineSample sample = standing_sample(k);
+    const double angle = 3.0 + 0.004 * static_cast<double>(k);  // passes pi
+    sample.position = Vector3d(0.1, -0.2, 0.3) * 0.002 * static_cast<double>(k);
+    sample.quaternion = {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
+    if (kind == 1 && k % 2 == 1) sample.quaternion = -sample.quaternion;
+    if (kind == 2) sample.euler = Vector3d(0.0, 0.0, std::remainder(angle, 6.283185307179586));
+    return sample;
+  };
+  for (const int kind : {0, 1, 2}) {
+    OnlineCompensator whole(nullptr, &simulator, {}, "test");
+    OnlineCompensator holed(nullptr, &simulator, {}, "test");
+    for (Index k = 0; k < 300; ++k) {
+      const Vector6d wanted = whole.step(turned(k, kind)).tool;
+      if (k > 10 && k % 7 >= 3 && k % 7 < 6) continue;
+      const Vector6d got = holed.step(turned(k, kind)).tool;
+      if (k <= 60) continue;
+      ASSERT_LT((got - wanted).norm(), 1e-3) << kind << " " << k;
+    }
+  }
+}
+
+/// A first-order filter with the time constant that is given, after half a second without contact.
+TEST(CompensatorLimits, TheBiasIsFollowedAtItsRateAfterAQuietHalfSecond) {
+  const Identifier model = steady_identifier(Vector3d::Zero());
+  CompensatorOptions options;
+  options.bias_seconds = 2.0;
+  options.contact_n = 1.0;
+  OnlineCompensator compensator(&model, nullptr, options, "test");
+  int quiet = 0, steps = 0;
+  for (Index k = 0; k < 1500; ++k) {
+    OnlineSample sample = standing_sample(k);
+    sample.wrench[1] = 0.4;
+    const auto& result = compensator.step(sample);
+    quiet += result.state == RunState::kNetwork;
+    if (quiet >= 250) ++steps;  // 0.5 s
+    ASSERT_NEAR(result.bias[1], 0.4 * (1.0 - std::pow(0.999, steps)), 1e-12) << k;
+  }
+  EXPECT_GT(steps, 1000);
 }
 
 TEST(CompensatorLimits, OnlyAnglesAsFeaturesAreSingular) {
