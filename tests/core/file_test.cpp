@@ -1,7 +1,9 @@
 #include "dcnn/core/file.h"
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 
 #include <thread>
 
@@ -164,6 +166,16 @@ TEST(WriteFile, SaysWhyAFolderCannotBeMadeAndWhyAStreamIsFull) {
   EXPECT_TRUE(says(error_text([&] { write_file("/dev/full", "y"); }),
                    "/dev/full: cannot write: No space left on device"));
   EXPECT_EQ(test::slurp(folder / "file"), "x");
+  const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string name = (folder / "socket").string();
+  ASSERT_LT(name.size(), sizeof address.sun_path);
+  name.copy(address.sun_path, name.size());
+  ASSERT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  EXPECT_TRUE(says(error_text([&] { write_file(name, "y"); }),
+                   "socket: cannot write: No such device or address"));
+  ::close(socket);
 }
 
 class SecondRank : public Ranks {
@@ -206,9 +218,12 @@ TEST(DISABLED_InAProcess, DoesWhatItIsTold) {
     if (what.ends_with(" without input")) ::close(STDIN_FILENO);
     if (what.starts_with("write")) write_file(path, "the new bytes");
     if (what.starts_with("read")) text = read_file(path, 13, Exit::kData);
-    if (what == "lock") {
-      const FolderLock held(path);
-      text = error_text([&] { const FolderLock again(path); });
+    if (what.starts_with("lock")) {
+      {
+        const FolderLock held(path);
+        text = error_text([&] { const FolderLock again(path); });
+      }
+      const FolderLock free_again(path);
     }
     text = "done: " + text;
   } catch (const Error& error) {
@@ -355,6 +370,9 @@ TEST_F(FileFaults, WithoutStandardInputAreTheSame) {
   write_file(path_, "the old bytes");
   EXPECT_EQ(told("read without input", path_), "done: the old bytes");
   expect_new(told("write without input", path_));
+  EXPECT_EQ(told("write without input", "/dev/null"), "done: ");
+  EXPECT_TRUE(says(told("lock without input", folder_ / "out"), "done: "));
+  EXPECT_TRUE(says(told("lock without input", folder_ / "out"), "another process is writing here"));
   for (const int place : {1, 2}) {
     write_file(path_, "the old bytes");
     const auto fault = test::fault_environment("fsync", place, EIO, folder_ / "mark");
