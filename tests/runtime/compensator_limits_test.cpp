@@ -315,6 +315,38 @@ TEST(CompensatorLimits, TheBiasIsFollowedAtItsRateAfterAQuietHalfSecond) {
   EXPECT_GT(steps, 1000);
 }
 
+/// The answer names the prediction that it follows: an overrun is answered by the fallback, once.
+TEST(CompensatorLimits, TheToolIsThatOfWhoIsFollowed) {
+  const Identifier model = steady_identifier(Vector3d(0.1, 0.2, 0.3));
+  const Simulator simulator = tool_with_inertia(false);
+  OnlineCompensator both(&model, &simulator, {}, "test");
+  Index k = 0;
+  while (k < 200) both.step(standing_sample(k++));
+  EXPECT_EQ(both.step(standing_sample(k++)).tool.head<3>(), Vector3d(0.1, 0.2, 0.3));
+  both.overrun();
+  const OnlineResult& late = both.step(standing_sample(k++));
+  EXPECT_EQ(late.reason, Reason::kOverrun);
+  EXPECT_NEAR(late.tool.head<3>().norm(), 0.75 * 9.81, 0.05);
+  const auto last = k + 100;
+  while (k < last) both.step(standing_sample(k++));
+  EXPECT_EQ(both.step(standing_sample(k++)).state, RunState::kNetwork);
+}
+
+/// Without a prediction of torques none is given.
+TEST(CompensatorLimits, TorquesAreZeroWhereNonePredictsThem) {
+  for (const Index targets : {3, 6}) {
+    const Identifier model = steady_identifier(Eigen::VectorXd::Zero(targets));
+    OnlineCompensator compensator(&model, nullptr, {}, "test");
+    double torque = 0.0;
+    for (Index k = 0; k < 200; ++k) {
+      OnlineSample sample = standing_sample(k);
+      sample.wrench[4] = 0.5;
+      torque = compensator.step(sample).external[4];
+    }
+    EXPECT_NEAR(torque, targets == 6 ? 0.5 : 0.0, 1e-12);
+  }
+}
+
 TEST(CompensatorLimits, OnlyAnglesAsFeaturesAreSingular) {
   for (const auto set : {FeatureSpec::Set::kPose, FeatureSpec::Set::kBody}) {
     const Identifier model = steady_identifier(Vector3d::Zero(), set);
