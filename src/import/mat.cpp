@@ -122,7 +122,7 @@ void read_mat(const std::filesystem::path& path, LogBuilder& builder) {
       [&](std::string_view record) { arrays.push_back(parse_variable(record, file)); }, file);
   require(!arrays.empty(), Exit::kData, file,
           ": holds no arrays of real numbers (tables and timeseries are objects: save their Data)");
-  add_number_arrays(std::move(arrays), "", builder);
+  add_number_arrays(arrays, "", builder);
   builder.log().format = "MATLAB file";
 }
 

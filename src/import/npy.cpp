@@ -147,7 +147,7 @@ void read_npz(const std::filesystem::path& path, LogBuilder& builder) {
       builder.log().notes.push_back(shown(name) + " " + reason.what() + ": left out");
     }
   }
-  add_number_arrays(std::move(arrays), "", builder);
+  add_number_arrays(arrays, "", builder);
   builder.log().format = "NumPy arrays (npz)";
 }
 

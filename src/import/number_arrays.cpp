@@ -43,7 +43,7 @@ std::string element_name(const std::string& array, Index column, Index columns) 
   return columns == 1 ? array : array + "[" + std::to_string(column) + "]";
 }
 
-void add_number_arrays(std::vector<NumberArray> arrays, const std::string& name,
+void add_number_arrays(const std::vector<NumberArray>& arrays, const std::string& name,
                        LogBuilder& builder) {
   std::map<Index, std::vector<const NumberArray*>, std::greater<>> by_length;
   for (const NumberArray& array : arrays) {

@@ -1,7 +1,9 @@
 #include "dcnn/core/file.h"
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 
 #include <thread>
 
@@ -149,7 +151,8 @@ TEST(WriteFile, WritesIntoDescriptorsByTheirNames) {
   const auto first = folder / "zero";
   const int kept = ::dup(0), zero = ::open(first.c_str(), O_WRONLY | O_CREAT, 0600);
   ::dup2(zero, 0);
-  write_file("/dev/fd/0", "into the lowest");
+  write_file("/dev/fd/0", "into ");
+  write_file("/dev/fd/0", "the lowest");
   ::dup2(kept, 0);
   ::close(kept), ::close(zero);
   EXPECT_EQ(test::slurp(first), "into the lowest");
@@ -163,6 +166,16 @@ TEST(WriteFile, SaysWhyAFolderCannotBeMadeAndWhyAStreamIsFull) {
   EXPECT_TRUE(says(error_text([&] { write_file("/dev/full", "y"); }),
                    "/dev/full: cannot write: No space left on device"));
   EXPECT_EQ(test::slurp(folder / "file"), "x");
+  const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string name = (folder / "socket").string();
+  ASSERT_LT(name.size(), sizeof address.sun_path);
+  name.copy(address.sun_path, name.size());
+  ASSERT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  EXPECT_TRUE(says(error_text([&] { write_file(name, "y"); }),
+                   "socket: cannot write: No such device or address"));
+  ::close(socket);
 }
 
 class SecondRank : public Ranks {
@@ -202,11 +215,15 @@ TEST(DISABLED_InAProcess, DoesWhatItIsTold) {
   const std::string what = std::getenv("DO_WHAT"), path = std::getenv("DO_PATH");
   std::string text;
   try {
-    if (what == "write") write_file(path, "the new bytes");
-    if (what == "read") text = read_file(path, 13, Exit::kData);
-    if (what == "lock") {
-      const FolderLock held(path);
-      text = error_text([&] { const FolderLock again(path); });
+    if (what.ends_with(" without input")) ::close(STDIN_FILENO);
+    if (what.starts_with("write")) write_file(path, "the new bytes");
+    if (what.starts_with("read")) text = read_file(path, 13, Exit::kData);
+    if (what.starts_with("lock")) {
+      {
+        const FolderLock held(path);
+        text = error_text([&] { const FolderLock again(path); });
+      }
+      const FolderLock free_again(path);
     }
     text = "done: " + text;
   } catch (const Error& error) {
@@ -345,6 +362,24 @@ TEST_F(FileFaults, OfStandardInputAreSaidAndShortReadsGoOn) {
   }
   write_file(path_, "fourteen bytes");
   EXPECT_EQ(told("read", "-", {}, path_), "error: standard input: larger than 13 bytes");
+}
+
+/// Files are then opened as descriptor 0.
+TEST_F(FileFaults, WithoutStandardInputAreTheSame) {
+  if (test::kSanitized) GTEST_SKIP() << "the sanitizer must be loaded first";
+  write_file(path_, "the old bytes");
+  EXPECT_EQ(told("read without input", path_), "done: the old bytes");
+  expect_new(told("write without input", path_));
+  EXPECT_EQ(told("write without input", "/dev/null"), "done: ");
+  EXPECT_TRUE(says(told("lock without input", folder_ / "out"), "done: "));
+  EXPECT_TRUE(says(told("lock without input", folder_ / "out"), "another process is writing here"));
+  for (const int place : {1, 2}) {
+    write_file(path_, "the old bytes");
+    const auto fault = test::fault_environment("fsync", place, EIO, folder_ / "mark");
+    const std::string said = told("write without input", path_, fault);
+    EXPECT_TRUE(says(said, "cannot write: Input/output error")) << place << said;
+    EXPECT_EQ(test::slurp(path_), place == 1 ? "the old bytes" : "the new bytes");
+  }
 }
 
 /// Two processes would otherwise share a folder.

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "dcnn/core/file.h"
+#include "models/container_header.h"
 
 namespace dcnn {
 namespace {
@@ -247,6 +248,61 @@ TEST(Container, RejectsHostileHeaderLengths) {
   }
   const std::string large(5 << 20, ' ');
   expect_rejected(length_word(large.size()) + large, "header of 5 MB");
+}
+
+TEST(Container, RejectsAHeaderThatGoesOnBeyondTheFile) {
+  const auto header = padded(R"({"__metadata__":{"sha256":")" + kZeros + R"("}})");
+  ASSERT_NO_THROW(decode(sealed(length_word(header.size()) + header), "m.dcnn"));
+  for (const std::size_t beyond : {1U, 8U, 16U}) {
+    expect_rejected(sealed(length_word(header.size() + beyond) + header), "a length too large");
+  }
+}
+
+TEST(Container, TakesTheLongestHeaderAndNoneLonger) {
+  const auto with_header_of = [](std::size_t bytes) {
+    const std::string digest = R"("sha256":")" + kZeros + R"(","x":")";
+    const std::size_t rest = std::string(R"({"__metadata__":{"}})").size() + digest.size();
+    return forged("", "", digest + std::string(bytes - rest, 'x') + '"');
+  };
+  EXPECT_EQ(decode(with_header_of(kMaxHeaderBytes), "m.dcnn").metadata.size(), 2U);
+  expect_rejected(with_header_of(kMaxHeaderBytes + 8), "a header of 4 MiB and 8 bytes");
+}
+
+TEST(Container, WritesNoDescriptionThatItWouldNotRead) {
+  Container container;
+  container.metadata["x"] = "";
+  const std::size_t least = encode(container).size() - 8;
+  container.metadata["x"] = std::string(kMaxHeaderBytes - least, 'x');
+  EXPECT_EQ(decode(encode(container), "m.dcnn").metadata.at("x"), container.metadata["x"]);
+  container.metadata["x"] += "12345678";
+  EXPECT_THROW(encode(container), Error);
+  container.metadata.clear();
+  for (std::size_t k = 0; k < kMaxTensors; ++k) {
+    container.tensors.push_back({std::to_string(k), {0}, std::vector<float>{}});
+  }
+  EXPECT_EQ(decode(encode(container), "m.dcnn").tensors.size(), kMaxTensors);
+  container.tensors.push_back({"more", {0}, std::vector<float>{}});
+  EXPECT_THROW(encode(container), Error);
+}
+
+TEST(Container, AChecksumThatIsMissingIsToldFromAWrongOne) {
+  const auto said = [](const std::string& bytes) -> std::string {
+    try {
+      decode(bytes, "m.dcnn");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto of = [&](const std::string& metadata) {
+    const auto header = padded(R"({"__metadata__":{)" + metadata + "}}");
+    return said(length_word(header.size()) + header);
+  };
+  for (const char* none : {R"("x":"1")", R"("sha256":"00")", R"("sha256":"")"}) {
+    EXPECT_NE(of(none).find("has no SHA-256 checksum"), std::string::npos) << of(none);
+  }
+  const std::string wrong = of(R"("sha256":")" + std::string(64, '1') + '"');
+  EXPECT_NE(wrong.find("its SHA-256 checksum is wrong"), std::string::npos) << wrong;
 }
 
 TEST(Container, RejectsHeadersThatCostTime) {

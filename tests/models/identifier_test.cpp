@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "models/support.h"
+#include "models/weighted_model.h"
 #include "support/process.h"
 
 namespace dcnn {
@@ -113,7 +114,13 @@ TEST(IdentifierFile, ThePredictionIsThatOfTheModelAndOfTheBase) {
 
 /// A model for dcnn-run has its own causal estimator; another one that of the simulator.
 TEST(IdentifierFile, TheBaseIsDifferentiatedAsItsSimulatorSays) {
-  const Recording log = log_of_identifier();
+  const Recording exact = log_of_identifier();
+  Recording log = exact;  // its poses alone: rates in a log would be used as they are
+  log.table = {};
+  log.table.values.resize(exact.samples(), 0);
+  for (const char* name : {"t", "x", "y", "z", "alpha", "beta", "gamma"}) {
+    log.set(name, exact.column(name));
+  }
   Identifier identifier = fitted_identifier();
   identifier.base = base_of_identifier(true);
   const auto with = [&](const DerivativeSpec& spec) {
@@ -123,11 +130,49 @@ TEST(IdentifierFile, TheBaseIsDifferentiatedAsItsSimulatorSays) {
   DerivativeSpec smooth;
   smooth.window_s = 0.06;
   identifier.base->derivative = smooth;
+  ASSERT_NE(with(smooth), with(causal_derivative()));
+  ASSERT_NE(with(smooth), with(DerivativeSpec()));
   EXPECT_EQ(identifier.base_prediction(log), with(causal_derivative()));
   identifier.layout.spec.derivative = DerivativeSpec();
   EXPECT_EQ(identifier.base_prediction(log), with(smooth));
   identifier.base->derivative.reset();
   EXPECT_EQ(identifier.base_prediction(log), with(DerivativeSpec()));
+}
+
+/// A model that leaves nothing in its file.
+class SavesNothing : public Model {
+ public:
+  bool fit(const Samples&, const Samples&, FitSession&) override { return false; }
+  Eigen::MatrixXd predict(const Stream& stream) const override { return stream.x; }
+  std::unique_ptr<Predictor> predictor() const override { return nullptr; }
+  Index parameter_count() const override { return 0; }
+  const InputMap& map() const override { return map_; }
+  void save(Container&) const override {}
+
+ private:
+  InputMap map_;
+};
+
+TEST(IdentifierFile, HoldsWhatTheModelItselfDoesNotSave) {
+  Identifier written = fitted_identifier();
+  const Container whole = pack(written);
+  written.model = std::make_unique<SavesNothing>();
+  const Container file = pack(written);
+  for (const char* key :
+       {"format", "format_version", "features", "targets", "configuration", "seed", "online"}) {
+    ASSERT_TRUE(file.metadata.contains(key)) << key;
+    EXPECT_EQ(file.metadata.at(key), whole.metadata.at(key)) << key;
+  }
+}
+
+TEST(IdentifierFile, TheWeightsOfItsPredictionsAreRead) {
+  Identifier written = fitted_identifier();
+  written.model = weighted(std::move(written.model), Eigen::Vector3d(0.25, 0.0, 1.0));
+  const Identifier read = unpack(pack(written), "m.dcnn");
+  const Recording log = log_of_identifier();
+  EXPECT_EQ(read.predict(log), written.predict(log));
+  EXPECT_EQ(read.predict(log).col(1).norm(), 0.0);
+  EXPECT_GT(read.predict(log).col(0).norm(), 0.0);
 }
 
 TEST(IdentifierFile, OfAnotherFormatIsRefused) {

@@ -1,0 +1,366 @@
+// What a compensator may be made of, and what its options change: warm-up, torques, contact,
+// limits.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "runtime/support.h"
+
+namespace dcnn {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A model that predicts the same for every sample.
+class SteadyModel : public Model {
+ public:
+  SteadyModel(const InputMap& map, Eigen::VectorXd y) : map_(map), y_(std::move(y)) {}
+  bool fit(const Samples&, const Samples&, FitSession&) override { return false; }
+  Eigen::MatrixXd predict(const Stream& stream) const override {
+    return y_.transpose().replicate(stream.x.rows(), 1);
+  }
+  std::unique_ptr<Predictor> predictor() const override { return std::make_unique<Steady>(y_); }
+  Index parameter_count() const override { return 0; }
+  const InputMap& map() const override { return map_; }
+  void save(Container&) const override {}
+
+ private:
+  struct Steady : Predictor {
+    explicit Steady(Eigen::VectorXd value) : y(std::move(value)) {}
+    void reset() noexcept override {}
+    const Eigen::VectorXd& push(const Eigen::VectorXd&) noexcept override { return y; }
+    Eigen::VectorXd y;
+  };
+  InputMap map_;
+  Eigen::VectorXd y_;
+};
+
+const Recording& slow_motion() {
+  static const Recording shared = test::free_motion(600);
+  return shared;
+}
+
+/// A model of a wrench, which says `y`, on features of a set.
+Identifier steady_identifier(const Eigen::VectorXd& y,
+                             FeatureSpec::Set set = FeatureSpec::Set::kBody) {
+  static const Identifier body = test::trained();
+  Identifier identifier;
+  FeatureSpec spec = body.layout.spec;
+  spec.set = set;
+  identifier.layout = make_layout({slow_motion()}, spec, {});
+  identifier.targets = {{"fx", "fy", "fz"}, {"N", "N", "N"}};
+  if (y.size() == 6) {
+    identifier.targets = {{"fx", "fy", "fz", "tx", "ty", "tz"}, {"N", "N", "N", "Nm", "Nm", "Nm"}};
+  }
+  identifier.model = std::make_unique<SteadyModel>(body.model->map(), y);
+  return identifier;
+}
+
+Simulator tool_with_inertia(bool has_inertia, double rate_hz = 500.0) {
+  Json tool = {{"mass_kg", 0.75}, {"com_m", {0.0, 0.0, 0.1}}};
+  if (has_inertia) tool["inertia_kgm2"] = {0.006, 0.006, 0.001, 0.0, 0.0, 0.0};
+  return parse_simulator({{"tool", tool}, {"sample_rate_hz", rate_hz}}, "test", Exit::kUsage);
+}
+
+OnlineSample standing_sample(Index k, double dt = 0.002) {
+  OnlineSample sample;
+  sample.t = static_cast<double>(k) * dt;
+  return sample;
+}
+
+void expect_unmade(const std::function<void()>& make, const std::string& words) {
+  try {
+    make();
+    ADD_FAILURE() << "made, without: " << words;
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+  }
+}
+
+/// Cycles of warm-up of a simulator alone.
+int warmup_of(const Simulator& simulator, const CompensatorOptions& options) {
+  OnlineCompensator compensator(nullptr, &simulator, options, "test");
+  int cycles = 0;
+  while (cycles < 1000 &&
+         compensator.step(standing_sample(cycles, compensator.dt())).state == RunState::kWarmup) {
+    ++cycles;
+  }
+  return cycles;
+}
+
+TEST(CompensatorLimits, AnAverageIsOverOneToSixteenReadings) {
+  const Simulator simulator = tool_with_inertia(false);
+  CompensatorOptions options;
+  for (const int average : {1, 16}) {
+    options.average = average;
+    EXPECT_NO_THROW(OnlineCompensator(nullptr, &simulator, options, "test")) << average;
+  }
+  for (const int average : {-1, 0, 17, 1000}) {
+    options.average = average;
+    expect_unmade([&] { OnlineCompensator(nullptr, &simulator, options, "test"); },
+                  "the average must be over 1 to 16 readings");
+  }
+}
+
+TEST(CompensatorLimits, NothingAndAModelThatLooksAheadAreRefused) {
+  expect_unmade([] { OnlineCompensator(nullptr, nullptr, {}, "test"); },
+                "neither a model nor a simulator");
+  Identifier ahead = steady_identifier(Vector3d::Zero());
+  ahead.layout.spec.derivative = DerivativeSpec();
+  expect_unmade([&] { OnlineCompensator(&ahead, nullptr, {}, "test"); }, "look into the future");
+}
+
+/// The guard waits until the windows of the derivatives are full, and no less than it was told.
+TEST(CompensatorLimits, TheWarmUpIsThatOfTheLongerWindow) {
+  CompensatorOptions options;
+  options.guard.warmup_cycles = 3;
+  Simulator simulator = tool_with_inertia(false);
+  const int full = static_cast<int>(causal_derivative().window(0.002));
+  const int usual = warmup_of(simulator, options);
+  EXPECT_EQ(usual, full);
+  DerivativeSpec brief = causal_derivative();
+  brief.window_s = 0.04;
+  simulator.derivative = brief;
+  EXPECT_EQ(warmup_of(simulator, options) - usual, static_cast<int>(brief.window(0.002)) - full);
+  DerivativeSpec ahead;  // not for the loop: the usual one takes its place
+  ahead.window_s = 0.04;
+  simulator.derivative = ahead;
+  EXPECT_EQ(warmup_of(simulator, options), usual);
+  const Simulator slower = tool_with_inertia(false, 250.0);
+  EXPECT_EQ(warmup_of(slower, options) - usual,
+            static_cast<int>(causal_derivative().window(0.004)) - full);
+  options.guard.warmup_cycles = 200;
+  EXPECT_EQ(warmup_of(tool_with_inertia(false), options), 200);
+}
+
+TEST(CompensatorLimits, TimeAndDerivativesAreTheModels) {
+  Identifier slow = steady_identifier(Vector3d::Zero());
+  slow.layout.dt = 0.004;
+  slow.layout.spec.derivative.window_s = 0.4;
+  CompensatorOptions options;
+  options.guard.warmup_cycles = 3;
+  OnlineCompensator compensator(&slow, nullptr, options, "test");
+  EXPECT_EQ(compensator.dt(), 0.004);
+  const int full = static_cast<int>(slow.layout.spec.derivative.window(0.004));
+  for (int k = 0; k < full; ++k) {
+    ASSERT_EQ(compensator.step(standing_sample(k, 0.004)).state, RunState::kWarmup) << k;
+  }
+  EXPECT_EQ(compensator.step(standing_sample(full, 0.004)).state, RunState::kNetwork);
+}
+
+TEST(CompensatorLimits, TorquesArePredictedWhereAllThatPredictsDoes) {
+  const Identifier force = steady_identifier(Vector3d::Zero());
+  const Identifier wrench = steady_identifier(Eigen::VectorXd::Zero(6));
+  const Simulator plain = tool_with_inertia(false), whole = tool_with_inertia(true);
+  const auto torque = [](const Identifier* network, const Simulator* physics) {
+    return OnlineCompensator(network, physics, {}, "test").has_torque();
+  };
+  EXPECT_FALSE(torque(nullptr, &plain));
+  EXPECT_TRUE(torque(nullptr, &whole));
+  EXPECT_FALSE(torque(&force, nullptr));
+  EXPECT_TRUE(torque(&wrench, nullptr));
+  EXPECT_FALSE(torque(&force, &plain));
+  EXPECT_FALSE(torque(&force, &whole));
+  EXPECT_TRUE(torque(&wrench, &whole));
+  expect_unmade([&] { torque(&wrench, &plain); }, "give its tool an inertia");
+}
+
+TEST(CompensatorLimits, ItsGuardHasTheLimitsThatAreGiven) {
+  const Identifier model = steady_identifier(Vector3d::Zero());
+  CompensatorOptions options;
+  options.guard.force_n = 2.0;
+  OnlineCompensator compensator(&model, nullptr, options, "test");
+  for (Index k = 0; k < 200; ++k) {
+    OnlineSample sample = standing_sample(k);
+    sample.wrench[0] = 30.0;
+    const auto& result = compensator.step(sample);
+    ASSERT_LE(result.external.cwiseAbs().maxCoeff(), 2.0) << k;
+  }
+}
+
+/// A force is contact by its mean over 50 ms, 25 samples.
+TEST(CompensatorLimits, ContactIsAForceThatLasts) {
+  const Identifier model = steady_identifier(Vector3d::Zero());
+  CompensatorOptions options;
+  options.contact_n = 1.0;
+  OnlineCompensator compensator(&model, nullptr, options, "test");
+  Index k = 0;
+  const auto press = [&](double force) {
+    OnlineSample sample = standing_sample(k++);
+    sample.wrench[0] = force;
+    return compensator.step(sample).contact;
+  };
+  while (k < 100) ASSERT_FALSE(press(0.0));
+  EXPECT_FALSE(press(20.0)) << "a blow of one sample";
+  while (k < 200) ASSERT_FALSE(press(0.0));
+  for (int held = 1; held <= 25; ++held) EXPECT_EQ(press(2.0), held > 12) << held;
+  // Let go: contact ends below half of the threshold.
+  for (int free = 1; free <= 25; ++free) EXPECT_EQ(press(0.0), free <= 18) << free;
+}
+
+/// The newest of n readings has the weight n, the oldest 1 (D30).
+TEST(CompensatorLimits, TheAverageIsWeightedByAge) {
+  const Identifier model = steady_identifier(Vector3d::Zero());
+  for (const int average : {1, 2, 5, 16}) {
+    CompensatorOptions options;
+    options.average = average;
+    OnlineCompensator compensator(&model, nullptr, options, "test");
+    Index k = 0;
+    const auto pushed = [&](double force) {
+      OnlineSample sample = standing_sample(k++);
+      sample.wrench[0] = force;
+      return compensator.step(sample).external[0];
+    };
+    while (k < 200) pushed(0.6);
+    EXPECT_NEAR(pushed(0.6), 0.6, 1e-12);
+    double held = 0.0;  // weight of the readings since the step
+    const double all = 0.5 * average * (average + 1);
+    for (int age = 0; age < 20; ++age) {
+      held += std::max(average - age, 0);
+      EXPECT_NEAR(pushed(1.2), 0.6 + 0.6 * held / all, 1e-12) << average << " " << age;
+    }
+  }
+}
+
+/// A standing robot's samples at times of our choice, and what is said of each.
+class CompensatorClock : public testing::Test {
+ protected:
+  CompensatorClock() {
+    for (Index k = 0; k < 100; ++k) at(0.002 * static_cast<double>(k));
+  }
+  const OnlineResult& at(double t) {
+    OnlineSample sample;
+    sample.t = t;
+    return compensator_.step(sample);
+  }
+  bool refuses(double t) { return at(t).reason == Reason::kClock; }
+  static constexpr double kLast = 0.002 * 99;
+
+ private:
+  const Identifier model_ = steady_identifier(Vector3d::Zero());
+  OnlineCompensator compensator_{&model_, nullptr, {}, "test"};
+};
+
+TEST_F(CompensatorClock, ASampleCountsFromSixTenthsOfItsTime) {
+  EXPECT_TRUE(refuses(kLast + 0.59 * 0.002));
+  EXPECT_FALSE(refuses(kLast + 0.61 * 0.002));
+}
+
+TEST_F(CompensatorClock, AnotherClockIsFollowedAfter25SteadySamples) {
+  // The first sample of the other clock is a jump, then 25 that are steady.
+  for (int k = 0; k < 25; ++k) ASSERT_TRUE(refuses(-1.0 + 0.002 * k)) << k;
+  const Reason last = at(-1.0 + 0.002 * 25).reason;
+  EXPECT_NE(last, Reason::kClock);
+  EXPECT_FALSE(refuses(-1.0 + 0.002 * 26));
+}
+
+TEST_F(CompensatorClock, AnUnsteadyClockIsNeverFollowed) {
+  for (const double step : {0.55, 1.45}) {
+    for (int k = 0; k < 40; ++k) ASSERT_TRUE(refuses(-1.0 + step * 0.002 * k)) << step << " " << k;
+  }
+}
+
+TEST_F(CompensatorClock, SteadySamplesCountInARow) {
+  for (int k = 0; k < 80; ++k) ASSERT_TRUE(refuses(-2.0 + 0.002 * (k + 5 * (k / 20)))) << k;
+}
+
+TEST_F(CompensatorClock, FourMissingSamplesAreBridgedAndFiveAreAGap) {
+  EXPECT_NE(at(kLast + 5.4 * 0.002).reason, Reason::kGap);
+  EXPECT_EQ(at(kLast + (5.4 + 5.6) * 0.002).reason, Reason::kGap);
+}
+
+/// A wrist that turns while samples are missing: what is between is on the way, whichever sign its
+/// quaternion has and whether it comes as angles.
+TEST(CompensatorLimits, MissingSamplesLieOnTheWay) {
+  const Simulator simulator = tool_with_inertia(true);
+  const auto turned = [](Index k, int kind) {
+    OnlineSample sample = standing_sample(k);
+    const double angle = 3.0 + 0.004 * static_cast<double>(k);  // passes pi
+    sample.position = Vector3d(0.1, -0.2, 0.3) * 0.002 * static_cast<double>(k);
+    sample.quaternion = {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
+    if (kind == 1 && k % 2 == 1) sample.quaternion = -sample.quaternion;
+    if (kind == 2) sample.euler = Vector3d(0.0, 0.0, std::remainder(angle, 6.283185307179586));
+    return sample;
+  };
+  for (const int kind : {0, 1, 2}) {
+    OnlineCompensator whole(nullptr, &simulator, {}, "test");
+    OnlineCompensator holed(nullptr, &simulator, {}, "test");
+    for (Index k = 0; k < 300; ++k) {
+      const Vector6d wanted = whole.step(turned(k, kind)).tool;
+      if (k > 10 && k % 7 >= 3 && k % 7 < 6) continue;
+      const Vector6d got = holed.step(turned(k, kind)).tool;
+      if (k <= 60) continue;
+      ASSERT_LT((got - wanted).norm(), 1e-3) << kind << " " << k;
+    }
+  }
+}
+
+/// A first-order filter with the time constant that is given, after half a second without contact.
+TEST(CompensatorLimits, TheBiasIsFollowedAtItsRateAfterAQuietHalfSecond) {
+  const Identifier model = steady_identifier(Vector3d::Zero());
+  CompensatorOptions options;
+  options.bias_seconds = 2.0;
+  options.contact_n = 1.0;
+  OnlineCompensator compensator(&model, nullptr, options, "test");
+  int quiet = 0, steps = 0;
+  for (Index k = 0; k < 1500; ++k) {
+    OnlineSample sample = standing_sample(k);
+    sample.wrench[1] = 0.4;
+    const auto& result = compensator.step(sample);
+    quiet += result.state == RunState::kNetwork;
+    if (quiet >= 250) ++steps;  // 0.5 s
+    ASSERT_NEAR(result.bias[1], 0.4 * (1.0 - std::pow(0.999, steps)), 1e-12) << k;
+  }
+  EXPECT_GT(steps, 1000);
+}
+
+/// The answer names the prediction that it follows: an overrun is answered by the fallback, once.
+TEST(CompensatorLimits, TheToolIsThatOfWhoIsFollowed) {
+  const Identifier model = steady_identifier(Vector3d(0.1, 0.2, 0.3));
+  const Simulator simulator = tool_with_inertia(false);
+  OnlineCompensator both(&model, &simulator, {}, "test");
+  Index k = 0;
+  while (k < 200) both.step(standing_sample(k++));
+  EXPECT_EQ(both.step(standing_sample(k++)).tool.head<3>(), Vector3d(0.1, 0.2, 0.3));
+  both.overrun();
+  const OnlineResult& late = both.step(standing_sample(k++));
+  EXPECT_EQ(late.reason, Reason::kOverrun);
+  EXPECT_NEAR(late.tool.head<3>().norm(), 0.75 * 9.81, 0.05);
+  const auto last = k + 100;
+  while (k < last) both.step(standing_sample(k++));
+  EXPECT_EQ(both.step(standing_sample(k++)).state, RunState::kNetwork);
+}
+
+/// Without a prediction of torques none is given.
+TEST(CompensatorLimits, TorquesAreZeroWhereNonePredictsThem) {
+  for (const Index targets : {3, 6}) {
+    const Identifier model = steady_identifier(Eigen::VectorXd::Zero(targets));
+    OnlineCompensator compensator(&model, nullptr, {}, "test");
+    double torque = 0.0;
+    for (Index k = 0; k < 200; ++k) {
+      OnlineSample sample = standing_sample(k);
+      sample.wrench[4] = 0.5;
+      torque = compensator.step(sample).external[4];
+    }
+    EXPECT_NEAR(torque, targets == 6 ? 0.5 : 0.0, 1e-12);
+  }
+}
+
+TEST(CompensatorLimits, OnlyAnglesAsFeaturesAreSingular) {
+  for (const auto set : {FeatureSpec::Set::kPose, FeatureSpec::Set::kBody}) {
+    const Identifier model = steady_identifier(Vector3d::Zero(), set);
+    OnlineCompensator compensator(&model, nullptr, {}, "test");
+    bool singular = false;
+    for (Index k = 0; k < 400; ++k) {
+      OnlineSample sample = standing_sample(k);
+      sample.euler = Vector3d(0.0, k < 200 ? 0.0 : 1.5707963, 0.0);
+      singular = compensator.step(sample).reason == Reason::kSingular || singular;
+      ASSERT_TRUE(!singular || k >= 200) << k;
+    }
+    EXPECT_EQ(singular, set == FeatureSpec::Set::kPose);
+  }
+}
+
+}  // namespace
+}  // namespace dcnn
