@@ -16,8 +16,8 @@ std::vector<std::optional<double>> confidences(const Search& search, const HoldO
 std::vector<double> masses_of(const Search& search, const HoldOut& holdout,
                               const std::vector<Alternative>& alternatives);
 
-/// Puts an effect in the place of a member where it is twice as likely, by masses_of(), or makes the
-/// same force and stands before it in the catalogue: the alternatives to what then stands.
+/// Puts an effect in the place of a member where it is twice as likely, by masses_of(), or makes
+/// the same force and stands before it in the catalogue: the alternatives to what then stands.
 std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldOut& holdout);
 
 /// Takes back, the least likely first, the names that are rather wrong than right by the held-out
