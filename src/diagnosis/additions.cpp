@@ -65,7 +65,9 @@ void keep_apart(std::vector<Member>& list, const std::vector<Member>& members) {
 
 }  // namespace
 
-std::vector<Trial> Search::additions() const { return additions(fit_, true, std::nullopt); }
+std::vector<Trial> Search::additions(bool events) const {
+  return additions(fit_, events, std::nullopt);
+}
 
 std::vector<Trial> Search::additions(const JointFit& fit, bool events,
                                      std::optional<double> needed) const {

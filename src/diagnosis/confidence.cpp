@@ -11,24 +11,29 @@
 namespace dcnn {
 namespace {
 
-/// ln of the factor by which the held-out data change the odds of another effect against the member
-/// in whose place it stands.
-double support_of(const Alternative& other, const Search& search, const HoldOut& holdout) {
+void add_support(const Search& search, const HoldOut& holdout,
+                 std::vector<std::vector<Alternative>>& alternatives) {
   const JointFit& fit = search.fit();
-  return holdout.log_support(holdout.prediction(other.members, other.base),
-                             holdout.prediction(fit.members, fit.base), search.floors());
+  const Signals own = holdout.prediction(fit.members, fit.base);
+  for (auto& of_member : alternatives) {
+    for (Alternative& other : of_member) {
+      other.log_support =
+          holdout.log_support(holdout.prediction(other.members, other.base), own, search.floors());
+    }
+  }
 }
 
 /// Whether another effect is named rather than a member: the likelier by far, unless the held-out
 /// data speak against it; or of two that make the same force the one that the catalogue has first,
 /// so that rounding decides nothing.
-bool goes_before(const Alternative& other, const Member& own, double odds, double support) {
-  constexpr double kLikelier = 2.0, kSame = 1e-3;
+bool goes_before(const Alternative& other, const Member& own, double odds) {
+  constexpr double kLikelier = 2.0;  // odds
+  constexpr double kSame = 1e-3;     // of odds of 1: rounding, and where a fit ends
   const auto place = [](const std::string& name) {
     const auto& kinds = effect_kinds();
     return std::find(kinds.begin(), kinds.end(), find_effect(name)) - kinds.begin();
   };
-  return (odds > kLikelier && support >= 0.0) ||
+  return (odds > kLikelier && other.log_support >= 0.0) ||
          (std::abs(odds - 1.0) < kSame && place(other.name) < place(own.name()));
 }
 
@@ -49,14 +54,13 @@ std::vector<std::optional<double>> confidences(const Search& search, const HoldO
   return list;
 }
 
-std::vector<double> masses_of(const Search& search, const HoldOut& holdout,
-                              const std::vector<Alternative>& alternatives) {
+std::vector<double> masses_of(const Search& search, const std::vector<Alternative>& alternatives) {
   // On a machine, whose laws err by more than its noise, a number costs more, and evidence says
   // less.
   const double weight = kNumberPrice / search.setting().price;
   std::vector<double> odds{0.0};  // ln
   for (const Alternative& other : alternatives) {
-    odds.push_back(weight * other.log_odds + support_of(other, search, holdout));
+    odds.push_back(weight * other.log_odds + other.log_support);
   }
   const double sum = evidence::log_sum(odds);
   for (double& odd : odds) odd = elementary::exp(odd - sum);
@@ -64,19 +68,20 @@ std::vector<double> masses_of(const Search& search, const HoldOut& holdout,
 }
 
 std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldOut& holdout) {
-  constexpr int kMostRounds = 6;
+  constexpr int kMostRounds = 6;  // a limit of computation: each round searches all places again
   for (int round = 0;; ++round) {
     auto alternatives = search.alternatives();
+    add_support(search, holdout, alternatives);
     double most = 0.0;
     const Alternative* best = nullptr;
     for (std::size_t m = 0; m < alternatives.size(); ++m) {
-      const auto masses = masses_of(search, holdout, alternatives[m]);
+      const auto masses = masses_of(search, alternatives[m]);
       for (std::size_t k = 0; k < alternatives[m].size(); ++k) {
         const Alternative& other = alternatives[m][k];
         const double odds = masses[k + 1] / masses[0];
-        const bool stands =
-            goes_before(other, search.fit().members[m], odds, support_of(other, search, holdout));
-        if (stands && odds > most) most = odds, best = &other;
+        if (odds > most && goes_before(other, search.fit().members[m], odds)) {
+          most = odds, best = &other;
+        }
       }
     }
     if (!best || round == kMostRounds) return alternatives;

@@ -13,8 +13,7 @@ std::vector<std::optional<double>> confidences(const Search& search, const HoldO
 /// Of a member and of other effects in its place, which the recordings cannot exclude: their shares
 /// of the mass of all, by their evidence and what the held-out data say for or against each; the
 /// member's own first.
-std::vector<double> masses_of(const Search& search, const HoldOut& holdout,
-                              const std::vector<Alternative>& alternatives);
+std::vector<double> masses_of(const Search& search, const std::vector<Alternative>& alternatives);
 
 /// Puts an effect in the place of a member where it is twice as likely, by masses_of(), or makes
 /// the same force and stands before it in the catalogue: the alternatives to what then stands.

@@ -107,12 +107,15 @@ void name_beside(Search& search, Laws& laws) {
   }
 }
 
-/// Numbers that were fitted: a law's that have a deviation, and those of names.
+/// Of a law, those that have a deviation.
+int fitted_numbers(const Discovered& law) {
+  return static_cast<int>((law.deviation.array() > 0.0).count());
+}
+
+/// Numbers that were fitted, of laws and of names.
 int numbers_of(const Laws& laws, const std::vector<Member>& members) {
   int sum = 0;
-  for (const Discovered& law : laws.found) {
-    sum += static_cast<int>((law.deviation.array() > 0.0).count());
-  }
+  for (const Discovered& law : laws.found) sum += fitted_numbers(law);
   for (const Member& member : members) {
     if (member.law.is_null()) sum += member.parameters();
   }
@@ -130,8 +133,7 @@ bool name_in_place_of_one(Search& search, Laws& laws) {
     others.found.erase(others.found.begin() + static_cast<std::ptrdiff_t>(k));
     others.members.erase(others.members.begin() + static_cast<std::ptrdiff_t>(k));
     search.put_beside(others.members);
-    auto trials = search.additions();
-    std::erase_if(trials, [](const Trial& trial) { return trial.member.interval_s.has_value(); });
+    const auto trials = search.additions(/*events=*/false);
     if (!trials.empty()) {
       std::vector<Member> named = search.fit().members;
       named.push_back(trials.front().member);
@@ -181,9 +183,8 @@ bool prefer_one_law(Search& search) {
     if (laws.size() != 1 || !laws.front().established) continue;
     std::vector<Member> other = rest;
     other.push_back(member_of(laws.front().law, law_json(laws.front())));
-    const auto own = static_cast<int>((laws.front().deviation.array() > 0.0).count());
-    const double better =
-        fit.chi2 - joint_fit(setting, other).chi2 - setting.price * std::max(0, own - numbers);
+    const int more = std::max(0, fitted_numbers(laws.front()) - numbers);
+    const double better = fit.chi2 - joint_fit(setting, other).chi2 - setting.price * more;
     if (better < discovery::prior::kAccepted) continue;
     search.leave_out(names);
     return true;

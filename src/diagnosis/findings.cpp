@@ -40,14 +40,14 @@ class Writer {
       if (member.fixed) others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
       entry["confidence"] = nullptr;
       entry["p_value"] = nullptr;
-      if (!member.fixed) {
-        entry["p_value"] = flip_p_value(search_.setting(), fit, m);
-      }
       entry["alternatives"] = Json::array();
       for (const Alternative& other : alternatives[m]) {
         if (other.name != member.name()) entry["alternatives"].push_back(other.name);
       }
-      if (!member.fixed) share(*likely[m], alternatives[m], entry);
+      if (!member.fixed) {
+        entry["p_value"] = flip_p_value(search_.setting(), fit, m);
+        share(*likely[m], alternatives[m], entry);
+      }
       entry["holdout_gain"] = nullptr;
       if (held) {
         entry["holdout_gain"] =
@@ -106,7 +106,7 @@ class Writer {
   /// Divides a probability among a name, in any of its forms, and the effects that may stand in its
   /// place.
   void share(double probability, const std::vector<Alternative>& others, Json& entry) const {
-    const auto masses = masses_of(search_, holdout_, others);
+    const auto masses = masses_of(search_, others);
     double own = masses[0];
     Json shared = Json::object();
     for (std::size_t k = 0; k < others.size(); ++k) {

@@ -263,8 +263,7 @@ void Search::run() {
   detect();
   settle(apart_);
   explore();
-  // What is larger is found first: beside a mode that nobody has named yet much sounds like a
-  // knock.
+  // After larger effects: what is left of a mode that is not in the model resembles impacts.
   if (hear_knocks()) {
     settle(apart_);
     explore();

@@ -28,6 +28,7 @@ struct Alternative {
   Eigen::VectorXd base;         ///< and the coefficients of its linear base, where there is one
   double log_odds = 0.0;        ///< ln of its evidence over that of the model that was chosen
   double chi2_above = 0.0;      ///< its chi-square less that of the chosen
+  double log_support = 0.0;     ///< ln of the factor by which held-out data change those odds
 };
 
 class Search {
@@ -78,8 +79,9 @@ class Search {
   std::vector<Member> members_without(std::size_t member) const;
   /// The model without one member, the others refitted.
   const JointFit& without(std::size_t member) const;
-  /// The best additions to the model at hand, at most one per effect, refined, best first.
-  std::vector<Trial> additions() const;
+  /// The best additions to the model at hand, at most one per effect, refined, best first; contacts
+  /// and steps among them where `events`.
+  std::vector<Trial> additions(bool events = true) const;
 
  private:
   /// What is known of the model without one member: computed when it is first asked for.

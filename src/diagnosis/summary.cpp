@@ -124,10 +124,10 @@ std::string to_text(const Diagnosis& diagnosis) {
     if (!finding["confidence"].is_null()) {
       out << "  confidence " << brief(finding["confidence"].get<double>());
     }
+    const Json shared = finding.value("shared_with", Json::object());
     for (const Json& other : finding["alternatives"]) {
       const auto name = other.get<std::string>();
       out << "  or " << name;
-      const Json& shared = finding.value("shared_with", Json::object());
       if (shared.contains(name)) out << " " << brief(shared[name].get<double>());
     }
     out << "\n";

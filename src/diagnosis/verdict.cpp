@@ -60,7 +60,7 @@ bool Search::hear_knocks() {
   return true;
 }
 
-/// Whether the knocks are heard beside all that was found since: what is fitted may have made them.
+/// Whether the residual of all that was found since still shows the load's impacts.
 bool Search::still_knocks() {
   const Knocks knocks = find_knocks(study_, left_);
   knocking_ = knocks.member;

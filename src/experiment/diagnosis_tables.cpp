@@ -102,11 +102,11 @@ void add_findings(const Json& report, HtmlReport& page) {
               : with_interval(value, interval[0].get<double>(), interval[1].get<double>(), unit);
     }
     std::string alternatives;
+    const Json shared = f.value("shared_with", Json::object());
     for (const Json& a : f["alternatives"]) {
       const Json& effect = a.is_object() ? a["effect"] : a;
       const auto id = plain_text(effect);
       alternatives += (alternatives.empty() ? "" : ", ") + words_of_effect(id);
-      const Json shared = f.value("shared_with", Json::object());
       if (shared.contains(id)) alternatives += " (" + share_text(shared[id]) + ")";
     }
     rows.push_back({words_of_effect(plain_text(f["effect"])), words_of_axis(plain_text(f["axis"])),
