@@ -120,7 +120,7 @@ Json merged(const std::vector<Json>& reports, const System& system) {
     report["posteriors"].back()["structures"] = reports[k]["structures"];
   }
   for (const char* key :
-       {"targets", "units", "findings", "refuted", "not_detected", "not_testable"}) {
+       {"targets", "units", "findings", "refuted", "left_out", "not_detected", "not_testable"}) {
     report[key] = Json::array();
     for (const Json& one : reports) append(report[key], one[key]);
   }

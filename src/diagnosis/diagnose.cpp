@@ -103,6 +103,19 @@ Json errors_json(const Search& search, const HoldOut& simulator, const HoldOut& 
   return json;
 }
 
+/// Stretches in which far more is left than elsewhere: they decided nothing.
+Json outlying_json(const Search& search) {
+  const Case& study = search.study();
+  Json list = Json::array();
+  for (const Span& span : search.outlying_spans()) {
+    const Json axis = study.axis ? Json(study.axis->axis().name) : Json();
+    list.push_back({{"recording", study.logs[span.log].recording.name},
+                    {"interval_s", {span.begin, span.end}},
+                    {"axis", axis}});
+  }
+  return list;
+}
+
 Json deviations(const std::vector<Floor>& floors) {
   Json list = Json::array();
   for (const Floor& floor : floors) list.push_back(floor.deviation());
@@ -163,6 +176,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   report["where"]["budget"] =
       budget(search.setting(), before, own_parameters(study), report["where"]["segments"]);
   const Json formulas = law_findings(search, laws, holdout);
+  report["left_out"] = outlying_json(search);
   report["unnamed"] = unnamed_part(search, bands, formulas, refuted);
   for (const Json& law : formulas) report["findings"].push_back(law);
   Json sources = Json::array();

@@ -133,12 +133,34 @@ std::vector<Floor> HoldOut::floors(const Search& search) const {
   // What a free matrix on gravity leaves of poses at rest is no noise of theirs.
   if (!own_ || study_.is_static()) return search.floors();
   Case study = study_;
+  study.motion_hz = search.study().motion_hz;
+  study.rounding_step = search.study().rounding_step;
+  study.rounding_noise = search.study().rounding_noise;
   if (fit.base.size() > 0) set_base(study, fit.base);
   const Signals left = study.lowpass_hz > 0.0 ? unfiltered_left(study, fit.members)
                                               : difference(study, predict(study, fit.members));
+  // Without the ends, as the errors are.
+  for (std::size_t k = 0; k < study.logs.size(); ++k) {
+    std::vector<Segment> kept;
+    for (Segment s : study.logs[k].motion.segments) {
+      const auto held = [&](Index row) { return held_[k][static_cast<std::size_t>(row)] != 0; };
+      while (s.begin < s.end && !held(s.begin)) ++s.begin;
+      while (s.begin < s.end && !held(s.end - 1)) --s.end;
+      if (s.begin < s.end) kept.push_back(s);
+    }
+    study.logs[k].motion.segments = kept;
+  }
   const Signals levels = noise_level(study, left);
   std::vector<Floor> floors = noise_floor(study, left, levels);
   bound_by_residual(study, left, levels, floors);
+  // Nor is noise more than what is left in all, where its level changes too much to be evened.
+  const std::vector<double> errors = rmse(fit.members, fit.base);
+  for (std::size_t j = 0; j < floors.size(); ++j) {
+    const double share = std::min(1.0, errors[j] / std::max(1e-300, floors[j].deviation()));
+    for (double* part : {&floors[j].white, &floors[j].coloured, &floors[j].flicker}) {
+      *part *= share * share;
+    }
+  }
   add_pose_noise(study, floors);
   return floors;
 }

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kMostSteps = 12;
 constexpr double kSettled = 0.02;   // of chi-square: far below what decides anything
+constexpr double kImitated = 1e-6;  // of a column's norm: what rounding leaves of it off a basis
 constexpr double kStraight = 1e-4;  // of chi-square: how far a step may end from its tangent
 
 /// One number of one member, on the scale it is searched on.
@@ -169,9 +170,17 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
     for (int pass = 0; pass < 2; ++pass) {  // twice is enough (Kahan and Parlett)
       c -= basis.leftCols(count) * (basis.leftCols(count).transpose() * c);
     }
-    if (c.norm() > 1e-6 * before && before > 0.0) basis.col(count++) = c.normalized();
+    if (c.norm() > kImitated * before && before > 0.0) basis.col(count++) = c.normalized();
   }
   return basis.leftCols(count);
+}
+
+Eigen::MatrixXd off_basis(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& basis) {
+  Eigen::MatrixXd off = columns - basis * (basis.transpose() * columns);
+  for (Index k = 0; k < off.cols(); ++k) {
+    if (off.col(k).norm() <= kImitated * columns.col(k).norm()) off.col(k).setZero();
+  }
+  return off;
 }
 
 JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
@@ -182,6 +191,8 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   const auto coordinates = coordinates_of(members);
   const Eigen::MatrixXd nuisance_columns = with_beginnings(setting, members);
   const Index free = static_cast<Index>(coordinates.size()), extra = nuisance_columns.cols();
+  const auto linear = static_cast<Index>(setting.study.logs.front().regressors.size());
+  const Eigen::MatrixXd base = orthonormal(setting.nuisance.leftCols(linear));
   auto chain = std::make_unique<Chain>(setting.study, std::move(members));
   Eigen::VectorXd here = setting.whitened(chain->prediction());
   JointFit fit;
@@ -194,6 +205,12 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   for (int step = 0; step < kMostSteps; ++step) {
     fit.tangent.leftCols(free) = derivatives(setting, *chain, coordinates, here);
     if (free == 0) break;
+    // A number that the base simulator has too, as the rest of a spring beside a constant.
+    const Eigen::MatrixXd off =
+        base.cols() > 0 ? off_basis(fit.tangent.leftCols(free), base) : Eigen::MatrixXd();
+    for (Index k = 0; k < off.cols(); ++k) {
+      if (off.col(k).isZero(0.0)) fit.tangent.col(k).setZero();
+    }
     const Eigen::VectorXd change =
         best_change(chain->members(), coordinates, fit.tangent, wanted - here, shapes_stay);
     if (!change.allFinite()) break;  // whitened by a floor next to nothing, columns overflow
@@ -234,7 +251,6 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   }
   fit.members = chain->members();
   fit.residual = std::move(residual);
-  const auto linear = static_cast<Index>(setting.study.logs.front().regressors.size());
   if (linear > 0) fit.base = setting.study.base_coefficients + fit.nuisance.head(linear);
   return fit;
 }

@@ -48,4 +48,8 @@ Eigen::MatrixXd appended(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 /// An orthonormal basis of the columns.
 Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
 
+/// Columns without their part along an orthonormal basis; one that the basis imitates to rounding
+/// is zero, so that nothing is fitted along it.
+Eigen::MatrixXd off_basis(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& basis);
+
 }  // namespace dcnn

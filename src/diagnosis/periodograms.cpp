@@ -93,8 +93,8 @@ std::vector<SlowBin> slow_bins(const Case& study, const Signals& signals, Index 
   return bins;
 }
 
-Eigen::VectorXd density_of(const Periodograms& p, bool coarse) {
-  if (coarse && p.power.cols() > 0) return p.power.rowwise().mean();
+Eigen::VectorXd density_of(const Periodograms& p, bool uneven) {
+  if (uneven && p.power.cols() > 0) return p.power.rowwise().mean();
   Eigen::VectorXd density(p.power.rows());
   double expected = 0.0;
   for (Index i = 0; p.power.cols() > 0 && i <= p.power.cols() / 2; ++i)

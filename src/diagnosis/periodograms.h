@@ -25,8 +25,8 @@ std::vector<SlowBin> slow_bins(const Case& study, const Signals& signals, Index 
 /// Median over windows of each bin, as an estimate of the density: the upper middle of n values of
 /// an exponential distribution is on the average sum_{i=0}^{n/2} 1/(n-i) of its mean (ln 2 for
 /// many).
-/// `coarse`: readings on a coarse lattice are noisy near the middle between two values and still
-/// elsewhere, so that most windows hold less noise than all do together.
-Eigen::VectorXd density_of(const Periodograms& p, bool coarse = false);
+/// `uneven`: the mean, for noise of which most windows hold less than all do together, as that of
+/// readings on a coarse lattice, noisy near the middle between two values and still elsewhere.
+Eigen::VectorXd density_of(const Periodograms& p, bool uneven = false);
 
 }  // namespace dcnn

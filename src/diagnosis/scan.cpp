@@ -26,7 +26,7 @@ bool is_itself(const Case& study, const Member& member) {
   // A drive's filters are faster than a tenth of a second.
   if (study.axis && name == "lowpass") return member.shapes(0) < 0.1;
   if (name == "creep") return std::abs(member.amplitudes(0)) < 1.0;  // of a solid, no fluid
-  if (name == "gear_friction") {  // it resists in every position
+  if (name == "gear_friction") {                                     // it resists in every position
     return member.amplitudes(0) > 0.0 && member.amplitudes.tail(2).norm() < member.amplitudes(0);
   }
   if (study.axis && name == "flexible_resonance") return member.shapes(1) < 0.5;
@@ -60,7 +60,7 @@ Scan::Scan(const Setting& setting, const JointFit& fit)
 }
 
 Eigen::MatrixXd Scan::off_model(const Eigen::MatrixXd& columns) const {
-  return columns - basis_ * (basis_.transpose() * columns);
+  return off_basis(columns, basis_);
 }
 
 Eigen::MatrixXd Scan::columns(const Member& member, Detail detail) const {
@@ -98,6 +98,8 @@ Trial Scan::evaluate(const Member& member, Detail detail) const {
   Eigen::MatrixXd c = off_model(raw);
   const double energy = raw.squaredNorm();
   trial.kept = energy > 0.0 ? c.squaredNorm() / energy : 0.0;
+  // Of a law that divides by its strength, as a spring's rest is, the strength must be its own.
+  if (c.cols() == 2 && c.col(0).isZero(0.0)) return trial;
   const Eigen::MatrixXd begun = off_model(beginnings(setting_, member, detail));
   if (begun.cols() > 0) {
     const Eigen::MatrixXd own = orthonormal(begun);

@@ -9,6 +9,7 @@
 #include "diagnosis/detectors.h"
 #include "diagnosis/events.h"
 #include "diagnosis/evidence/priors.h"
+#include "diagnosis/outlying.h"
 
 namespace dcnn {
 namespace {
@@ -257,12 +258,25 @@ void Search::explore() {
   }
 }
 
+bool Search::mask_outlying() {
+  // On a tool a foreign force is an effect of its own, and found as such.
+  if (study_.is_static() || is_listed(study_, *find_effect("contact"))) return false;
+  auto spans = outlying(*setting_, left_, held_out_);
+  if (spans == outlying_) return false;
+  outlying_ = std::move(spans);
+  settle(fit_.members);
+  return true;
+}
+
 void Search::run() {
   choose_cutoff({});
   settle({});
   detect();
   settle(apart_);
+  mask_outlying();
   explore();
+  if (mask_outlying())
+    explore();  // what a law explains is not outlying, and beside it other things are
   // After larger effects: what is left of a mode that is not in the model resembles impacts.
   if (hear_knocks()) {
     settle(apart_);

@@ -16,6 +16,7 @@ namespace dcnn {
 struct Span {
   std::size_t log;
   double begin, end;  ///< s
+  bool operator==(const Span&) const = default;
   bool holds(std::size_t recording, double t) const {
     return log == recording && t >= begin && t <= end;
   }
@@ -55,6 +56,8 @@ class Search {
   bool remains() const { return remains_; }
   const std::optional<Member>& rounding() const { return rounding_; }
   const std::optional<Member>& knocking() const { return knocking_; }
+  /// Stretches that decide nothing, for far more is left there than elsewhere.
+  const std::vector<Span>& outlying_spans() const { return outlying_; }
   const std::vector<BandTest>& bands() const { return bands_; }
   const evidence::Posterior& posterior() const { return posterior_; }
   /// For each member, other effects that the recordings cannot exclude in its place.
@@ -125,6 +128,8 @@ class Search {
   bool replace_pairs();
   bool merge_pair();
   void explore();
+  /// Leaves rows out that are outlying beside the model at hand: whether others than before.
+  bool mask_outlying();
   void detect();
   bool hear_knocks();
   bool still_knocks();
@@ -167,7 +172,7 @@ class Search {
   JointFit fit_;
   mutable std::vector<Place> places_;  // one a member, of fit_
   Signals left_;
-  std::vector<Span> held_out_, masked_, knock_spans_;
+  std::vector<Span> held_out_, masked_, knock_spans_, outlying_;
   std::vector<Member> apart_;                  // members found by tests of their own
   std::optional<Member> rounding_, knocking_;  // named, but no part of what is fitted
   std::vector<BandTest> bands_;

@@ -77,6 +77,7 @@ void Search::make_setting(const std::vector<Member>& members) {
   const Index rows = setting_->whitener.rows();
   std::vector<Span> masked = masked_;
   masked.insert(masked.end(), knock_spans_.begin(), knock_spans_.end());
+  masked.insert(masked.end(), outlying_.begin(), outlying_.end());
   setting_->mask = mask_of(setting_->whitener, held_out_, masked);
   setting_->nuisance.resize(rows, 0);
   for (std::size_t k = 0; k < study_.logs.front().regressors.size(); ++k) {
@@ -154,7 +155,7 @@ void Search::settle(const std::vector<Member>& members) {
   left_ = difference(study_, predict(study_, fit_.members));
   // A machine always leaves something that no effect explains, far above its sensor's noise: there
   // a number counts that takes off a share of what is left.
-  constexpr double kMachineShare = 0.04, kSlowNoisePrice = 20.0;
+  constexpr double kSlowNoisePrice = 20.0;
   if (study_.axis) setting_->price = std::max(kNumberPrice, kMachineShare * fit_.chi2);
   // Of noise that rises as 1/f the next recording would show another slope.
   if (!flicker_.empty()) setting_->price = kSlowNoisePrice;

@@ -133,6 +133,12 @@ std::string to_text(const Diagnosis& diagnosis) {
     }
     out << "\n";
   }
+  for (const Json& stretch : report["left_out"]) {
+    out << "left out    " << brief(stretch["interval_s"][0].get<double>()) << " to "
+        << brief(stretch["interval_s"][1].get<double>()) << " s of "
+        << stretch["recording"].get<std::string>()
+        << ": far more is left there than elsewhere, as by a collision or a hand\n";
+  }
   if (!report["search"]["complete"].get<bool>()) {
     out << "search      ended at its limit: not every exchange of effects was tried\n";
   }

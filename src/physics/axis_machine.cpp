@@ -135,7 +135,8 @@ MatrixXd base_columns(const Recording& recording, const System& system, std::siz
     return arm_columns(chain_of(system), recording, system, axis, derivative);
   }
   require(own.has_base, Exit::kData, "axis '", own.name,
-          "': no simulator; give 'simulated', 'base', or 'arm' in the system description");
+          "': no simulator; give 'simulated', 'base' (a list of signals, [] where nothing is known), "
+          "or 'arm' in the system description");
   if (own.base.empty()) return VectorXd::Ones(recording.samples());
   const Rates rates = rates_of(recording, own, derivative);
   MatrixXd columns(recording.samples(), static_cast<Index>(own.base.size()));

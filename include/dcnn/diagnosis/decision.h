@@ -5,6 +5,9 @@ namespace dcnn {
 
 /// Chi-square that a fitted number must gain.
 constexpr double kNumberPrice = 10.0;
+/// On a machine, which leaves more than its sensor's noise: the share of what is left that a fitted
+/// number must take off.
+constexpr double kMachineShare = 0.04;
 /// Chi-square by which a model with as many numbers may fit worse and still be listed: e^6, 400
 /// to 1.
 constexpr double kAsLikely = 12.0;

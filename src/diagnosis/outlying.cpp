@@ -1,0 +1,76 @@
+#include "diagnosis/outlying.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/elementary.h"
+#include "dcnn/diagnosis/decision.h"
+#include "diagnosis/median.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kOutlyingSeconds = 0.5;  // bursts of the noise are followed in as long ones
+constexpr double kByChance = 0.01;        // that any stretch of a recording is called outlying
+constexpr double kOfNormal = 1.4826;      // deviation over median absolute deviation
+constexpr std::size_t kFewestStretches = 10;
+
+struct Stretch {
+  std::size_t log;
+  double begin, size;  ///< s; logarithm of the mean square
+};
+
+std::vector<Stretch> stretches(const Setting& setting, const Signals& left,
+                               const std::vector<Span>& held_out, double seconds) {
+  const Eigen::VectorXd residual = setting.whitener(left);
+  const auto& info = setting.whitener.row_info();
+  std::map<std::pair<std::size_t, std::int64_t>, std::pair<double, double>> sums;
+  for (std::size_t row = 0; row < info.size(); ++row) {
+    const auto& at = info[row];
+    const bool held = std::any_of(held_out.begin(), held_out.end(),
+                                  [&](const Span& s) { return s.holds(at.log, at.t); });
+    if (held) continue;
+    auto& [square, count] = sums[{at.log, static_cast<std::int64_t>(std::floor(at.t / seconds))}];
+    const double r = residual(static_cast<Index>(row));
+    square += r * r, count += 1.0;
+  }
+  std::vector<Stretch> list;
+  for (const auto& [key, sum] : sums) {
+    if (sum.first == 0.0) continue;  // a reading that repeats its value
+    list.push_back({key.first, static_cast<double>(key.second) * seconds,
+                    elementary::log(sum.first / sum.second)});
+  }
+  return list;
+}
+
+}  // namespace
+
+std::vector<Span> outlying(const Setting& setting, const Signals& left,
+                           const std::vector<Span>& held_out) {
+  const double seconds = kOutlyingSeconds * setting.study.axis_seconds;
+  const auto all = stretches(setting, left, held_out, seconds);
+  if (all.size() < kFewestStretches) return {};
+  std::vector<double> sizes;
+  for (const Stretch& s : all) sizes.push_back(s.size);
+  const double middle = median(sizes);
+  for (double& size : sizes) size = std::abs(size - middle);
+  const double deviation = kOfNormal * median(sizes);
+  std::vector<Span> spans;
+  double theirs = 0.0, whole = 0.0;
+  for (const Stretch& s : all) {
+    const double energy = elementary::exp(s.size);
+    const double tail = 0.5 * std::erfc((s.size - middle) / (deviation * std::sqrt(2.0)));
+    whole += energy;
+    if (deviation == 0.0 || tail * static_cast<double>(all.size()) >= kByChance) continue;
+    const double begin = s.begin - seconds, end = s.begin + 2.0 * seconds;
+    const bool continues = !spans.empty() && spans.back().log == s.log && begin <= spans.back().end;
+    if (!continues) spans.push_back({s.log, begin, end});
+    spans.back().end = end;
+    theirs += energy;
+  }
+  // With less than that they decide about no number.
+  return theirs >= kMachineShare * whole ? spans : std::vector<Span>{};
+}
+
+}  // namespace dcnn
