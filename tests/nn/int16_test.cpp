@@ -90,11 +90,12 @@ Wanted reference(const Network& network, const Real* x) {
   return wanted;
 }
 
-struct Case {
+struct PairCase {
   const char* padding;
   Index rows;
 };
-constexpr Case kCases[] = {{"valid", 15}, {"same", 15}, {"valid", 5}, {"same", 1}, {"same", 40}};
+constexpr PairCase kPairCases[] = {
+    {"valid", 15}, {"same", 15}, {"valid", 5}, {"same", 1}, {"same", 40}};
 
 Tensor drawn(Index rows, double size) {
   Tensor x({rows, 5, 1});
@@ -104,7 +105,7 @@ Tensor drawn(Index rows, double size) {
 }
 
 /// Weights of one sign for every other filter, so that sums are as large as they can be.
-Network network_of(const Case& c) {
+Network network_of(const PairCase& c) {
   Rng rng(3);
   Network network(dcnn_layers(c.padding), {c.rows, 5, 1}, rng);
   for (const auto& named : network.state()) {
@@ -130,7 +131,7 @@ std::vector<std::int64_t> all_targets() {
 constexpr double kUsual = 1e-3;
 
 TEST(Int16, StaysWithinItsBoundWhateverTheInstructions) {
-  for (const Case& c : kCases) {
+  for (const PairCase& c : kPairCases) {
     const Network network = network_of(c);
     for (const double size : {1.0, 0.0, 1e-36, 1e6}) {
       const Tensor x = drawn(c.rows, size);
