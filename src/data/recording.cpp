@@ -113,15 +113,14 @@ void convert_units(Recording& recording, const ReadOptions& options) {
 /// their own.
 Names known_columns(const System& system) {
   if (system.kind == System::Kind::kWrist) {
-    return {"fx",     "fy",     "fz",     "tx",     "ty", "tz", "fx_sim", "fy_sim",
-            "fz_sim", "tx_sim", "ty_sim", "tz_sim", "vx", "vy", "vz",     "wx",
-            "wy",     "wz",     "ax",     "ay",     "az", "dwx", "dwy",   "dwz",
-            "temperature"};
+    return {"fx",     "fy",     "fz",     "tx",  "ty",  "tz",  "fx_sim",     "fy_sim", "fz_sim",
+            "tx_sim", "ty_sim", "tz_sim", "vx",  "vy",  "vz",  "wx",         "wy",     "wz",
+            "ax",     "ay",     "az",     "dwx", "dwy", "dwz", "temperature"};
   }
   Names names;
   for (const Axis& axis : system.axes) {
-    for (const auto& name : {axis.measured, axis.position, axis.velocity, axis.acceleration,
-                             axis.simulated}) {
+    for (const auto& name :
+         {axis.measured, axis.position, axis.velocity, axis.acceleration, axis.simulated}) {
       names.push_back(name);
     }
     names.insert(names.end(), axis.signals.begin(), axis.signals.end());
@@ -221,6 +220,7 @@ Recording make_recording(SourceTable source, const std::filesystem::path& path,
     resample(recording, hz, smooth_columns(system));
   }
   check_regular(recording, file);
+  drop_short_stretches(recording);
   if (wrist) normalise_quaternions(recording);
   return recording;
 }
