@@ -56,13 +56,14 @@ function(dcnn_compile_options target)
     <Eigen/Dense> <dcnn/core/json.h> <algorithm> <functional> <memory> <sstream> <string> <vector>)
 endfunction()
 
-# Some eight files of a module are compiled as one, which halves the time of a full build. Any grouping compiles
-# (tools/check-rooms); a file's group follows from its name alone, so that a new file moves no other. Highway's
-# kernels include themselves: they stay apart.
-function(dcnn_unite_rooms target)
+# Some eight files of a module are compiled as one, which halves the time of a full build, that of the tests as that of the
+# library. Any grouping compiles (tools/check-rooms); a file's group follows from its name alone, so that a new file moves no
+# other. Highway's kernels include themselves: they stay apart.
+function(dcnn_unite_rooms target root)  # ROOT: the folder of the modules' folders
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
-  list(TRANSFORM sources REPLACE "^${PROJECT_SOURCE_DIR}/src/" "")
+  list(TRANSFORM sources REPLACE "^${root}/" "")
+  list(FILTER sources INCLUDE REGEX "/")
   list(FILTER sources EXCLUDE REGEX "^nn/kernels/")
   foreach(source ${sources})
     string(REGEX MATCH "^[^/]+" room ${source})
@@ -70,14 +71,14 @@ function(dcnn_unite_rooms target)
     list(FILTER in_room INCLUDE REGEX "^${room}/")
     list(LENGTH in_room count)
     set(groups 1)
-    while(count GREATER 12)  # groups: the power of two that leaves 6 to 12 files in each
+    while(count GREATER DCNN_MOST_UNITED)  # groups: the power of two that leaves half as many to so many files in each
       math(EXPR groups "2 * ${groups}")
       math(EXPR count "(${count} + 1) / 2")
     endwhile()
     string(MD5 hash ${source})
     string(SUBSTRING ${hash} 0 4 digits)
     math(EXPR group "0x${digits} % ${groups}")
-    set_source_files_properties(${PROJECT_SOURCE_DIR}/src/${source} PROPERTIES UNITY_GROUP ${room}_${group})
+    set_source_files_properties(${root}/${source} PROPERTIES UNITY_GROUP ${room}_${group})
   endforeach()
 endfunction()
 
@@ -112,6 +113,6 @@ function(dcnn_add_library target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   dcnn_compile_options(${target})
   if(DCNN_UNITE_ROOMS)
-    dcnn_unite_rooms(${target})
+    dcnn_unite_rooms(${target} ${PROJECT_SOURCE_DIR}/src)
   endif()
 endfunction()

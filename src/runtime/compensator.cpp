@@ -99,7 +99,6 @@ void OnlineCompensator::start_anew() noexcept {
 Reason OnlineCompensator::tell_time(const OnlineSample& sample) noexcept {
   if (!started_) {
     started_ = true;
-    last_ = sample;
     return Reason::kNone;
   }
   const double step = sample.t - last_.t;
@@ -107,7 +106,6 @@ Reason OnlineCompensator::tell_time(const OnlineSample& sample) noexcept {
     const double other = (sample.t - std::exchange(other_t_, sample.t)) / dt_;
     other_clock_ = other > kTooFast && other < 2.0 - kTooFast ? other_clock_ + 1 : 0;
     if (other_clock_ < kSteady) return Reason::kClock;
-    other_clock_ = 0;
     start_anew();
     return Reason::kGap;
   }
@@ -177,7 +175,6 @@ Vector6d OnlineCompensator::averaged(const Vector6d& wrench) noexcept {
 
 /// Whether the newest features are such that the network may be believed.
 Reason OnlineCompensator::distrust() noexcept {
-  result_.novelty = 0.0;
   if (!predictor_) return Reason::kNone;
   if (has_envelope()) {
     const double score = envelope_.score(*x_);

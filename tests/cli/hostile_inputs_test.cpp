@@ -13,7 +13,7 @@
 namespace dcnn {
 namespace {
 
-const std::string kSim = DCNN_SOURCE_DIR "/data/sample/sim.json";
+const std::string kSampleTool = DCNN_SOURCE_DIR "/data/sample/sim.json";
 
 class HostileInputs : public testing::Test {
  protected:
@@ -69,8 +69,8 @@ class HostileInputs : public testing::Test {
 TEST_F(HostileInputs, ForcesThatNoSensorReadsAreRefused) {
   const std::string huge =
       log("huge.csv", [](double t, Row& row) { row["fx"] = t > 5 ? 1e300 : row["fx"]; });
-  expect_line(test::run("diagnose", {"--sim", kSim, "--fit", huge, "--out", at("report")}), 3,
-              "huge.csv:253: column 'fx' is 1e+300");
+  expect_line(test::run("diagnose", {"--sim", kSampleTool, "--fit", huge, "--out", at("report")}),
+              3, "huge.csv:253: column 'fx' is 1e+300");
   expect_line(train(huge), 3, "beyond any sensor");
 }
 
@@ -90,9 +90,9 @@ TEST_F(HostileInputs, NothingIsLearnedFromNothing) {
 
 TEST_F(HostileInputs, ADeadChannelIsNamedAndNotExplained) {
   const auto dead = [](double, Row& row) { row["fz"] = 1.5; };
-  expect_line(
-      test::run("diagnose", {"--sim", kSim, "--fit", log("dead.csv", dead), "--out", at("report")}),
-      3, "dead.csv: frozen: fz is exactly 1.5");
+  expect_line(test::run("diagnose", {"--sim", kSampleTool, "--fit", log("dead.csv", dead), "--out",
+                                     at("report")}),
+              3, "dead.csv: frozen: fz is exactly 1.5");
 }
 
 /// Contract, section 2: NaN is an error in any column, and the line says which.
@@ -105,8 +105,8 @@ TEST_F(HostileInputs, ANumberThatIsNoneIsRefusedInUnusedColumnsToo) {
 
 TEST_F(HostileInputs, AResamplingMakesNoMoreRowsThanTheMemoryHolds) {
   const std::string plain = log("a.csv", [](double, Row&) {});
-  expect_line(test::run("diagnose", {"--sim", kSim, "--fit", plain, "--resample", "1e9", "--out",
-                                     at("report")}),
+  expect_line(test::run("diagnose", {"--sim", kSampleTool, "--fit", plain, "--resample", "1e9",
+                                     "--out", at("report")}),
               2, "--resample: 1e9 is not between");
 }
 
@@ -130,8 +130,9 @@ TEST_F(HostileInputs, KeysAndValuesOfADocumentObeyNoTerminalAndStayShort) {
 
 TEST_F(HostileInputs, AFolderThatCannotBeMadeIsOneLine) {
   const std::string plain = log("a.csv", [](double, Row&) {});
-  expect_line(test::run("diagnose", {"--sim", kSim, "--fit", plain, "--out", plain + "/below"}), 1,
-              "a.csv");
+  expect_line(
+      test::run("diagnose", {"--sim", kSampleTool, "--fit", plain, "--out", plain + "/below"}), 1,
+      "a.csv");
   expect_line(
       test::run("conceal", {"--scenarios", "1", "--out", plain + "/below", "--seal", at("s.json")}),
       1, "a.csv");

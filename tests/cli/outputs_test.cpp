@@ -74,31 +74,34 @@ const Case kCases[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Every, Outputs, ::testing::ValuesIn(kCases));
 
-const std::string kSim = DCNN_SOURCE_DIR "/data/sample/sim.json";
+const std::string kShippedTool = DCNN_SOURCE_DIR "/data/sample/sim.json";
 const std::string kLog = DCNN_SOURCE_DIR "/data/sample/test.csv";
 
 TEST_F(Outputs, OfAPredictionAreReplacedByANewerOneLinksFollowedStreamsWritten) {
   std::filesystem::create_symlink("p.csv", at("link.csv"));
   for (int k = 0; k < 2; ++k) {
-    const auto result = test::run("predict", {kSim, "--data", kLog, "--out", at("link.csv")});
+    const auto result =
+        test::run("predict", {kShippedTool, "--data", kLog, "--out", at("link.csv")});
     ASSERT_EQ(result.exit_code, 0) << result.err;
   }
   EXPECT_TRUE(std::filesystem::is_symlink(at("link.csv")));
   const std::string rows = test::slurp(at("p.csv"));
   const auto piped =
-      test::Process("predict", {kSim, "--data", "-", "--out", "-"}, {.input = kLog}).wait();
+      test::Process("predict", {kShippedTool, "--data", "-", "--out", "-"}, {.input = kLog}).wait();
   EXPECT_EQ(piped.exit_code, 0) << piped.err;
   EXPECT_EQ(piped.out, rows);
-  EXPECT_EQ(test::run("predict", {kSim, "--data", kLog, "--out", "/dev/stdout"})
+  EXPECT_EQ(test::run("predict", {kShippedTool, "--data", kLog, "--out", "/dev/stdout"})
                 .out.substr(0, rows.size()),
             rows);
-  EXPECT_EQ(test::run("predict", {kSim, "--data", kLog, "--out", "/dev/null"}).exit_code, 0);
+  EXPECT_EQ(test::run("predict", {kShippedTool, "--data", kLog, "--out", "/dev/null"}).exit_code,
+            0);
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
 TEST_F(Outputs, OfAFolderThatAnotherProcessWritesToAreRefused) {
   const FolderLock other(at("report"));
-  const auto result = test::run("diagnose", {"--sim", kSim, "--fit", kLog, "--out", at("report")});
+  const auto result =
+      test::run("diagnose", {"--sim", kShippedTool, "--fit", kLog, "--out", at("report")});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("another process is writing here"), std::string::npos) << result.err;
 }

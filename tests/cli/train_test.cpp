@@ -14,7 +14,7 @@ using test::Result;
 using test::run;
 using test::slurp;
 
-constexpr const char* kScene = R"({
+constexpr const char* kTrainingScene = R"({
   "seed": 7, "sample_rate_hz": 500,
   "simulator": {"tool": {"mass_kg": 0.7, "com_m": [0.004, -0.006, 0.16]},
                 "sensor": {"bias_n": [0.6, -0.4, 1.1]}},
@@ -34,7 +34,7 @@ class Tools : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::make_unique<test::TemporaryFolder>();
-    std::ofstream(at("scene.json")) << kScene;
+    std::ofstream(at("scene.json")) << kTrainingScene;
     const Result result = run("sim", {"--config", at("scene.json"), "--out", at("data")});
     ASSERT_EQ(result.exit_code, 0) << result.err;
   }
@@ -104,7 +104,7 @@ TEST_F(Tools, TrainingLearnsAndEvaluationAgreesWithPrediction) {
 
 /// A model that knows the band of its training says where a recording leaves it.
 TEST_F(Tools, MotionUnlikeTheTrainingIsToldToTheUser) {
-  std::string scene = kScene;
+  std::string scene = kTrainingScene;
   for (auto place = scene.find("[0.1, 1.0]"); place != std::string::npos;
        place = scene.find("[0.1, 1.0]", place)) {
     scene.replace(place, 10, "[0.4, 4.0]");

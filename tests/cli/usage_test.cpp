@@ -9,7 +9,8 @@
 namespace dcnn {
 namespace {
 
-const std::string kSample = DCNN_SOURCE_DIR "/data/sample/", kConfigs = DCNN_SOURCE_DIR "/configs/";
+const std::string kSampleFolder = DCNN_SOURCE_DIR "/data/sample/",
+                  kConfigs = DCNN_SOURCE_DIR "/configs/";
 
 /// The one line that a refused command prints.
 std::string refusal(const std::string& verb, std::vector<std::string> arguments, int exit = 2) {
@@ -26,7 +27,8 @@ void expect_words(const std::string& text, std::initializer_list<const char*> wo
 
 TEST(FileOfAnotherKind, IsCalledByItsName) {
   const test::TemporaryFolder folder;
-  const std::string sim = kSample + "sim.json", csv = kSample + "test.csv", out = folder / "out";
+  const std::string sim = kSampleFolder + "sim.json", csv = kSampleFolder + "test.csv",
+                    out = folder / "out";
   expect_words(
       refusal("sim", {"--config", sim, "--out", out}),
       {"sim.json: is a simulator", "--config needs a scene to simulate", "--sim with --motion"});
@@ -50,7 +52,7 @@ TEST(FileOfAnotherKind, IsCalledByItsName) {
 
 TEST(NumberOutOfRange, IsRefusedWithItsBounds) {
   const test::TemporaryFolder folder;
-  const std::string sim = kSample + "sim.json", key = folder / "key";
+  const std::string sim = kSampleFolder + "sim.json", key = folder / "key";
   ASSERT_EQ(test::run("run", {"--make-key", key}).exit_code, 0);
   expect_words(
       refusal("run", {"--model", sim, "--listen", "99999", "--peer", "5302", "--key-file", key}),
@@ -62,11 +64,11 @@ TEST(NumberOutOfRange, IsRefusedWithItsBounds) {
                {"port 65536 is not between 1 and 65535"});
   expect_words(refusal("run", {"--model", sim, "--stdin", "--average", "17"}),
                {"--average", "17 is not between 1 and 16"});
-  expect_words(refusal("predict", {sim, "--data", kSample + "test.csv", "--out", folder / "o.csv",
-                                   "--seed", "-1"}),
+  expect_words(refusal("predict", {sim, "--data", kSampleFolder + "test.csv", "--out",
+                                   folder / "o.csv", "--seed", "-1"}),
                {"--seed", "-1"});
-  expect_words(refusal("predict", {sim, "--data", kSample + "test.csv", "--out", folder / "o.csv",
-                                   "--resample", "1e12"}),
+  expect_words(refusal("predict", {sim, "--data", kSampleFolder + "test.csv", "--out",
+                                   folder / "o.csv", "--resample", "1e12"}),
                {"--resample", "1e12 is not between 0 and 1000000"});
 }
 
@@ -79,7 +81,7 @@ TEST(MistypedOption, IsNamedBeforeAnythingElse) {
 
 TEST(JsonAlone, IsOneDocumentOnStandardOutput) {
   const test::TemporaryFolder folder;
-  const std::string sim = kSample + "sim.json", csv = kSample + "test.csv",
+  const std::string sim = kSampleFolder + "sim.json", csv = kSampleFolder + "test.csv",
                     model = folder / "m.dcnn";
   const std::vector<std::pair<std::string, std::vector<std::string>>> commands{
       {"sim", {"--config", kConfigs + "sim/static.json", "--out", folder / "static"}},

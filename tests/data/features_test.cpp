@@ -19,8 +19,6 @@ using testing::three;
 using testing::with_quaternions;
 using Set = FeatureSpec::Set;
 
-constexpr double kPi = std::numbers::pi;
-
 FeatureSpec spec_of(Set set) {
   FeatureSpec spec;
   spec.set = set;
@@ -97,7 +95,7 @@ TEST(Features, BodyTurnsWithTheMounting) {
 Recording singular_recording() {
   Recording recording = sine_recording(300);
   Eigen::VectorXd gamma = 0.5 * (3.0 * recording.column("t").array()).sin();
-  recording.set("beta", Eigen::VectorXd::Constant(300, -kPi / 2));
+  recording.set("beta", Eigen::VectorXd::Constant(300, -std::numbers::pi / 2));
   recording.set("alpha", Eigen::VectorXd::Constant(300, 0.4));
   recording.set("gamma", gamma);
   return recording;
@@ -146,8 +144,8 @@ TEST(Features, StartOnTheBranchOfTheTrainingRecording) {
   const Recording training = sine_recording(300);
   const FeatureLayout layout = make_layout({training}, {}, {});
   Recording other = training;
-  other.set("gamma", (training.column("gamma").array() - 2.0 * kPi).matrix());
-  other.set("alpha", (training.column("alpha").array() + 4.0 * kPi).matrix());
+  other.set("gamma", (training.column("gamma").array() - 2.0 * std::numbers::pi).matrix());
+  other.set("alpha", (training.column("alpha").array() + 4.0 * std::numbers::pi).matrix());
   EXPECT_LT(largest(make_features(other, layout).x - make_features(training, layout).x), 1e-8);
 }
 

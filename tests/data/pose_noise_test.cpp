@@ -22,7 +22,7 @@ FeatureLayout layout_of(const Recording& recording, Set set, Kind kind = Kind::k
   return make_layout({recording}, spec, {});
 }
 
-double largest(const Eigen::MatrixXd& m) { return m.cwiseAbs().maxCoeff(); }
+double largest_entry(const Eigen::MatrixXd& m) { return m.cwiseAbs().maxCoeff(); }
 
 /// Two stretches, as after a gap: derivatives of the noise must not cross it either.
 Recording two_stretches() {
@@ -41,8 +41,9 @@ TEST(PoseNoise, IsTheChangeOfTheFeaturesWhenThePoseIsPerturbed) {
     const Eigen::MatrixXd moved =
         make_features(with_pose_noise(recording, layout, scale, 5), layout).x;
     const Eigen::MatrixXd noise = scale * pose_noise(recording, layout, 5);
-    EXPECT_LT(largest(clean + noise - moved), 1e-7 * largest(noise)) << static_cast<int>(kind);
-    EXPECT_GT(largest(noise.leftCols<3>()), 1e-5);
+    EXPECT_LT(largest_entry(clean + noise - moved), 1e-7 * largest_entry(noise))
+        << static_cast<int>(kind);
+    EXPECT_GT(largest_entry(noise.leftCols<3>()), 1e-5);
   }
 }
 
@@ -78,8 +79,8 @@ TEST(PoseNoise, RatesThatAreLoggedCarryNone) {
   for (const char* name : {"vx", "vy", "vz"}) recording.set(name, Eigen::VectorXd::Ones(300));
   const FeatureLayout layout = layout_of(recording, Set::kPose);
   const Eigen::MatrixXd noise = pose_noise(recording, layout, 1);
-  EXPECT_EQ(largest(noise.middleCols<3>(3)), 0.0);
-  EXPECT_GT(largest(noise.middleCols<3>(6)), 0.0);
+  EXPECT_EQ(largest_entry(noise.middleCols<3>(3)), 0.0);
+  EXPECT_GT(largest_entry(noise.middleCols<3>(6)), 0.0);
 }
 
 TEST(PoseNoise, MovesQuaternionsAsItMovesEulerAngles) {
@@ -88,8 +89,8 @@ TEST(PoseNoise, MovesQuaternionsAsItMovesEulerAngles) {
   const auto body = [&](const Recording& recording) {
     return make_features(with_pose_noise(recording, layout, 1e-3, 4), layout).x;
   };
-  EXPECT_LT(largest(body(euler) - body(quaternion)), 1e-6);
-  EXPECT_GT(largest(body(euler) - make_features(euler, layout).x), 1e-3);
+  EXPECT_LT(largest_entry(body(euler) - body(quaternion)), 1e-6);
+  EXPECT_GT(largest_entry(body(euler) - make_features(euler, layout).x), 1e-3);
 }
 
 TEST(PoseNoise, TheModelFileHoldsItsPower) {

@@ -14,18 +14,18 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-constexpr double kPi = std::numbers::pi;
 
 TEST(Rotation, EulerAnglesComeBack) {
   Rng rng(1);
   for (int k = 0; k < 1000; ++k) {
-    const Vector3d euler(rng.uniform(-kPi, kPi), rng.uniform(-1.57, 1.57), rng.uniform(-kPi, kPi));
+    const Vector3d euler(rng.uniform(-std::numbers::pi, std::numbers::pi), rng.uniform(-1.57, 1.57),
+                         rng.uniform(-std::numbers::pi, std::numbers::pi));
     EXPECT_LT((euler_from_rotation(rotation_from_euler(euler)) - euler).norm(), 1e-11);
   }
 }
 
 TEST(Rotation, SingularPitchKeepsTheRotation) {
-  for (const double beta : {-kPi / 2, kPi / 2}) {
+  for (const double beta : {-std::numbers::pi / 2, std::numbers::pi / 2}) {
     const Matrix3d R = rotation_from_euler({0.4, beta, -0.9});
     const Vector3d euler = euler_from_rotation(R);
     EXPECT_EQ(euler[2], 0.0);
@@ -39,7 +39,7 @@ TEST(Rotation, UnwrapTakesTheShortWayAroundPi) {
   const Eigen::MatrixXd wrapped = angles;
   unwrap(angles);
   for (Index i = 1; i < 5; ++i) {
-    EXPECT_LT((angles.row(i) - angles.row(i - 1)).cwiseAbs().maxCoeff(), kPi);
+    EXPECT_LT((angles.row(i) - angles.row(i - 1)).cwiseAbs().maxCoeff(), std::numbers::pi);
   }
   EXPECT_LT((angles.array().sin() - wrapped.array().sin()).abs().maxCoeff(), 1e-14);
   EXPECT_LT((angles.array().cos() - wrapped.array().cos()).abs().maxCoeff(), 1e-14);

@@ -12,7 +12,7 @@ using testing::sine_recording;
 using testing::with_quaternions;
 using Set = FeatureSpec::Set;
 
-FeatureLayout layout_of(const Recording& recording, Set set, DerivativeSpec::Kind kind) {
+FeatureLayout streamed_layout(const Recording& recording, Set set, DerivativeSpec::Kind kind) {
   FeatureSpec spec;
   spec.set = set;
   spec.derivative.kind = kind;
@@ -47,7 +47,7 @@ TEST(StreamingFeatures, AreThoseOfTheWholeRecording) {
   for (double& angle : gamma) angle = std::remainder(angle, 2.0 * 3.141592653589793);
   recording.set("gamma", gamma);
   for (const Set set : {Set::kPose, Set::kBody}) {
-    const auto layout = layout_of(recording, set, DerivativeSpec::Kind::kCausalSavitzkyGolay);
+    const auto layout = streamed_layout(recording, set, DerivativeSpec::Kind::kCausalSavitzkyGolay);
     expect_same(recording, layout, false);
     expect_same(with_quaternions(recording), layout, true);
   }
@@ -55,7 +55,7 @@ TEST(StreamingFeatures, AreThoseOfTheWholeRecording) {
 
 TEST(StreamingFeatures, RefuseDerivativesThatLookAhead) {
   const Recording recording = sine_recording(200);
-  const auto layout = layout_of(recording, Set::kPose, DerivativeSpec::Kind::kSavitzkyGolay);
+  const auto layout = streamed_layout(recording, Set::kPose, DerivativeSpec::Kind::kSavitzkyGolay);
   EXPECT_TRUE(testing::contains(
       testing::error_of([&] { StreamingFeatures stream(layout); }, Exit::kUsage), "--online"));
 }

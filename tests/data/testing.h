@@ -12,6 +12,8 @@
 
 namespace dcnn::testing {
 
+using namespace ::testing;  // `testing::` in dcnn still names GoogleTest where this file is included
+
 /// Writes a file into a folder of this process and gives its path.
 inline std::filesystem::path temporary_file(const std::string& name, const std::string& text) {
   const auto folder =

@@ -15,7 +15,7 @@
 namespace dcnn {
 namespace {
 
-constexpr double kRate = 250.0, kNoise = 0.05, kInertia = 3.0;
+constexpr double kAxisRate = 250.0, kAxisNoise = 0.05, kInertia = 3.0;
 
 struct State {
   double t, q, v, a;
@@ -44,17 +44,17 @@ void write_log(const std::filesystem::path& path, double begin, const Law& law,
   table.columns = {"t", "pos", "vel", "acc", "torque", "simulated"};
   table.values.resize(kSamples, 6);
   for (Index k = 0; k < kSamples; ++k) {
-    const State s = state_at(begin + static_cast<double>(k) / kRate);
-    const double torque = kInertia * s.a + law(s) + kNoise * rng.normal();
+    const State s = state_at(begin + static_cast<double>(k) / kAxisRate);
+    const double torque = kInertia * s.a + law(s) + kAxisNoise * rng.normal();
     table.values.row(k) << s.t, s.q, s.v, s.a, torque, kInertia * s.a;
   }
   write_csv(path, table);
 }
 
 /// One axis with a hidden law, in a folder of its own.
-class Bench {
+class AxisBench {
  public:
-  explicit Bench(const Law& law) {
+  explicit AxisBench(const Law& law) {
     write_log(folder_ / "fit.csv", 0.0, law, 1);
     write_log(folder_ / "hold.csv", 25.0, law, 2);
   }
@@ -95,19 +95,19 @@ double number(const Json& finding, const char* name, const char* unit) {
 }
 
 TEST(DiagnoseAxes, SaysThatNothingIsMissing) {
-  const Json report = Bench([](const State&) { return 0.0; }).diagnose(one_axis()).report;
+  const Json report = AxisBench([](const State&) { return 0.0; }).diagnose(one_axis()).report;
   EXPECT_EQ(report["verdict"], "consistent") << report["findings"].dump(1);
   EXPECT_EQ(report["targets"], Json::array({"torque"}));
   EXPECT_EQ(report["units"], Json::array({"N*m"}));
-  EXPECT_NEAR(report["fit"]["noise_floor"][0].get<double>(), kNoise, 0.005);
-  EXPECT_NEAR(report["fit"]["holdout_rmse_after"][0].get<double>(), kNoise, 0.003);
+  EXPECT_NEAR(report["fit"]["noise_floor"][0].get<double>(), kAxisNoise, 0.005);
+  EXPECT_NEAR(report["fit"]["holdout_rmse_after"][0].get<double>(), kAxisNoise, 0.003);
 }
 
 // What was found in other recordings is part of the simulator: the new difference alone is named.
 TEST(DiagnoseAxes, TakesACorrectedSimulator) {
   const auto friction = [](const State& s) { return 0.8 * std::tanh(s.v / 0.01); };
-  const Json model = Bench(friction).diagnose(one_axis()).model;
-  const Bench later([&](const State& s) { return friction(s) + 1.5 * (s.q - 0.1); });
+  const Json model = AxisBench(friction).diagnose(one_axis()).model;
+  const AxisBench later([&](const State& s) { return friction(s) + 1.5 * (s.q - 0.1); });
   const Diagnosis diagnosis = later.diagnose(model);
   const Json& report = diagnosis.report;
   ASSERT_EQ(report["findings"].size(), 1U) << report["findings"].dump(1);
@@ -119,11 +119,11 @@ TEST(DiagnoseAxes, TakesACorrectedSimulator) {
   EXPECT_EQ(both.axes[0].effects.size(), 2U);
   const Recording hold = read_recording(later / "hold.csv", ReadOptions(), both.system);
   const Eigen::VectorXd left = hold.column("torque") - predict_axes(both, hold).col(0);
-  EXPECT_LT(std::sqrt(left.squaredNorm() / double(left.size())), 1.05 * kNoise);
+  EXPECT_LT(std::sqrt(left.squaredNorm() / double(left.size())), 1.05 * kAxisNoise);
 }
 
 TEST(DiagnoseAxes, NamesDryFrictionAndAnOffsetWithTheirValues) {
-  const Bench bench([](const State& s) { return 0.8 * std::tanh(s.v / 0.01) - 0.3; });
+  const AxisBench bench([](const State& s) { return 0.8 * std::tanh(s.v / 0.01) - 0.3; });
   const Diagnosis diagnosis = bench.diagnose(one_axis());
   const Json& report = diagnosis.report;
   EXPECT_EQ(report["verdict"], "explained") << report.dump(1);
@@ -134,7 +134,7 @@ TEST(DiagnoseAxes, NamesDryFrictionAndAnOffsetWithTheirValues) {
   EXPECT_NEAR(number(*dry, "fc", "N*m"), 0.8, 0.02);
   EXPECT_NEAR(number(*dry, "v0", "rad/s"), 0.01, 0.01);
   EXPECT_NEAR(number(*offset, "delta_bias", "N*m"), -0.3, 0.02);
-  EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 1.05 * kNoise);
+  EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 1.05 * kAxisNoise);
   EXPECT_GT(report["fit"]["holdout_rmse_before"][0].get<double>(), 0.5);
 
   // model.json alone says what the report's prediction file says.
@@ -149,7 +149,7 @@ TEST(DiagnoseAxes, NamesDryFrictionAndAnOffsetWithTheirValues) {
 
 // The same machine logged in another unit of length, or a thousandth of its size: the same name.
 TEST(DiagnoseAxes, NamesTheSameInEveryUnit) {
-  const Bench bench([](const State& s) { return 0.8 * std::tanh(s.v / 0.01) + 0.9 * s.v; });
+  const AxisBench bench([](const State& s) { return 0.8 * std::tanh(s.v / 0.01) + 0.9 * s.v; });
   for (const double unit : {1e-3, 1e3}) {
     for (const char* file : {"fit.csv", "hold.csv"}) {
       Table table = read_csv(bench / file);
@@ -168,7 +168,7 @@ TEST(DiagnoseAxes, NamesTheSameInEveryUnit) {
 }
 
 TEST(DiagnoseAxes, NamesACubicSpring) {
-  const Bench bench([](const State& s) { return 0.6 * s.q + 2.0 * s.q * s.q * s.q; });
+  const AxisBench bench([](const State& s) { return 0.6 * s.q + 2.0 * s.q * s.q * s.q; });
   const Json report =
       bench.diagnose(one_axis({{"base", {"acceleration", "velocity", "position"}}})).report;
   ASSERT_EQ(report["findings"].size(), 1U) << report["findings"].dump(1);
@@ -178,7 +178,7 @@ TEST(DiagnoseAxes, NamesACubicSpring) {
 }
 
 TEST(DiagnoseAxes, ComparesWithASimulatorsColumn) {
-  const Bench bench([](const State& s) { return 0.1 * kInertia * s.a + 0.4 * s.v; });
+  const AxisBench bench([](const State& s) { return 0.1 * kInertia * s.a + 0.4 * s.v; });
   Json system = one_axis({{"simulated", "simulated"}, {"scale", -2.0}, {"unit", "A"}});
   for (const char* file : {"fit.csv", "hold.csv"}) {  // logged with another sign and scale
     Table table = read_csv(bench / file);
@@ -197,30 +197,31 @@ TEST(DiagnoseAxes, ComparesWithASimulatorsColumn) {
 }
 
 TEST(DiagnoseAxes, DoesNotNameWhatItDoesNotKnow) {
-  const Json report = Bench([](const State& s) { return 0.7 * std::sin(3.0 * s.q) * s.v * s.a; })
-                          .diagnose(one_axis())
-                          .report;
+  const Json report =
+      AxisBench([](const State& s) { return 0.7 * std::sin(3.0 * s.q) * s.v * s.a; })
+          .diagnose(one_axis())
+          .report;
   EXPECT_TRUE(report["verdict"] == "unexplained" || report["verdict"] == "partly-explained")
       << report["verdict"];
   EXPECT_GT(report["unnamed"]["excess_rms"][0].get<double>(), 0.05);
 }
 
 TEST(DiagnoseAxes, LowPassesBothSidesAndShowsTheRawFiguresBeside) {
-  const Bench bench([](const State& s) { return 0.8 * std::tanh(s.v / 0.01); });
+  const AxisBench bench([](const State& s) { return 0.8 * std::tanh(s.v / 0.01); });
   Json system = one_axis();
   system["lowpass_hz"] = 10;
   const Json report = bench.diagnose(system).report;
   ASSERT_TRUE(find(report, "coulomb_friction")) << report["findings"].dump(1);
   const Json& fit = report["fit"];
   // White noise behind a filter of 10 Hz of 125: a quarter is left.
-  EXPECT_LT(fit["holdout_rmse_after"][0].get<double>(), 0.35 * kNoise);
-  EXPECT_NEAR(fit["unfiltered"]["holdout_rmse_after"][0].get<double>(), kNoise, 0.005);
-  EXPECT_NEAR(fit["noise_floor"][0].get<double>(), 0.28 * kNoise, 0.03 * kNoise);
+  EXPECT_LT(fit["holdout_rmse_after"][0].get<double>(), 0.35 * kAxisNoise);
+  EXPECT_NEAR(fit["unfiltered"]["holdout_rmse_after"][0].get<double>(), kAxisNoise, 0.005);
+  EXPECT_NEAR(fit["noise_floor"][0].get<double>(), 0.28 * kAxisNoise, 0.03 * kAxisNoise);
   EXPECT_EQ(report["lowpass_hz"], 10);
 }
 
 TEST(DiagnoseAxes, PutsAxesSideBySide) {
-  const Bench bench([](const State& s) { return 0.8 * std::tanh(s.v / 0.01); });
+  const AxisBench bench([](const State& s) { return 0.8 * std::tanh(s.v / 0.01); });
   Json system = one_axis();
   Json second = system["axes"][0];
   second["name"] = "still";
@@ -230,7 +231,7 @@ TEST(DiagnoseAxes, PutsAxesSideBySide) {
   for (const char* file : {"fit.csv", "hold.csv"}) {
     Table table = read_csv(bench / file);
     Rng rng({7u});
-    for (double& v : table.values.col(5)) v += kNoise * rng.normal();
+    for (double& v : table.values.col(5)) v += kAxisNoise * rng.normal();
     write_csv(bench / file, table);
   }
   const Diagnosis diagnosis = bench.diagnose(system);
@@ -241,7 +242,7 @@ TEST(DiagnoseAxes, PutsAxesSideBySide) {
   EXPECT_EQ(diagnosis.holdout.front().after.cols(), 2);
 }
 
-std::string refusal(const Bench& bench, const Json& system) {
+std::string refusal(const AxisBench& bench, const Json& system) {
   try {
     bench.diagnose(system);
   } catch (const Error& error) {
@@ -254,7 +255,7 @@ std::string refusal(const Bench& bench, const Json& system) {
 }
 
 TEST(DiagnoseAxes, RefusesBadDescriptionsInOneLine) {
-  const Bench bench([](const State&) { return 0.0; });
+  const AxisBench bench([](const State&) { return 0.0; });
   const auto says = [&](const Json& system, const char* what) {
     EXPECT_NE(refusal(bench, system).find(what), std::string::npos) << refusal(bench, system);
   };

@@ -5,7 +5,7 @@
 namespace dcnn {
 namespace {
 
-double largest_error(const Model& model, const Samples& samples) {
+double largest_axis_error(const Model& model, const Samples& samples) {
   return (model.predict(samples) - samples.y).cwiseAbs().maxCoeff();
 }
 
@@ -41,12 +41,12 @@ TEST(Axes, EveryTargetSeesEveryAxis) {
   samples.segments = {{0, 500}};
   problem.configuration = {{"noise", {{"levels_db", Json::array({nullptr})}}}};
   const auto rigid = test::fitted("rigid", {problem, samples});
-  EXPECT_LT(largest_error(*rigid, samples), 1e-9);
+  EXPECT_LT(largest_axis_error(*rigid, samples), 1e-9);
   EXPECT_EQ(rigid->parameter_count(), 2 * (2 * 3 + 4 + 1 + 1));
   samples.y.col(0) = 2.0 * x(0).sin() + 0.5 * x(4);
   samples.y.col(1) = 1.5 * x(4).cos() - x(0);
   const auto cf = test::fitted("cf", {problem, samples});
-  EXPECT_LT(largest_error(*cf, samples), 1e-9);
+  EXPECT_LT(largest_axis_error(*cf, samples), 1e-9);
   EXPECT_EQ(cf->parameter_count(), 2 * 7);
 }
 

@@ -114,8 +114,8 @@ TEST_P(HostileNumbers, AreRefusedOrBounded) {
     if (text.empty() || text[0] != '{' || key == "configuration") continue;
     Container file = whole;
     Json json = Json::parse(text);
-    each_wrong(json, key, [&](const std::string& change) {
-      file.metadata[key] = json.dump();
+    each_wrong(json, key, [&, &part = file.metadata[key]](const std::string& change) {
+      part = json.dump();
       judge(file, change);
     });
   }

@@ -11,20 +11,20 @@
 namespace dcnn {
 namespace {
 
-constexpr Index kRows = 6000;
+constexpr Index kMixtureRows = 6000;
 const std::vector<Index> kLengths{8, 24, 64, 128};
 
 /// Three sines of unit spread, of 0.4 to 0.7 Hz at 500 Hz.
 Samples sines(double phase) {
   Samples s;
-  s.x.resize(kRows, 3);
-  for (Index i = 0; i < kRows; ++i) {
+  s.x.resize(kMixtureRows, 3);
+  for (Index i = 0; i < kMixtureRows; ++i) {
     for (Index j = 0; j < 3; ++j) {
       const double w = 0.005 + 0.002 * static_cast<double>(j);
       s.x(i, j) = std::sqrt(2.0) * std::sin(w * static_cast<double>(i) + phase);
     }
   }
-  s.segments = {{0, kRows}};
+  s.segments = {{0, kMixtureRows}};
   return s;
 }
 
@@ -73,10 +73,10 @@ TEST(LineMixture, IsAtEveryLevelAsGoodAsTheBestWindow) {
     double best = 1e9;
     for (const Index length : kLengths) {
       lines.push_back(line_filtered(noisy, begins, length));
-      best = std::min(best, rms((lines.back() - test.x).bottomRows(kRows - 200)));
+      best = std::min(best, rms((lines.back() - test.x).bottomRows(kMixtureRows - 200)));
     }
     const Eigen::MatrixXd mixed = mixture.of(noisy, begins, lines);
-    EXPECT_LT(rms((mixed - test.x).bottomRows(kRows - 200)), 1.02 * best) << snr << " dB";
+    EXPECT_LT(rms((mixed - test.x).bottomRows(kMixtureRows - 200)), 1.02 * best) << snr << " dB";
   }
 }
 

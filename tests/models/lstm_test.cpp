@@ -2,6 +2,7 @@
 
 #include "dcnn/core/random.h"
 #include "dcnn/models/network_model.h"
+#include "models/support.h"
 
 namespace dcnn {
 namespace {
@@ -48,12 +49,6 @@ std::unique_ptr<Model> make_small(const Json& training = Json::object()) {
                {"noise", {{"levels_db", {nullptr, 20.0}}}}});
 }
 
-Container saved(const Model& model) {
-  Container file;
-  model.save(file);
-  return file;
-}
-
 double relative_error(const Model& model, const Samples& samples) {
   const Eigen::ArrayXd y = samples.y.col(0).array();
   const double error = (model.predict(samples).col(0).array() - y).square().mean();
@@ -85,7 +80,7 @@ TEST(LstmModel, LoadedModelPredictsTheSameBits) {
   const auto model = make_small();
   FitSession session;
   ASSERT_TRUE(model->fit(training, {}, session));
-  const Container file = decode(encode(saved(*model)), "memory");
+  const Container file = decode(encode(test::saved(*model)), "memory");
   const auto loaded = model_kind("lstm-25", Exit::kModel).load(file, "memory");
   EXPECT_EQ(file.metadata.at("model"), "lstm-25");
   EXPECT_EQ(loaded->predict(training), model->predict(training));
@@ -143,7 +138,8 @@ TEST(LstmModel, GoesOnFromAnyStepToTheSameWeights) {
     FitSession second;
     second.checkpoint = decode(encode(checkpoint), "memory");
     ASSERT_TRUE(resumed->fit(training, validation, second));
-    EXPECT_EQ(encode(saved(*resumed)), encode(saved(*whole))) << "stopped at step " << stop_at;
+    EXPECT_EQ(encode(test::saved(*resumed)), encode(test::saved(*whole)))
+        << "stopped at step " << stop_at;
   }
 }
 
@@ -188,7 +184,7 @@ TEST(Clip, ChangesTheTrainingOnlyWhereItActs) {
     const auto model = make_small({{"clip", clip}, {"epochs", 1}});
     FitSession session;
     model->fit(training, {}, session);
-    return encode(saved(*model));
+    return encode(test::saved(*model));
   };
   EXPECT_EQ(weights(0.0), weights(1e5));
   EXPECT_NE(weights(0.0), weights(1e-3));

@@ -6,7 +6,7 @@
 namespace dcnn {
 namespace {
 
-Samples draw_samples(Index rows, std::uint64_t seed) {
+Samples mlp_samples(Index rows, std::uint64_t seed) {
   Rng rng(seed);
   Samples samples;
   samples.x.resize(rows, 15);
@@ -18,7 +18,7 @@ Samples draw_samples(Index rows, std::uint64_t seed) {
   return samples;
 }
 
-std::unique_ptr<Model> make(const Json& model, Index epochs = 20) {
+std::unique_ptr<Model> make_mlp(const Json& model, Index epochs = 20) {
   Problem problem;
   problem.layout.names.assign(15, "x");
   problem.layout.units.assign(15, "");
@@ -32,18 +32,18 @@ std::unique_ptr<Model> make(const Json& model, Index epochs = 20) {
 }
 
 TEST(Mlp, HasSixtyFourUnitsOnTheInputsItIsGiven) {
-  EXPECT_EQ(make(Json::object())->parameter_count(), 16 * 64 + 65 * 3);
-  EXPECT_EQ(make({{"input", {{"kind", "window"}, {"length", 3}}}})->parameter_count(),
+  EXPECT_EQ(make_mlp(Json::object())->parameter_count(), 16 * 64 + 65 * 3);
+  EXPECT_EQ(make_mlp({{"input", {{"kind", "window"}, {"length", 3}}}})->parameter_count(),
             46 * 64 + 65 * 3);
-  EXPECT_EQ(make({{"input", {{"kind", "map"}}}})->parameter_count(), 76 * 64 + 65 * 3);
-  EXPECT_THROW(make({{"activation", "sine"}}), Error);
-  EXPECT_THROW(make({{"hiden", 3}}), Error);
+  EXPECT_EQ(make_mlp({{"input", {{"kind", "map"}}}})->parameter_count(), 76 * 64 + 65 * 3);
+  EXPECT_THROW(make_mlp({{"activation", "sine"}}), Error);
+  EXPECT_THROW(make_mlp({{"hiden", 3}}), Error);
 }
 
 TEST(Mlp, LearnsASmoothFunctionAndLoadsTheSameBits) {
-  const Samples training = draw_samples(2000, 1), test = draw_samples(300, 2);
+  const Samples training = mlp_samples(2000, 1), test = mlp_samples(300, 2);
   for (const char* activation : {"tanh", "relu"}) {
-    const auto model = make({{"activation", activation}});
+    const auto model = make_mlp({{"activation", activation}});
     FitSession session;
     ASSERT_TRUE(model->fit(training, {}, session));
     const Eigen::MatrixXd predicted = model->predict(test);

@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "dcnn/core/random.h"
+#include "models/support.h"
 
 namespace dcnn {
 namespace {
 
-Samples draw_samples(Index rows, std::uint64_t seed) {
+Samples network_samples(Index rows, std::uint64_t seed) {
   Rng rng(seed);
   Samples samples;
   samples.x.resize(rows, 15);
@@ -21,7 +22,7 @@ Samples draw_samples(Index rows, std::uint64_t seed) {
   return samples;
 }
 
-Problem problem(const Json& configuration, std::uint64_t seed) {
+Problem network_problem(const Json& configuration, std::uint64_t seed) {
   Problem result;
   for (int j = 0; j < 15; ++j) result.layout.names.push_back("x" + std::to_string(j));
   result.layout.units.assign(15, "");
@@ -32,32 +33,26 @@ Problem problem(const Json& configuration, std::uint64_t seed) {
   return result;
 }
 
-std::unique_ptr<Model> make(const Json& patch = Json::object(), std::uint64_t seed = 1) {
+std::unique_ptr<Model> make_network(const Json& patch = Json::object(), std::uint64_t seed = 1) {
   Json configuration = model_kind("dcnn", Exit::kUsage).preset("quick", false);
   configuration["training"]["epochs"] = 6;
   configuration["model"]["dropout"] = 0.1;
   configuration["model"]["padding"] = "valid";
   configuration["noise"] = {{"levels_db", Json::array({nullptr})}};
   for (const auto& [section, keys] : patch.items()) configuration[section].update(keys);
-  return model_kind("dcnn", Exit::kUsage).make(problem(configuration, seed));
+  return model_kind("dcnn", Exit::kUsage).make(network_problem(configuration, seed));
 }
 
-Eigen::VectorXd rmse(const Model& model, const Samples& samples) {
+Eigen::VectorXd rmse_of_targets(const Model& model, const Samples& samples) {
   return (model.predict(samples) - samples.y).array().square().colwise().mean().sqrt().transpose();
 }
 
-Container saved(const Model& model) {
-  Container file;
-  model.save(file);
-  return file;
-}
-
 TEST(NetworkModel, LearnsASmoothFunctionOfItsInputs) {
-  const Samples training = draw_samples(3000, 1), test = draw_samples(500, 2);
-  const auto model = make();
+  const Samples training = network_samples(3000, 1), test = network_samples(500, 2);
+  const auto model = make_network();
   FitSession session;
   ASSERT_TRUE(model->fit(training, {}, session));
-  const Eigen::VectorXd error = rmse(*model, test);
+  const Eigen::VectorXd error = rmse_of_targets(*model, test);
   for (Index j = 0; j < 3; ++j) {
     const double spread = std::sqrt((test.y.col(j).array() - test.y.col(j).mean()).square().mean());
     EXPECT_LT(error[j], 0.5 * spread) << "target " << j;
@@ -65,25 +60,25 @@ TEST(NetworkModel, LearnsASmoothFunctionOfItsInputs) {
 }
 
 TEST(NetworkModel, HasTheParameterCountsOfThePaper) {
-  EXPECT_EQ(make({{"model", {{"padding", "same"}}}})->parameter_count(), 14155);
-  EXPECT_EQ(make({{"model", {{"padding", "valid"}}}})->parameter_count(), 8011);
+  EXPECT_EQ(make_network({{"model", {{"padding", "same"}}}})->parameter_count(), 14155);
+  EXPECT_EQ(make_network({{"model", {{"padding", "valid"}}}})->parameter_count(), 8011);
 }
 
 TEST(NetworkModel, LoadedModelPredictsTheSameBits) {
-  const Samples training = draw_samples(500, 1);
+  const Samples training = network_samples(500, 1);
   for (const char* statistics : {"full", "running"}) {
-    const auto model = make({{"training", {{"statistics", statistics}, {"ema", 0.9}}}});
+    const auto model = make_network({{"training", {{"statistics", statistics}, {"ema", 0.9}}}});
     FitSession session;
     model->fit(training, {}, session);
-    const Container file = decode(encode(saved(*model)), "memory");
+    const Container file = decode(encode(test::saved(*model)), "memory");
     const auto loaded = model_kind("dcnn", Exit::kModel).load(file, "memory");
     EXPECT_EQ(loaded->predict(training), model->predict(training));
   }
 }
 
 TEST(NetworkModel, OneRowPredictsWhatItPredictsAmongOthers) {
-  const Samples training = draw_samples(700, 1);
-  const auto model = make();
+  const Samples training = network_samples(700, 1);
+  const auto model = make_network();
   FitSession session;
   model->fit(training, {}, session);
   const Eigen::MatrixXd all = model->predict(training);
@@ -94,8 +89,8 @@ TEST(NetworkModel, OneRowPredictsWhatItPredictsAmongOthers) {
 
 /// The leak of the paper's possible reading: five copies of a feature, each with noise of its own.
 TEST(NetworkModel, NoiseOnEveryEntryOfTheMapAveragesOut) {
-  const Samples training = draw_samples(3000, 1), test = draw_samples(500, 2);
-  const auto model = make();
+  const Samples training = network_samples(3000, 1), test = network_samples(500, 2);
+  const auto model = make_network();
   FitSession session;
   model->fit(training, {}, session);
   const auto& network = dynamic_cast<const NetworkModel&>(*model);
@@ -113,9 +108,9 @@ TEST(NetworkModel, NoiseOnEveryEntryOfTheMapAveragesOut) {
 /// Stops a training in the middle of an epoch and goes on in a new object from the checkpoint
 /// alone.
 TEST(NetworkModel, GoesOnFromAnyStepToTheSameWeights) {
-  const Samples training = draw_samples(600, 1), validation = draw_samples(200, 2);
+  const Samples training = network_samples(600, 1), validation = network_samples(200, 2);
   const Json patch = {{"training", {{"ema", 0.99}}}, {"noise", {{"levels_db", {nullptr, 20.0}}}}};
-  const auto whole = make(patch);
+  const auto whole = make_network(patch);
   FitSession session;
   ASSERT_TRUE(whole->fit(training, validation, session));
 
@@ -126,48 +121,50 @@ TEST(NetworkModel, GoesOnFromAnyStepToTheSameWeights) {
     first.stop_wanted = [&] { return steps == stop_at; };
     first.step_done = [&](Index, Index, Index, double) { ++steps; };
     first.save_checkpoint = [&](const Container& file) { checkpoint = file; };
-    ASSERT_FALSE(make(patch)->fit(training, validation, first));
+    ASSERT_FALSE(make_network(patch)->fit(training, validation, first));
 
-    const auto resumed = make(patch);
+    const auto resumed = make_network(patch);
     FitSession second;
     second.checkpoint = decode(encode(checkpoint), "memory");
     ASSERT_TRUE(resumed->fit(training, validation, second));
-    EXPECT_EQ(encode(saved(*resumed)), encode(saved(*whole))) << "stopped at step " << stop_at;
+    EXPECT_EQ(encode(test::saved(*resumed)), encode(test::saved(*whole)))
+        << "stopped at step " << stop_at;
   }
 }
 
 TEST(NetworkModel, KeepsTheEpochWithTheLeastValidationError) {
-  const Samples training = draw_samples(600, 1), validation = draw_samples(200, 2);
-  const auto model = make();
+  const Samples training = network_samples(600, 1), validation = network_samples(200, 2);
+  const auto model = make_network();
   FitSession session;
   double least = 1e9;
   Eigen::VectorXd of_best;
   session.epoch_done = [&](const EpochRecord& record) {
-    if (record.best) of_best = rmse(*model, validation);
+    if (record.best) of_best = rmse_of_targets(*model, validation);
     double sum = 0.0;
     for (const double value : record.validation_rmse) sum += value;
     least = std::min(least, sum);
   };
   model->fit(training, validation, session);
-  EXPECT_EQ(rmse(*model, validation), of_best);
+  EXPECT_EQ(rmse_of_targets(*model, validation), of_best);
 }
 
 TEST(NetworkModel, StatisticsComeFromTheTrainingRowsAlone) {
-  const Samples training = draw_samples(600, 1);
-  Samples validation = draw_samples(200, 2);
-  const auto first = make(), second = make();
+  const Samples training = network_samples(600, 1);
+  Samples validation = network_samples(200, 2);
+  const auto first = make_network(), second = make_network();
   FitSession session;
   first->fit(training, validation, session);
   validation.x *= 3.0;
   second->fit(training, validation, session);
-  EXPECT_EQ(saved(*first).metadata["map"], saved(*second).metadata["map"]);
-  EXPECT_EQ(saved(*first).metadata["target_scale"], saved(*second).metadata["target_scale"]);
+  EXPECT_EQ(test::saved(*first).metadata["map"], test::saved(*second).metadata["map"]);
+  EXPECT_EQ(test::saved(*first).metadata["target_scale"],
+            test::saved(*second).metadata["target_scale"]);
 }
 
 TEST(NetworkModel, ValidPaddingNeedsRoomAndSaysSo) {
   Json configuration = model_kind("dcnn", Exit::kUsage).preset("quick", false);
   configuration["model"]["padding"] = "valid";
-  Problem small = problem(configuration, 1);
+  Problem small = network_problem(configuration, 1);
   small.layout.names.resize(4);
   try {
     model_kind("dcnn", Exit::kUsage).make(small);
@@ -179,9 +176,9 @@ TEST(NetworkModel, ValidPaddingNeedsRoomAndSaysSo) {
 }
 
 TEST(NetworkModel, DivergenceIsAnErrorNotANaN) {
-  Samples training = draw_samples(200, 1);
+  Samples training = network_samples(200, 1);
   training.y *= 1e30;
-  const auto model = make({{"training", {{"lr", 1e3}, {"standardise_targets", false}}}});
+  const auto model = make_network({{"training", {{"lr", 1e3}, {"standardise_targets", false}}}});
   FitSession session;
   EXPECT_THROW(model->fit(training, {}, session), Error);
 }

@@ -3,14 +3,15 @@
 
 #include "dcnn/core/random.h"
 #include "dcnn/models/model.h"
+#include "models/support.h"
 
 namespace dcnn {
 namespace {
 
-const std::vector<std::pair<std::string, Index>> kKinds{
+const std::vector<std::pair<std::string, Index>> kShallowKinds{
     {"ffnn-s", 383}, {"ffnn-m", 225}, {"cfnn-s", 428}, {"cfnn-m", 387}};
 
-Samples draw_samples(Index rows, std::uint64_t seed) {
+Samples shallow_samples(Index rows, std::uint64_t seed) {
   Rng rng(seed);
   Samples samples;
   samples.x.resize(rows, 15);
@@ -26,7 +27,7 @@ Samples draw_samples(Index rows, std::uint64_t seed) {
   return samples;
 }
 
-Problem problem(const std::string& kind, const Json& patch) {
+Problem shallow_problem(const std::string& kind, const Json& patch) {
   Problem result;
   result.layout.names = {"alpha", "beta", "gamma"};
   for (int j = 3; j < 15; ++j) result.layout.names.push_back("rate" + std::to_string(j));
@@ -41,25 +42,19 @@ Problem problem(const std::string& kind, const Json& patch) {
   return result;
 }
 
-std::unique_ptr<Model> make(const std::string& kind, const Json& patch = Json::object()) {
-  return model_kind(kind, Exit::kUsage).make(problem(kind, patch));
+std::unique_ptr<Model> make_shallow(const std::string& kind, const Json& patch = Json::object()) {
+  return model_kind(kind, Exit::kUsage).make(shallow_problem(kind, patch));
 }
 
 std::unique_ptr<Model> fitted(const std::string& kind, const Samples& training,
                               const Json& patch = Json::object()) {
-  auto model = make(kind, patch);
+  auto model = make_shallow(kind, patch);
   FitSession session;
   EXPECT_TRUE(model->fit(training, {}, session));
   return model;
 }
 
-Container saved(const Model& model) {
-  Container file;
-  model.save(file);
-  return file;
-}
-
-std::string bytes_of(const Model& model) { return encode(saved(model)); }
+std::string bytes_of(const Model& model) { return encode(test::saved(model)); }
 
 /// The message of the Error with this exit that `act` ends with.
 template <class Act>
@@ -75,12 +70,13 @@ std::string error_of(Exit exit, const Act& act) {
 }
 
 TEST(ShallowModel, HasTheParameterCountsOfThePaper) {
-  for (const auto& [kind, count] : kKinds) EXPECT_EQ(make(kind)->parameter_count(), count) << kind;
+  for (const auto& [kind, count] : kShallowKinds)
+    EXPECT_EQ(make_shallow(kind)->parameter_count(), count) << kind;
 }
 
 TEST(ShallowModel, LearnsASmoothFunctionOfItsInputs) {
-  const Samples training = draw_samples(1000, 1), test = draw_samples(500, 2);
-  for (const auto& [kind, count] : kKinds) {
+  const Samples training = shallow_samples(1000, 1), test = shallow_samples(500, 2);
+  for (const auto& [kind, count] : kShallowKinds) {
     const auto model = fitted(kind, training, {{"training", {{"epochs", 25}}}});
     const Eigen::MatrixXd error = (model->predict(test) - test.y).bottomRows(498);
     const Eigen::MatrixXd centred = test.y.bottomRows(498).rowwise() - test.y.colwise().mean();
@@ -90,7 +86,7 @@ TEST(ShallowModel, LearnsASmoothFunctionOfItsInputs) {
 
 /// Spec 11: where the target is linear, the cascade's direct path is the least-squares optimum.
 TEST(ShallowModel, ReachesTheLeastSquaresOptimumOfALinearTarget) {
-  Samples training = draw_samples(500, 1);
+  Samples training = shallow_samples(500, 1);
   training.y = training.x * Eigen::MatrixXd::Random(15, 3);
   for (const char* kind : {"cfnn-s", "cfnn-m"}) {
     const auto model = fitted(kind, training, {{"training", {{"epochs", 60}}}});
@@ -99,8 +95,8 @@ TEST(ShallowModel, ReachesTheLeastSquaresOptimumOfALinearTarget) {
 }
 
 TEST(ShallowModel, LoadedModelPredictsTheSameBits) {
-  const Samples training = draw_samples(300, 1);
-  for (const auto& [kind, count] : kKinds) {
+  const Samples training = shallow_samples(300, 1);
+  for (const auto& [kind, count] : kShallowKinds) {
     const auto model = fitted(kind, training);
     const auto loaded =
         model_kind(kind, Exit::kModel).load(decode(bytes_of(*model), "memory"), "memory");
@@ -111,7 +107,7 @@ TEST(ShallowModel, LoadedModelPredictsTheSameBits) {
 }
 
 TEST(ShallowModel, OneRowPredictsWhatItPredictsAmongOthers) {
-  const Samples training = draw_samples(300, 1);
+  const Samples training = shallow_samples(300, 1);
   const auto model = fitted("cfnn-m", training);
   const Eigen::MatrixXd all = model->predict(training);
   for (const Index row : {0, 12, 13, 150, 299}) {
@@ -120,10 +116,10 @@ TEST(ShallowModel, OneRowPredictsWhatItPredictsAmongOthers) {
 }
 
 TEST(ShallowModel, KeepsTheEpochWithTheLeastLossOnItsValidationRows) {
-  Samples training = draw_samples(260, 1);
+  Samples training = shallow_samples(260, 1);
   Rng rng(9);
   for (double& value : training.y.reshaped()) value += rng.normal();  // to be overfitted
-  const auto model = make("ffnn-s", {{"training", {{"epochs", 30}}}});
+  const auto model = make_shallow("ffnn-s", {{"training", {{"epochs", 30}}}});
   FitSession session;
   Eigen::MatrixXd of_best;
   Index best = 0, last = 0;
@@ -139,9 +135,9 @@ TEST(ShallowModel, KeepsTheEpochWithTheLeastLossOnItsValidationRows) {
 }
 
 TEST(ShallowModel, GoesOnFromAnyEpochToTheSameWeights) {
-  const Samples training = draw_samples(400, 1), validation = draw_samples(100, 2);
+  const Samples training = shallow_samples(400, 1), validation = shallow_samples(100, 2);
   const Json patch = {{"noise", {{"levels_db", {nullptr, 20.0}}}}};
-  const auto whole = make("ffnn-m", patch);
+  const auto whole = make_shallow("ffnn-m", patch);
   FitSession session;
   std::vector<EpochRecord> records;
   session.epoch_done = [&](const EpochRecord& record) { records.push_back(record); };
@@ -153,9 +149,9 @@ TEST(ShallowModel, GoesOnFromAnyEpochToTheSameWeights) {
     first.stop_wanted = [&] { return steps == stop_at; };
     first.step_done = [&](Index, Index, Index, double) { ++steps; };
     first.save_checkpoint = [&](const Container& file) { checkpoint = file; };
-    ASSERT_FALSE(make("ffnn-m", patch)->fit(training, validation, first));
+    ASSERT_FALSE(make_shallow("ffnn-m", patch)->fit(training, validation, first));
 
-    const auto resumed = make("ffnn-m", patch);
+    const auto resumed = make_shallow("ffnn-m", patch);
     FitSession second;
     second.checkpoint = decode(encode(checkpoint), "memory");
     second.epoch_done = [&](const EpochRecord& record) {
@@ -170,12 +166,12 @@ TEST(ShallowModel, GoesOnFromAnyEpochToTheSameWeights) {
 }
 
 TEST(ShallowModel, ConstantInputsAreLeftOut) {
-  Samples training = draw_samples(300, 1);
+  Samples training = shallow_samples(300, 1);
   training.x.col(4).setConstant(0.7);
   training.x.col(9).setConstant(1e-9);
   const auto model = fitted("ffnn-s", training);
   EXPECT_EQ(model->parameter_count(), 383 - 2 * 20);
-  const auto loaded = model_kind("ffnn-s", Exit::kModel).load(saved(*model), "memory");
+  const auto loaded = model_kind("ffnn-s", Exit::kModel).load(test::saved(*model), "memory");
   Samples moved = training;
   moved.x.col(4).array() += 1.0;
   EXPECT_EQ(loaded->predict(moved), model->predict(training));
@@ -187,7 +183,7 @@ TEST(ShallowModel, ConstantInputsAreLeftOut) {
 
 /// Spec 2.3: 15 % of the rows are neither trained on nor looked at; in blocks they are the last.
 TEST(ShallowModel, UnusedRowsAreNotLookedAt) {
-  const Samples training = draw_samples(200, 1);
+  const Samples training = shallow_samples(200, 1);
   Samples changed = training;
   changed.y.bottomRows(30).setZero();
   const Json blocks = {{"training", {{"division", "blocks"}}}};
@@ -201,10 +197,10 @@ TEST(ShallowModel, UnusedRowsAreNotLookedAt) {
 
 /// As the networks of Adam: all training rows, and the run's own validation rows to stop by.
 TEST(ShallowModel, HeldOutRowsMayDecideTheStop) {
-  Samples training = draw_samples(200, 1), validation = draw_samples(60, 2);
+  Samples training = shallow_samples(200, 1), validation = shallow_samples(60, 2);
   const Json held_out = {{"training", {{"division", "held-out"}, {"epochs", 40}}}};
   const auto trained = [&](const Samples& rows) {
-    const auto model = make("ffnn-m", held_out);
+    const auto model = make_shallow("ffnn-m", held_out);
     FitSession session;
     std::vector<double> least;
     session.epoch_done = [&](const EpochRecord& record) {
@@ -230,7 +226,7 @@ TEST(ShallowModel, HeldOutRowsMayDecideTheStop) {
 }
 
 TEST(ShallowModel, StrideTakesEverySoManythRow) {
-  const Samples training = draw_samples(400, 1);
+  const Samples training = shallow_samples(400, 1);
   Samples changed = training;
   for (Index row = 2; row < 400; ++row) {
     if (row % 4 != 0) changed.y.row(row).setZero();
@@ -248,7 +244,7 @@ TEST(ShallowModel, StrideTakesEverySoManythRow) {
 
 TEST(ShallowModel, InputsAreChosenByNameOrByNetworkInput) {
   const auto count = [](const Json& model) {
-    return make("ffnn-s", {{"model", model}})->parameter_count();
+    return make_shallow("ffnn-s", {{"model", model}})->parameter_count();
   };
   EXPECT_EQ(count({{"inputs", "angles"}}), 4 * 20 + 63);
   EXPECT_EQ(count({{"inputs", {"gamma", "rate5"}}}), 3 * 20 + 63);
@@ -267,20 +263,20 @@ TEST(ShallowModel, InputsAreChosenByNameOrByNetworkInput) {
   error_of(Exit::kUsage, [&] { count({{"hidden", Json::array({900})}}); });
   error_of(Exit::kUsage, [&] { count({{"hiden", Json::array({9})}}); });
 
-  Samples training = draw_samples(300, 1), moved = training;
+  Samples training = shallow_samples(300, 1), moved = training;
   moved.x.rightCols(12).array() += 1.0;
   const auto angles = fitted("ffnn-s", training, {{"model", {{"inputs", "angles"}}}});
   EXPECT_EQ(angles->predict(moved), angles->predict(training));
   const auto window =
       fitted("ffnn-s", training, {{"model", {{"input", {{"kind", "window"}, {"length", 2}}}}}});
-  const auto loaded = model_kind("ffnn-s", Exit::kModel).load(saved(*window), "memory");
+  const auto loaded = model_kind("ffnn-s", Exit::kModel).load(test::saved(*window), "memory");
   EXPECT_EQ(loaded->predict(training), window->predict(training));
 }
 
 TEST(ShallowModel, StatisticsComeFromTheTrainingRowsAlone) {
-  const Samples training = draw_samples(300, 1);
-  Samples validation = draw_samples(100, 2);
-  const auto first = make("cfnn-s"), second = make("cfnn-s");
+  const Samples training = shallow_samples(300, 1);
+  Samples validation = shallow_samples(100, 2);
+  const auto first = make_shallow("cfnn-s"), second = make_shallow("cfnn-s");
   FitSession session;
   first->fit(training, validation, session);
   validation.x *= 3.0;
@@ -290,7 +286,7 @@ TEST(ShallowModel, StatisticsComeFromTheTrainingRowsAlone) {
 
 /// With errors in the targets' own units one in millinewtons among newtons is not learned.
 TEST(ShallowModel, TargetsMayBeWeighedByTheirSpread) {
-  Samples training = draw_samples(600, 1);
+  Samples training = shallow_samples(600, 1);
   training.y.col(1) *= 1e-4;
   const auto relative_error = [&](bool standardise) {
     const auto model =
@@ -301,8 +297,8 @@ TEST(ShallowModel, TargetsMayBeWeighedByTheirSpread) {
 }
 
 TEST(ShallowModel, BrokenFilesAreRefused) {
-  const auto model = fitted("cfnn-m", draw_samples(100, 1));
-  const Container good = saved(*model);
+  const auto model = fitted("cfnn-m", shallow_samples(100, 1));
+  const Container good = test::saved(*model);
   const auto load = [](const Container& file) {
     model_kind("cfnn-m", Exit::kModel).load(file, "broken.dcnn");
   };
@@ -341,7 +337,7 @@ TEST(ShallowModel, BrokenFilesAreRefused) {
 }
 
 TEST(ShallowModel, PresetsAreThoseOfTheSpecification) {
-  for (const auto& [name, count] : kKinds) {
+  for (const auto& [name, count] : kShallowKinds) {
     const ModelKind& kind = model_kind(name, Exit::kUsage);
     EXPECT_EQ(kind.preset("quick", false)["training"]["epochs"], 30);
     EXPECT_EQ(kind.preset("quick", false)["training"]["stride"], 8);

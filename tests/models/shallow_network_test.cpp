@@ -11,7 +11,7 @@ const std::vector<ShallowNetwork::Shape> kShapes{
     {4, {5}, 3, false},       {4, {5}, 3, true},       {3, {4, 3}, 2, false}, {3, {4, 3}, 2, true},
     {2, {3, 1, 2}, 3, false}, {2, {3, 1, 2}, 3, true}, {1, {1}, 1, false}};
 
-RowMatrix draw(Index rows, Index columns, std::uint64_t seed) {
+RowMatrix drawn_rows(Index rows, Index columns, std::uint64_t seed) {
   Rng rng(seed);
   RowMatrix m(rows, columns);
   for (double& value : m.reshaped()) value = rng.uniform(-1.0, 1.0);
@@ -37,7 +37,7 @@ TEST(ShallowNetwork, ForwardIsTheTextbookFormula) {
   const ShallowNetwork network({3, {4, 2}, 2, true});
   Rng rng(5);
   const Eigen::VectorXd w = network.initial_weights(rng);
-  const RowMatrix x = draw(6, 3, 1), y = outputs(network, x, w);
+  const RowMatrix x = drawn_rows(6, 3, 1), y = outputs(network, x, w);
   for (Index row = 0; row < x.rows(); ++row) {
     Eigen::VectorXd seen(4);
     seen << 1.0, x.row(row).transpose();
@@ -95,7 +95,7 @@ TEST(ShallowResiduals, NormalEquationsAreThoseOfTheNumericJacobian) {
     const ShallowNetwork network(shape);
     Rng rng(3);
     const Eigen::VectorXd w = network.initial_weights(rng);
-    const RowMatrix x = draw(37, shape.inputs, 1), t = draw(37, shape.outputs, 2);
+    const RowMatrix x = drawn_rows(37, shape.inputs, 1), t = drawn_rows(37, shape.outputs, 2);
     const Eigen::VectorXd scale = Eigen::VectorXd::LinSpaced(shape.outputs, 0.5, 3.0);
     const ShallowResiduals residuals(network, x, t, scale);
     const NormalEquations got = residuals.linearise(w);
@@ -117,7 +117,7 @@ TEST(ShallowResiduals, RowsMayBeCutAnywhere) {
   Rng rng(3);
   const Eigen::VectorXd w = network.initial_weights(rng), scale = Eigen::VectorXd::Ones(2);
   const Index n = 2500;
-  const RowMatrix x = draw(n, 3, 1), t = draw(n, 2, 2);
+  const RowMatrix x = drawn_rows(n, 3, 1), t = drawn_rows(n, 2, 2);
   const NormalEquations whole = ShallowResiduals(network, x, t, scale).linearise(w);
   for (const Index cut : {Index{1}, Index{7}, Index{1031}, n - 1}) {
     const auto part = [&](Index first, Index rows) {
@@ -137,7 +137,7 @@ TEST(ShallowResiduals, ThreadsDoNotChangeABit) {
   const ShallowNetwork network({3, {4, 3}, 2, true});
   Rng rng(3);
   const Eigen::VectorXd w = network.initial_weights(rng), scale = Eigen::VectorXd::Ones(2);
-  const ShallowResiduals residuals(network, draw(3000, 3, 1), draw(3000, 2, 2), scale);
+  const ShallowResiduals residuals(network, drawn_rows(3000, 3, 1), drawn_rows(3000, 2, 2), scale);
   const int before = threads();
   set_threads(1);
   const NormalEquations one = residuals.linearise(w);

@@ -9,13 +9,13 @@
 namespace dcnn {
 namespace {
 
-struct Case {
+struct BatchCase {
   const char* name;
   Json layers;
   Shape input;
 };
 
-std::vector<Case> cases() {
+std::vector<BatchCase> batch_cases() {
   const Json ffnn = {{{"kind", "linear"}, {"outputs", 20}},
                      {{"kind", "tanh"}},
                      {{"kind", "linear"}, {"outputs", 3}}};
@@ -42,7 +42,7 @@ Tensor drawn(const Shape& sample, Index n) {
 }
 
 TEST(BatchPlan, GivesWhatTheLayersGiveForEveryNumberOfSamples) {
-  for (const Case& what : cases()) {
+  for (const BatchCase& what : batch_cases()) {
     Rng rng(5);
     const Network network(what.layers, what.input, rng);
     const BatchPlan batches(network);
@@ -62,7 +62,7 @@ TEST(BatchPlan, GivesWhatTheLayersGiveForEveryNumberOfSamples) {
 }
 
 TEST(BatchPlan, ASampleDoesNotDependOnTheOthersNorOnThreads) {
-  for (const Case& what : cases()) {
+  for (const BatchCase& what : batch_cases()) {
     Rng rng(5);
     const BatchPlan batches(Network(what.layers, what.input, rng));
     const Index n = 200, outputs = 3;

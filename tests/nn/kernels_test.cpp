@@ -64,7 +64,7 @@ TEST(Kernels, AllInstructionSetsAgree) {
     }
   }
   std::vector<std::int64_t> targets;
-  for (const std::int64_t target : {HWY_EMU128, HWY_AVX2, HWY_AVX3}) {
+  for (const std::int64_t target : {HWY_EMU128, HWY_SSE4, HWY_AVX2, HWY_AVX3}) {
     if (hwy::SupportedTargets() & target) targets.push_back(target);
   }
   for (const auto& size : sizes) {

@@ -74,7 +74,7 @@ TEST(Lstm, ASampleDoesNotDependOnItsNeighboursOrOnBeingRecorded) {
 
 TEST(Lstm, AllInstructionSetsAgree) {
   std::vector<Real> wanted;
-  for (const std::int64_t target : {HWY_EMU128, HWY_AVX2, HWY_AVX3}) {
+  for (const std::int64_t target : {HWY_EMU128, HWY_SSE4, HWY_AVX2, HWY_AVX3}) {
     if (!(hwy::SupportedTargets() & target)) continue;
     hwy::SetSupportedTargetsForTest(target);
     const Network network = make_network(21);

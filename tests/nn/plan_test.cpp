@@ -13,13 +13,13 @@
 namespace dcnn {
 namespace {
 
-struct Case {
+struct PlanCase {
   std::string name;
   Json layers;
   Shape input;
 };
 
-std::vector<Case> cases() {
+std::vector<PlanCase> plan_cases() {
   return {
       {"same", dcnn_layers("same"), {15, 5, 1}},
       {"valid", dcnn_layers("valid"), {15, 5, 1}},
@@ -57,7 +57,7 @@ void spread_state(const Network& network, Rng& rng) {
 
 TEST(Plan, ComputesWhatTheNetworkDoesWhateverTheInstructions) {
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
-  for (const Case& c : cases()) {
+  for (const PlanCase& c : plan_cases()) {
     Rng rng(5);
     const Network network(c.layers, c.input, rng);
     spread_state(network, rng);
@@ -94,17 +94,17 @@ TEST(Plan, ComputesWhatTheNetworkDoesWhateverTheInstructions) {
 /// Rows of a stream of which one is not a number, before them one row repeated.
 class SlidingWindow {
  public:
-  static constexpr Index kInputs = 15;
-  SlidingWindow(Index steps, Index rows) : x_({steps + rows, kInputs}) {
+  static constexpr Index kWindowInputs = 15;
+  SlidingWindow(Index steps, Index rows) : x_({steps + rows, kWindowInputs}) {
     Rng rng(8);
     for (Real& value : x_.values()) value = static_cast<Real>(3 * rng.normal());
-    for (Index k = 0; k + 1 < steps; ++k) std::copy_n(row(steps - 1), kInputs, row(k));
+    for (Index k = 0; k + 1 < steps; ++k) std::copy_n(row(steps - 1), kWindowInputs, row(k));
     row(steps + 2)[4] = std::nanf("");
   }
-  const Real* at(Index k) const { return x_.data() + k * kInputs; }
+  const Real* at(Index k) const { return x_.data() + k * kWindowInputs; }
 
  private:
-  Real* row(Index k) { return x_.data() + k * kInputs; }
+  Real* row(Index k) { return x_.data() + k * kWindowInputs; }
   Tensor x_;
 };
 
@@ -112,7 +112,7 @@ TEST(Plan, AWindowThatSlidesGivesTheBitsOfTheWindowAlone) {
   for (const Index steps : {1, 2, 6, 25, 60}) {
     Rng rng(7);
     const Network network({{{"kind", "lstm"}, {"units", 37}}, {{"kind", "linear"}, {"outputs", 3}}},
-                          {steps, SlidingWindow::kInputs}, rng);
+                          {steps, SlidingWindow::kWindowInputs}, rng);
     const Index rows = 2 * steps + 5;
     const SlidingWindow window(steps, rows);
     for (const auto target : hwy::SupportedAndGeneratedTargets()) {
@@ -134,8 +134,8 @@ TEST(Plan, AWindowThatSlidesGivesTheBitsOfTheWindowAlone) {
 }
 
 TEST(Plan, AStateThatIsCarriedGivesTheBitsOfTheWindowSoFar) {
-  constexpr Index kInputs = 4, kRows = 30;
-  Tensor x({kRows, kInputs});
+  constexpr Index kWindowInputs = 4, kRows = 30;
+  Tensor x({kRows, kWindowInputs});
   Rng draw(9);
   for (Real& value : x.values()) value = static_cast<Real>(2 * draw.normal());
   const auto of_window = [](Index rows) {  // the same weights, whatever the length
@@ -143,7 +143,7 @@ TEST(Plan, AStateThatIsCarriedGivesTheBitsOfTheWindowSoFar) {
     return Network({{{"kind", "lstm"}, {"units", 19}, {"sequence", true}},
                     {{"kind", "lstm"}, {"units", 37}},
                     {{"kind", "linear"}, {"outputs", 3}}},
-                   {rows, kInputs}, rng);
+                   {rows, kWindowInputs}, rng);
   };
   for (const auto target : hwy::SupportedAndGeneratedTargets()) {
     hwy::SetSupportedTargetsForTest(target);
@@ -152,7 +152,7 @@ TEST(Plan, AStateThatIsCarriedGivesTheBitsOfTheWindowSoFar) {
       for (Index k = 0; k < 2 * kRows; ++k) {
         Plan window = of_window(k % kRows + 1).plan();
         const Real *wanted = window.run(x.data()),
-                   *y = plan.carry(x.data() + k % kRows * kInputs, k % kRows == 0);
+                   *y = plan.carry(x.data() + k % kRows * kWindowInputs, k % kRows == 0);
         for (Index i = 0; i < 3; ++i) ASSERT_EQ(y[i], wanted[i]) << "row " << k;
       }
     }

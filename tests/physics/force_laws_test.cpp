@@ -9,7 +9,6 @@
 namespace dcnn {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -47,7 +46,7 @@ TEST(CableSpring, PullsTowardsItsRest) {
 
 TEST(Cogging, HasItsOrderInTheAngle) {
   Motion motion = still_motion(2);
-  motion.euler.col(1) << 0.0, kPi / 24.0;
+  motion.euler.col(1) << 0.0, std::numbers::pi / 24.0;
   const auto effect = make_effect("cogging", "beta:sensor_z",
                                   {{"amp_n", 0.1}, {"order", 12.0}, {"phase_rad", 0.5}});
   const VectorXd force = applied(effect, motion, no_wrench(2)).force.col(2);

@@ -9,7 +9,6 @@
 namespace dcnn {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -27,7 +26,7 @@ VectorXd friction_force(const EffectSpec& effect, const VectorXd& v) {
 /// Velocity of a position amplitude·sin(2 pi hz t).
 VectorXd swing(double amplitude, double hz, Index samples) {
   const VectorXd t = still_motion(samples).t;
-  return amplitude * 2.0 * kPi * hz * (2.0 * kPi * hz * t.array()).cos();
+  return amplitude * 2.0 * std::numbers::pi * hz * (2.0 * std::numbers::pi * hz * t.array()).cos();
 }
 
 TEST(Coulomb, AtHighSpeedIsFcAgainstTheVelocity) {

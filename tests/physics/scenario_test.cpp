@@ -10,8 +10,6 @@
 namespace dcnn {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Json small_config() {
   Json config = repository_json("configs/sim/sample.json");
   for (auto& recording : config["recordings"]) recording["samples"] = 600;
@@ -64,8 +62,8 @@ TEST(EmbeddedConfig, CleanForceIsTheFormulaOfTheSpecification) {
 TEST(Scenario, LogsAnglesAsARobotDoes) {
   const Scenario scenario = simulate_config(small_config(), "sample.json");
   const Eigen::MatrixXd angles = scenario.recordings[0].noisy.block({"alpha", "beta", "gamma"});
-  EXPECT_LE(angles.cwiseAbs().maxCoeff(), kPi);
-  EXPECT_LE(angles.col(1).cwiseAbs().maxCoeff(), kPi / 2.0);
+  EXPECT_LE(angles.cwiseAbs().maxCoeff(), std::numbers::pi);
+  EXPECT_LE(angles.col(1).cwiseAbs().maxCoeff(), std::numbers::pi / 2.0);
   EXPECT_GT(angles.col(2).maxCoeff() - angles.col(2).minCoeff(), 6.0);  // points down: jumps at pi
 }
 
@@ -165,7 +163,7 @@ TEST(StaticConfig, IsAListOfPosesAtRest) {
 }
 
 /// The message that a changed configuration is refused with.
-std::string refusal(const std::string& pointer, const Json& value) {
+std::string refusal_of_scenario(const std::string& pointer, const Json& value) {
   Json config = small_config();
   at_pointer(config, pointer) = value;
   try {
@@ -179,21 +177,22 @@ std::string refusal(const std::string& pointer, const Json& value) {
 }
 
 TEST(Scenario, RefusesAWrongConfigurationAsUsage) {
-  EXPECT_NE(refusal("/sead", 1).find("did you mean 'seed'"), std::string::npos);
-  EXPECT_NE(refusal("/seed", -1).find("seed"), std::string::npos);
-  EXPECT_NE(refusal("/seed", 1.5).find("seed"), std::string::npos);
-  EXPECT_NE(refusal("/simulator/tool/mass_kg", -1).find("mass_kg"), std::string::npos);
-  EXPECT_NE(refusal("/hidden/0/effect", "friction").find("effect"), std::string::npos);
-  EXPECT_NE(refusal("/hidden/0/axis", "tool_x").find("tool_z"), std::string::npos);
-  EXPECT_NE(refusal("/hidden/0/parameters/fc_n", -1).find("fc_n"), std::string::npos);
-  EXPECT_NE(refusal("/recordings/0/name", "../a").find("name"), std::string::npos);
-  EXPECT_NE(refusal("/recordings/0/name", "test").find("overwrite"), std::string::npos);
-  EXPECT_NE(refusal("/recordings/0/samples", 0).find("samples"), std::string::npos);
-  EXPECT_NE(refusal("/recordings/0/trajectory/kind", "spiral").find("multisine"),
+  EXPECT_NE(refusal_of_scenario("/sead", 1).find("did you mean 'seed'"), std::string::npos);
+  EXPECT_NE(refusal_of_scenario("/seed", -1).find("seed"), std::string::npos);
+  EXPECT_NE(refusal_of_scenario("/seed", 1.5).find("seed"), std::string::npos);
+  EXPECT_NE(refusal_of_scenario("/simulator/tool/mass_kg", -1).find("mass_kg"), std::string::npos);
+  EXPECT_NE(refusal_of_scenario("/hidden/0/effect", "friction").find("effect"), std::string::npos);
+  EXPECT_NE(refusal_of_scenario("/hidden/0/axis", "tool_x").find("tool_z"), std::string::npos);
+  EXPECT_NE(refusal_of_scenario("/hidden/0/parameters/fc_n", -1).find("fc_n"), std::string::npos);
+  EXPECT_NE(refusal_of_scenario("/recordings/0/name", "../a").find("name"), std::string::npos);
+  EXPECT_NE(refusal_of_scenario("/recordings/0/name", "test").find("overwrite"), std::string::npos);
+  EXPECT_NE(refusal_of_scenario("/recordings/0/samples", 0).find("samples"), std::string::npos);
+  EXPECT_NE(refusal_of_scenario("/recordings/0/trajectory/kind", "spiral").find("multisine"),
             std::string::npos);
-  EXPECT_NE(refusal("/recordings", Json::array()).find("recordings"), std::string::npos);
-  EXPECT_NE(refusal("/force_noise/ar", 1.0).find("ar"), std::string::npos);
-  EXPECT_NE(refusal("/orientation", "matrix").find("orientation"), std::string::npos);
+  EXPECT_NE(refusal_of_scenario("/recordings", Json::array()).find("recordings"),
+            std::string::npos);
+  EXPECT_NE(refusal_of_scenario("/force_noise/ar", 1.0).find("ar"), std::string::npos);
+  EXPECT_NE(refusal_of_scenario("/orientation", "matrix").find("orientation"), std::string::npos);
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 namespace dcnn {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
@@ -20,7 +19,7 @@ std::complex<double> phasor(const VectorXd& force, double hz, double dt) {
   const Index n = force.size();
   std::complex<double> sum = 0.0;
   for (Index k = 0; k < n; ++k) {
-    sum += force(k) * std::polar(1.0, -2.0 * kPi * hz * dt * static_cast<double>(k));
+    sum += force(k) * std::polar(1.0, -2.0 * std::numbers::pi * hz * dt * static_cast<double>(k));
   }
   return sum * 2.0 / static_cast<double>(n);
 }
@@ -29,7 +28,7 @@ std::complex<double> phasor(const VectorXd& force, double hz, double dt) {
 std::complex<double> response(const EffectSpec& effect, double hz) {
   const Motion motion = still_motion(3000);
   Wrench wrench = no_wrench(3000);
-  wrench.force.col(0) = (2.0 * kPi * hz * motion.t.array()).sin();
+  wrench.force.col(0) = (2.0 * std::numbers::pi * hz * motion.t.array()).sin();
   const VectorXd in = wrench.force.col(0).tail(1000);
   const VectorXd out = applied(effect, motion, wrench).force.col(0).tail(1000);
   return phasor(out, hz, 0.002) / phasor(in, hz, 0.002);
@@ -41,7 +40,7 @@ TEST(Resonance, HasTheGainAndPhaseOfItsTransferFunction) {
                                   {{"freq_hz", f0}, {"zeta", zeta}, {"fraction", 1.0}});
   const std::complex<double> at_peak = response(effect, f0);
   EXPECT_NEAR(std::abs(at_peak), 1.0 / (2.0 * zeta), 0.05);
-  EXPECT_NEAR(std::arg(at_peak), -kPi / 2.0, 0.01);
+  EXPECT_NEAR(std::arg(at_peak), -std::numbers::pi / 2.0, 0.01);
   const std::complex<double> i(0.0, 1.0);
   const double r = 5.0 / f0;
   EXPECT_LT(std::abs(response(effect, 5.0) - 1.0 / (1.0 - r * r + 2.0 * zeta * r * i)), 2e-3);
@@ -72,7 +71,8 @@ TEST(Lowpass, AnswersAStepWithOneMinusExp) {
 TEST(Lowpass, LagsBothForceAndTorque) {
   const auto effect = make_effect("lowpass", "", {{"tau_s", 0.02}});
   const std::complex<double> i(0.0, 1.0);
-  EXPECT_LT(std::abs(response(effect, 3.0) - 1.0 / (1.0 + 2.0 * kPi * 3.0 * 0.02 * i)), 1e-3);
+  EXPECT_LT(std::abs(response(effect, 3.0) - 1.0 / (1.0 + 2.0 * std::numbers::pi * 3.0 * 0.02 * i)),
+            1e-3);
   Wrench wrench = no_wrench(10);
   wrench.torque.col(0).tail(5).setOnes();
   EXPECT_LT(applied(effect, still_motion(10), wrench).torque(6, 0), 0.5);
@@ -81,7 +81,8 @@ TEST(Lowpass, LagsBothForceAndTorque) {
 TEST(TimeDelay, ShiftsASineByItsPhase) {
   for (const double delay : {0.0, 0.0013, 0.013, 0.2}) {
     const auto gain = response(make_effect("time_delay", "", {{"delay_s", delay}}), 4.0);
-    EXPECT_LT(std::abs(gain - std::polar(1.0, -2.0 * kPi * 4.0 * delay)), 1e-5) << delay;
+    EXPECT_LT(std::abs(gain - std::polar(1.0, -2.0 * std::numbers::pi * 4.0 * delay)), 1e-5)
+        << delay;
   }
 }
 
@@ -99,11 +100,11 @@ TEST(TimeDelay, CountsRowsThatWereLost) {
   Motion motion = still_motion(600);
   for (Index k = 0; k < 600; ++k) motion.t(k) = 0.002 * static_cast<double>(k + k / 40);
   Wrench wrench = no_wrench(600);
-  wrench.force.col(0) = (2.0 * kPi * 4.0 * motion.t.array()).sin();
+  wrench.force.col(0) = (2.0 * std::numbers::pi * 4.0 * motion.t.array()).sin();
   const auto effect = make_effect("time_delay", "", {{"delay_s", kDelay}});
   const VectorXd out = applied(effect, motion, wrench).force.col(0);
   for (Index k = 10; k < 600; ++k) {
-    EXPECT_NEAR(out(k), std::sin(2.0 * kPi * 4.0 * (motion.t(k) - kDelay)), 1e-4) << k;
+    EXPECT_NEAR(out(k), std::sin(2.0 * std::numbers::pi * 4.0 * (motion.t(k) - kDelay)), 1e-4) << k;
   }
 }
 

@@ -192,7 +192,7 @@ TEST(Simulator, ReadsBackWhatItWrites) {
 }
 
 /// The message of the Error that the changed sim.json is refused with.
-std::string refusal(const std::string& pointer, const Json& value) {
+std::string refusal_of_simulator(const std::string& pointer, const Json& value) {
   Json json = example_sim();
   at_pointer(json, pointer) = value;
   try {
@@ -206,15 +206,17 @@ std::string refusal(const std::string& pointer, const Json& value) {
 }
 
 TEST(Simulator, RefusesWhatCannotBeInOneLine) {
-  EXPECT_NE(refusal("/tool/mass_kg", -0.1).find("tool.mass_kg"), std::string::npos);
-  EXPECT_NE(refusal("/tool/com_m", {1, 2}).find("3 numbers"), std::string::npos);
-  EXPECT_NE(refusal("/tool/com_m/0", "a").find("com_m"), std::string::npos);
-  EXPECT_NE(refusal("/tool/inertia_kgm2/0", -1.0).find("negative"), std::string::npos);
-  EXPECT_NE(refusal("/tool/mas_kg", 1.0).find("did you mean"), std::string::npos);
-  EXPECT_NE(refusal("/model/inertial", "half").find("full, linear, none"), std::string::npos);
-  EXPECT_NE(refusal("/sample_rate_hz", 0).find("sample_rate_hz"), std::string::npos);
-  EXPECT_NE(refusal("/effects/0/effect", "hysteresys").find("'hysteresis'"), std::string::npos);
-  EXPECT_NE(refusal("/effects", 3).find("list"), std::string::npos);
+  EXPECT_NE(refusal_of_simulator("/tool/mass_kg", -0.1).find("tool.mass_kg"), std::string::npos);
+  EXPECT_NE(refusal_of_simulator("/tool/com_m", {1, 2}).find("3 numbers"), std::string::npos);
+  EXPECT_NE(refusal_of_simulator("/tool/com_m/0", "a").find("com_m"), std::string::npos);
+  EXPECT_NE(refusal_of_simulator("/tool/inertia_kgm2/0", -1.0).find("negative"), std::string::npos);
+  EXPECT_NE(refusal_of_simulator("/tool/mas_kg", 1.0).find("did you mean"), std::string::npos);
+  EXPECT_NE(refusal_of_simulator("/model/inertial", "half").find("full, linear, none"),
+            std::string::npos);
+  EXPECT_NE(refusal_of_simulator("/sample_rate_hz", 0).find("sample_rate_hz"), std::string::npos);
+  EXPECT_NE(refusal_of_simulator("/effects/0/effect", "hysteresys").find("'hysteresis'"),
+            std::string::npos);
+  EXPECT_NE(refusal_of_simulator("/effects", 3).find("list"), std::string::npos);
   Json empty = Json::object();
   EXPECT_THROW(parse_simulator(empty, "sim.json", Exit::kData), Error);
 }

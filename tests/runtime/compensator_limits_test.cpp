@@ -5,69 +5,16 @@
 #include <cmath>
 #include <functional>
 
-#include "runtime/support.h"
+#include "runtime/steady.h"
 
 namespace dcnn {
 namespace {
 
 using Eigen::Vector3d;
 
-/// A model that predicts the same for every sample.
-class SteadyModel : public Model {
- public:
-  SteadyModel(const InputMap& map, Eigen::VectorXd y) : map_(map), y_(std::move(y)) {}
-  bool fit(const Samples&, const Samples&, FitSession&) override { return false; }
-  Eigen::MatrixXd predict(const Stream& stream) const override {
-    return y_.transpose().replicate(stream.x.rows(), 1);
-  }
-  std::unique_ptr<Predictor> predictor() const override { return std::make_unique<Steady>(y_); }
-  Index parameter_count() const override { return 0; }
-  const InputMap& map() const override { return map_; }
-  void save(Container&) const override {}
-
- private:
-  struct Steady : Predictor {
-    explicit Steady(Eigen::VectorXd value) : y(std::move(value)) {}
-    void reset() noexcept override {}
-    const Eigen::VectorXd& push(const Eigen::VectorXd&) noexcept override { return y; }
-    Eigen::VectorXd y;
-  };
-  InputMap map_;
-  Eigen::VectorXd y_;
-};
-
-const Recording& slow_motion() {
-  static const Recording shared = test::free_motion(600);
-  return shared;
-}
-
-/// A model of a wrench, which says `y`, on features of a set.
-Identifier steady_identifier(const Eigen::VectorXd& y,
-                             FeatureSpec::Set set = FeatureSpec::Set::kBody) {
-  static const Identifier body = test::trained();
-  Identifier identifier;
-  FeatureSpec spec = body.layout.spec;
-  spec.set = set;
-  identifier.layout = make_layout({slow_motion()}, spec, {});
-  identifier.targets = {{"fx", "fy", "fz"}, {"N", "N", "N"}};
-  if (y.size() == 6) {
-    identifier.targets = {{"fx", "fy", "fz", "tx", "ty", "tz"}, {"N", "N", "N", "Nm", "Nm", "Nm"}};
-  }
-  identifier.model = std::make_unique<SteadyModel>(body.model->map(), y);
-  return identifier;
-}
-
-Simulator tool_with_inertia(bool has_inertia, double rate_hz = 500.0) {
-  Json tool = {{"mass_kg", 0.75}, {"com_m", {0.0, 0.0, 0.1}}};
-  if (has_inertia) tool["inertia_kgm2"] = {0.006, 0.006, 0.001, 0.0, 0.0, 0.0};
-  return parse_simulator({{"tool", tool}, {"sample_rate_hz", rate_hz}}, "test", Exit::kUsage);
-}
-
-OnlineSample standing_sample(Index k, double dt = 0.002) {
-  OnlineSample sample;
-  sample.t = static_cast<double>(k) * dt;
-  return sample;
-}
+using test::standing_sample;
+using test::steady_identifier;
+using test::tool_with_inertia;
 
 void expect_unmade(const std::function<void()>& make, const std::string& words) {
   try {
@@ -179,24 +126,67 @@ TEST(CompensatorLimits, ItsGuardHasTheLimitsThatAreGiven) {
   }
 }
 
-/// A force is contact by its mean over 50 ms, 25 samples.
+/// A force is contact by its mean over 50 ms, 25 samples, above the threshold, until it is below
+/// half of it.
 TEST(CompensatorLimits, ContactIsAForceThatLasts) {
+  const Identifier model = steady_identifier(Vector3d::Zero());
+  for (const double threshold : {1.0, 3.0}) {
+    CompensatorOptions options;
+    options.contact_n = threshold;
+    OnlineCompensator compensator(&model, nullptr, options, "test");
+    Index k = 0;
+    const auto press = [&](double force) {
+      OnlineSample sample = standing_sample(k++);
+      sample.wrench[0] = force;
+      return compensator.step(sample).contact;
+    };
+    while (k < 100) ASSERT_FALSE(press(0.0));
+    EXPECT_FALSE(press(20.0 * threshold)) << "a blow of one sample";
+    while (k < 200) ASSERT_FALSE(press(0.0));
+    for (int held = 1; held <= 25; ++held) EXPECT_EQ(press(2.0 * threshold), held > 12) << held;
+    for (int free = 1; free <= 25; ++free) EXPECT_EQ(press(0.0), free <= 18) << free;
+  }
+}
+
+TEST(CompensatorLimits, TheFallbackSeesContactTooOnceItIsWarm) {
+  const Simulator simulator = tool_with_inertia(false);
+  const Vector3d weight = test::weight_of(simulator);
+  CompensatorOptions options;
+  options.contact_n = 1.0;
+  OnlineCompensator compensator(nullptr, &simulator, options, "test");
+  for (Index k = 0; k < 300; ++k) {
+    OnlineSample sample = standing_sample(k);
+    sample.wrench.head<3>() = weight + Vector3d(k < 20 || k >= 200 ? 2.0 : 0.0, 0.0, 0.0);
+    EXPECT_EQ(compensator.step(sample).contact, k >= 212) << k;
+  }
+}
+
+/// A limit that holds the output back is told.
+TEST(CompensatorLimits, AnOutputThatIsHeldBackIsMarked) {
+  const Identifier model = steady_identifier(Vector3d::Zero());
+  CompensatorOptions options;
+  options.guard.slew_n = 0.5;
+  OnlineCompensator compensator(&model, nullptr, options, "test");
+  for (Index k = 0; k < 200; ++k) {
+    OnlineSample sample = standing_sample(k);
+    sample.wrench[0] = k < 100 ? 0.0 : 2.0;
+    const OnlineResult& result = compensator.step(sample);
+    EXPECT_EQ(result.limited, k >= 100 && k < 103) << k;
+  }
+  EXPECT_EQ(compensator.miss().reason, Reason::kMissing);
+}
+
+/// Without a time constant no bias is tracked, though contact is detected.
+TEST(CompensatorLimits, NoBiasIsTrackedUnasked) {
   const Identifier model = steady_identifier(Vector3d::Zero());
   CompensatorOptions options;
   options.contact_n = 1.0;
   OnlineCompensator compensator(&model, nullptr, options, "test");
-  Index k = 0;
-  const auto press = [&](double force) {
-    OnlineSample sample = standing_sample(k++);
-    sample.wrench[0] = force;
-    return compensator.step(sample).contact;
-  };
-  while (k < 100) ASSERT_FALSE(press(0.0));
-  EXPECT_FALSE(press(20.0)) << "a blow of one sample";
-  while (k < 200) ASSERT_FALSE(press(0.0));
-  for (int held = 1; held <= 25; ++held) EXPECT_EQ(press(2.0), held > 12) << held;
-  // Let go: contact ends below half of the threshold.
-  for (int free = 1; free <= 25; ++free) EXPECT_EQ(press(0.0), free <= 18) << free;
+  for (Index k = 0; k < 600; ++k) {
+    OnlineSample sample = standing_sample(k);
+    sample.wrench[1] = 0.4;
+    ASSERT_EQ(compensator.step(sample).bias, Vector3d::Zero()) << k;
+  }
 }
 
 /// The newest of n readings has the weight n, the oldest 1 (D30).
@@ -250,9 +240,16 @@ TEST_F(CompensatorClock, ASampleCountsFromSixTenthsOfItsTime) {
 TEST_F(CompensatorClock, AnotherClockIsFollowedAfter25SteadySamples) {
   // The first sample of the other clock is a jump, then 25 that are steady.
   for (int k = 0; k < 25; ++k) ASSERT_TRUE(refuses(-1.0 + 0.002 * k)) << k;
-  const Reason last = at(-1.0 + 0.002 * 25).reason;
-  EXPECT_NE(last, Reason::kClock);
+  EXPECT_EQ(at(-1.0 + 0.002 * 25).reason, Reason::kGap);  // windows begin anew
   EXPECT_FALSE(refuses(-1.0 + 0.002 * 26));
+}
+
+/// Two senders in turn: each sample of the clock that is followed ends the row of the other.
+TEST_F(CompensatorClock, AClockBesideTheFollowedOneIsNeverFollowed) {
+  for (int k = 0; k < 60; ++k) {
+    ASSERT_TRUE(refuses(-1.0 + 0.002 * k)) << k;
+    ASSERT_FALSE(refuses(kLast + 0.002 * (k + 1))) << k;
+  }
 }
 
 TEST_F(CompensatorClock, AnUnsteadyClockIsNeverFollowed) {
@@ -271,7 +268,7 @@ TEST_F(CompensatorClock, FourMissingSamplesAreBridgedAndFiveAreAGap) {
 }
 
 /// A wrist that turns while samples are missing: what is between is on the way, whichever sign its
-/// quaternion has and whether it comes as angles.
+/// quaternion has, whether it comes as angles, and where angles begin or end in between.
 TEST(CompensatorLimits, MissingSamplesLieOnTheWay) {
   const Simulator simulator = tool_with_inertia(true);
   const auto turned = [](Index k, int kind) {
@@ -280,10 +277,13 @@ TEST(CompensatorLimits, MissingSamplesLieOnTheWay) {
     sample.position = Vector3d(0.1, -0.2, 0.3) * 0.002 * static_cast<double>(k);
     sample.quaternion = {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
     if (kind == 1 && k % 2 == 1) sample.quaternion = -sample.quaternion;
-    if (kind == 2) sample.euler = Vector3d(0.0, 0.0, std::remainder(angle, 6.283185307179586));
+    if (kind == 2 || (kind == 3 && k % 14 < 7)) {
+      sample.euler = Vector3d(0.0, 0.0, std::remainder(angle, 6.283185307179586));
+    }
+    if (kind == 2) sample.quaternion = {1.0, 0.0, 0.0, 0.0};  // angles alone count where they come
     return sample;
   };
-  for (const int kind : {0, 1, 2}) {
+  for (const int kind : {0, 1, 2, 3}) {
     OnlineCompensator whole(nullptr, &simulator, {}, "test");
     OnlineCompensator holed(nullptr, &simulator, {}, "test");
     for (Index k = 0; k < 300; ++k) {
