@@ -67,7 +67,9 @@ Design design_of(const Log& log, const Sampled& rows, const Kinematics& motion,
     design.field.row(i) = field;
     const Eigen::Vector3d F =
         reading.force * (reading.force_axes * design.force.row(i).transpose());
-    design.force.row(i) = reading.force_in_base ? Eigen::Vector3d(R.transpose() * F) : F;
+    const Eigen::Vector3d in_sensor = reading.force_in_base ? R.transpose() * F : F;
+    // What a controller has subtracted, where that is declared.
+    design.force.row(i) = in_sensor + log.declared.read.payload.mass * R.transpose() * g;
   }
   return design;
 }

@@ -113,15 +113,14 @@ void convert_units(Recording& recording, const ReadOptions& options) {
 /// their own.
 Names known_columns(const System& system) {
   if (system.kind == System::Kind::kWrist) {
-    return {"fx",     "fy",     "fz",     "tx",     "ty", "tz", "fx_sim", "fy_sim",
-            "fz_sim", "tx_sim", "ty_sim", "tz_sim", "vx", "vy", "vz",     "wx",
-            "wy",     "wz",     "ax",     "ay",     "az", "dwx", "dwy",   "dwz",
-            "temperature"};
+    return {"fx",     "fy",     "fz",     "tx",  "ty",  "tz",  "fx_sim",     "fy_sim", "fz_sim",
+            "tx_sim", "ty_sim", "tz_sim", "vx",  "vy",  "vz",  "wx",         "wy",     "wz",
+            "ax",     "ay",     "az",     "dwx", "dwy", "dwz", "temperature"};
   }
   Names names;
   for (const Axis& axis : system.axes) {
-    for (const auto& name : {axis.measured, axis.position, axis.velocity, axis.acceleration,
-                             axis.simulated}) {
+    for (const auto& name :
+         {axis.measured, axis.position, axis.velocity, axis.acceleration, axis.simulated}) {
       names.push_back(name);
     }
     names.insert(names.end(), axis.signals.begin(), axis.signals.end());
@@ -143,10 +142,10 @@ void check_magnitudes(const Recording& recording, const System& system, const st
 }
 
 void check_options(const ReadOptions& options, const System& system) {
-  const bool plain =
-      options.position_unit == 1.0 && options.angle_unit == 1.0 && options.force_sign == 1.0;
+  const bool plain = options.position_unit == 1.0 && options.angle_unit == 1.0 &&
+                     options.force_sign == 1.0 && options.payload.mass == 0.0;
   require(plain || system.kind == System::Kind::kWrist, Exit::kUsage,
-          "--position-unit, --angle-unit and --force-sign are for wrist recordings; "
+          "--position-unit, --angle-unit, --force-sign and --payload are for wrist recordings; "
           "give the axis a 'scale' in the system description");
 }
 
@@ -204,6 +203,7 @@ Recording make_recording(SourceTable source, const std::filesystem::path& path,
   recording.name = path.filename().string();
   recording.table = std::move(source.table);
   recording.notes = std::move(source.notes);
+  recording.zeroed = source.zeroed;
   require(
       recording.has("t") || options.static_list, Exit::kData, file,
       ":1: column 't' is missing; log the time in seconds (only lists of static poses have none)");
@@ -222,6 +222,7 @@ Recording make_recording(SourceTable source, const std::filesystem::path& path,
   }
   check_regular(recording, file);
   if (wrist) normalise_quaternions(recording);
+  if (options.payload.mass > 0.0) add_weight(options.payload, recording);
   return recording;
 }
 

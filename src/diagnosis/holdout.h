@@ -41,9 +41,13 @@ class HoldOut {
 
  private:
   HoldOut() = default;
+  /// Of a recording that was zeroed: from the rows that are not held out, or from these where all
+  /// are.
+  void add_own_offset(std::size_t recording, Eigen::MatrixXd& predicted) const;
 
   Case study_;
   std::vector<std::vector<char>> held_;  // per recording and row
+  bool blocks_ = false;                  // of the fitted recordings
 };
 
 }  // namespace dcnn

@@ -112,6 +112,10 @@ std::string to_text(const Diagnosis& diagnosis) {
   std::ostringstream out;
   out << headline(report) << "\n\n";
   out << "verdict     " << report["verdict"].get<std::string>() << "\n";
+  if (report.contains("zeroed")) {
+    out << "zeroed      an offset of its own was estimated for each of " << report["zeroed"].size()
+        << " recordings: a constant offset has no name\n";
+  }
   for (const Json& finding : in_lines(report["findings"])) {
     out << "found       " << finding["effect"].get<std::string>();
     if (!finding["axis"].is_null()) out << " " << finding["axis"].get<std::string>();
