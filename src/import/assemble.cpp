@@ -105,6 +105,16 @@ Imported assemble(const ForeignLog& log, const Recipe& recipe) {
   return imported;
 }
 
+bool holds(const ForeignLog& log, const Recipe& recipe) {
+  return std::all_of(log.streams.begin(), log.streams.end(), [&](const LogStream& stream) {
+    return std::all_of(stream.channels.begin(), stream.channels.end(),
+                       [&](const LogChannel& channel) {
+                         return !recipe.names(stream, channel.name) ||
+                                static_cast<Index>(channel.values.size()) == stream.rows;
+                       });
+  });
+}
+
 std::vector<std::filesystem::path> split_paths(const std::filesystem::path& path) {
   if (std::filesystem::exists(path)) return {path};
   std::vector<std::filesystem::path> paths;
