@@ -31,12 +31,15 @@ Json with_check(const std::vector<std::string>& lines, const Json& report) {
   return out;
 }
 
+/// Lines for the report; recordings that were likely zeroed are taken for such.
 std::vector<std::string> checked(const Tool& tool, const Doctor& doctor,
-                                 const DiagnosisRequest& request) {
+                                 DiagnosisRequest& request) {
   CheckRequest logs{request.fit, request.read, request.simulator.value_or(""),
                     request.system.value_or("")};
   logs.logs.insert(logs.logs.end(), request.holdout.begin(), request.holdout.end());
-  return doctor.examine(tool, logs);
+  Examined examined = doctor.examine(tool, logs);
+  if (!request.system && request.zeroed.empty()) request.zeroed = std::move(examined.zeroed);
+  return examined.lines;
 }
 
 }  // namespace
@@ -77,6 +80,12 @@ int main(int argc, char** argv) {
   tool.output("--out", out, "folder for report.json, report.html, model.json and predictions",
               {"report.json", "report.html", "model.json", "holdout_*_pred.csv"})
       .required();
+  bool zeroed = false;
+  tool.flag("--zeroed", zeroed,
+            "the sensor was set to zero for each recording: its offset is estimated for each, and "
+            "a constant one has no name (else as dcnn-check finds)")
+      .excludes(system)
+      .group("Reading recordings");
   std::vector<std::string> without;
   tool.option("--without", without, "leave out parts of the method, to see what they are worth")
       .one_of(ablations())
@@ -93,6 +102,9 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     request.read = read.options();
     if (!urdf.empty()) request.arm = to_json(read_urdf_chain(urdf, tip));
+    if (zeroed) request.zeroed = request.fit;
+    if (zeroed)
+      request.zeroed.insert(request.zeroed.end(), request.holdout.begin(), request.holdout.end());
     const std::vector<std::string> check = checked(tool, doctor, request);
     request.without = ablation_of(without);
     if (clock != "auto") request.shared_clock = clock == "shared";

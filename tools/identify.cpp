@@ -42,7 +42,7 @@ struct Command {
 };
 
 void export_payload(const Command& command, const ToolModel& model, const Tool& tool) {
-  const Payload payload = payload_of(model);
+  const PayloadBody payload = payload_of(model);
   for (const std::string& format : command.formats) {
     const Path file = command.export_to / payload_file(format);
     write_file(file, payload_text(format, payload));

@@ -48,13 +48,14 @@ void demand_answers(const Proposal& proposal, bool assume, const std::string& fi
        proposal.questions.empty() ? " (--assume takes what is guessed)" : "");
 }
 
-/// What the tools would say of the recording that was written.
-void check_written(const Tool& tool, const Path& path, const System& system) {
+/// What the tools would say of the recording that was written: text keeps every number's value.
+void check_written(const Tool& tool, const Path& path, Table table, const System& system) {
   try {
     ReadOptions options;
     options.static_list = true;
     options.motion_only = true;
-    for (const auto& note : read_recording(path, options, system).notes) tool.note("  " + note);
+    const Recording recording = make_recording({std::move(table), {}}, path, options, system);
+    for (const auto& note : recording.notes) tool.note("  " + note);
   } catch (const Error& error) {
     const std::string words = error.what();
     const bool clock = words.find("irregular clock") != std::string::npos;
@@ -98,7 +99,7 @@ class Importer {
     const ImportWishes wishes = flags_.wishes();
     ReadLogOptions read = flags_.read();
     read.wanted = worth_keeping(wishes);
-    const ForeignLog log = read_log(paths, read);
+    const ForeignLog& log = first_.emplace(read_log(paths, read));
     proposal_ = propose(log, wishes);
     proposal_.recipe.files = static_cast<int>(paths.size());
     proposal_.recipe.text = flags_.read().text;
@@ -144,7 +145,7 @@ class Importer {
   void write(const std::vector<Path>& paths) {
     std::string whole;
     for (const Path& path : paths) whole += (whole.empty() ? "" : "+") + path.string();
-    const Imported imported = import_recording(whole, proposal_.recipe, flags_.read());
+    Imported imported = imported_from(whole);
     Path stem = paths[0].filename();
     if (stem.empty()) stem = paths[0].parent_path().filename();
     const Path file = *request_.out / stem.replace_extension(".csv");
@@ -159,13 +160,27 @@ class Importer {
     tool_.note(file.string() + ": " + std::to_string(imported.table.values.rows()) + " rows, " +
                std::to_string(imported.table.columns.size()) + " columns");
     for (const auto& note : imported.notes) tool_.note("  " + note);
-    check_written(tool_, file, axes.is_null() ? System() : parse_system(axes, "system.json"));
+    if (proposal_.recipe.wrench.zeroed) {
+      tool_.note("  zeroed: say so to dcnn-diagnose, --zeroed, or give it the log with --recipe");
+    }
+    check_written(tool_, file, std::move(imported.table),
+                  axes.is_null() ? System() : parse_system(axes, "system.json"));
+  }
+
+  /// The first log was read already where its recipe was found.
+  Imported imported_from(const std::string& whole) {
+    std::optional<ForeignLog> log;
+    std::swap(log, first_);
+    if (log && holds(*log, proposal_.recipe)) return assemble(*log, proposal_.recipe);
+    log.reset();
+    return import_recording(whole, proposal_.recipe, flags_.read());
   }
 
   const Tool& tool_;
   const Request& request_;
   const ImportFlags& flags_;
   Proposal proposal_;
+  std::optional<ForeignLog> first_;  // until it is written
   Json json_ = Json::object();
   std::string picture_;
   std::vector<Path> written_;

@@ -15,6 +15,7 @@ constexpr double kMentioned = 0.02;  // a rival of less probability is not liste
 constexpr Index kFewestCentres = 6;  // of a fit with seven unknowns
 constexpr double kNoEvidence = -1e9;  // ln of a weight next to none
 constexpr double kLeastMass = 1e-3;  // kg; below, no tool is told from none
+constexpr int kMassSteps = 32;       // from the estimate to the typical mass, even in logarithms
 
 double rms(const Eigen::MatrixXd& m) {
   return m.rows() == 0 ? 0.0 : std::sqrt(m.squaredNorm() / static_cast<double>(m.rows()));
@@ -51,17 +52,31 @@ double angle_weight(const Log& log, const Reading& reading) {
   return most > 0.0 ? plausibility(reading.angle * most, kTurn) : 0.0;
 }
 
-double mass_weight(const Log& log, const RigidFit& fit, const Reading& reading) {
+double independent_residuals(const Sampled& rows) {
+  return std::min(kMostIndependent, 0.75 * static_cast<double>(rows.centres.size()));
+}
+
+double mass_weight(const Log& log, const Sampled& rows, const RigidFit& fit,
+                   const Reading& reading) {
   if (reading.compensated) return 0.0;
   Typical typical = kMass;
   if (log.declared.model) {
     typical = {log.declared.model->mass, kNominalMassSpread, kNominalMassSpread};
   }
-  return plausibility(std::max(fit.mass, kLeastMass), typical);
-}
-
-double independent_residuals(const Sampled& rows) {
-  return std::min(kMostIndependent, 0.75 * static_cast<double>(rows.centres.size()));
+  // The likeliest mass under the prior and the recording together: one that a motion hardly shows,
+  // because it hardly turns the tool, is no surprise whatever its estimate.
+  const auto weight = [&](double mass) {
+    const double z = (mass - fit.free_mass) / std::max(fit.mass_spread, 1e-300);
+    return plausibility(mass, typical) -
+           0.5 * independent_residuals(rows) * elementary::log(1.0 + z * z);
+  };
+  const double estimate = std::max(fit.free_mass, kLeastMass);
+  double best = weight(estimate);
+  for (int k = 1; k <= kMassSteps; ++k) {
+    const double share = static_cast<double>(k) / kMassSteps;
+    best = std::max(best, weight(estimate * elementary::pow(typical.median / estimate, share)));
+  }
+  return best;
 }
 
 double fit_weight(const Log& log, const Sampled& rows, const RigidFit& fit,
@@ -203,12 +218,12 @@ Reading declared_reading(const Log& log) {
 double log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
                   const Reading& reading) {
   double sum = elementary::log(reading.prior) + angle_weight(log, reading);
-  if (log.smooth && log.step > 0.0) sum += plausibility(1.0 / (log.step * reading.clock), kRate);
+  if (log.smooth && log.step > 0.0) sum += clock_weight(log, reading.clock);
   if (motion == nullptr) return sum;
   sum += motion_weight(log, *motion, reading);
   const auto weight = [&](const Reading& as) {
     const RigidFit fit = fit_rigid(log, rows, *motion, as, {0, true});
-    return mass_weight(log, fit, as) + fit_weight(log, rows, fit, as);
+    return mass_weight(log, rows, fit, as) + fit_weight(log, rows, fit, as);
   };
   const double own = weight(reading);
   if (!motion->has_position || reading.fault == "position_unit") return sum + own;

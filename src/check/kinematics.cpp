@@ -17,13 +17,11 @@ constexpr Index kShifts = 40;         // rows kept free beside a window, for del
 
 /// The clock unit that makes the rate plausible: the window must be the same for all readings.
 double likely_step(const Log& log) {
-  double best = log.step;
+  double best = 1.0;
   for (const double unit : {1e-3, 1e-6, 1e-9}) {
-    if (plausibility(1.0 / (unit * log.step), kRate) > plausibility(1.0 / best, kRate)) {
-      best = unit * log.step;
-    }
+    if (clock_weight(log, unit) > clock_weight(log, best)) best = unit;
   }
-  return best;
+  return best * log.step;
 }
 
 Eigen::Matrix3d turn_about(char axis, double angle) {
@@ -110,6 +108,13 @@ Sampled sample(const Log& log) {
     for (Index i = segment.begin + free; i + free < segment.end; i += stride) rows.centres.push_back(i);
   }
   return rows;
+}
+
+double clock_weight(const Log& log, double seconds) {
+  const double rate = 1.0 / (log.step * seconds);
+  const double slow = elementary::log(kSlowShare) + plausibility(rate, kSlowRate);
+  return std::max(plausibility(rate, kRate), slow) +
+         plausibility(seconds * log.step * static_cast<double>(log.rows()), kLogDuration);
 }
 
 std::vector<Eigen::Matrix3d> orientations(const Log& log, const Reading& reading) {

@@ -20,6 +20,9 @@ struct Typical {
   double median, below, above;
 };
 constexpr Typical kRate{250.0, 1.1, 1.1};       ///< sampling rate [Hz]
+constexpr Typical kSlowRate{0.5, 1.2, 1.2};     ///< of readings taken one by one [Hz]
+constexpr double kSlowShare = 0.05;             ///< of such logs
+constexpr Typical kLogDuration{60.0, 1.6, 1.6};    ///< of a recording [s]
 constexpr Typical kTurnSpeed{0.4, 3.0, 1.4};    ///< rms angular speed [rad/s]; slow is no surprise
 constexpr Typical kSpeed{0.15, 3.0, 1.4};       ///< rms speed of the sensor [m/s]
 constexpr Typical kReach{0.15, 3.0, 1.0};       ///< rms distance from the mean position [m]

@@ -57,7 +57,10 @@ std::vector<Eigen::Matrix3d> orientations(const Log& log, const Reading& reading
 
 /// F = m field - m (dw x c + w x (w x c)) + bias, by robust least squares.
 struct RigidFit {
-  double mass = 0.0;
+  double mass = 0.0;  ///< not below 0
+  /// The estimate of any sign, and its deviation were there one residual alone: the residual's
+  /// variance grows by the factor 1 + (m - free_mass)²/mass_spread² where the mass is held at m.
+  double free_mass = 0.0, mass_spread = 0.0;
   Eigen::Vector3d moment{0, 0, 0}, bias{0, 0, 0};  ///< m c [kg m], [N]
   double variance = 0.0;     ///< of the residual per axis, robust [N^2]
   Eigen::MatrixXd residual, force;  ///< (n,3) in S [N]
@@ -66,7 +69,14 @@ struct RigidFit {
 struct FitOptions {
   Eigen::Index shift = 0;  ///< the force is read so many rows later
   bool friction = false;   ///< beside the tool: what is easily taken for a delay or a contact
+  /// Its columns as smoothed_friction() has them; null: of the smoothed velocity.
+  const Eigen::MatrixXd* columns = nullptr;
 };
+/// (n,21), three rows of seven columns each: friction of every row of the log, dry friction changing
+/// its sign over `speed` [m/s], smoothed as the force is. Dry friction of a smoothed velocity turns
+/// more sharply than what the smoothed force shows of it, and a shift in time mends that.
+Eigen::MatrixXd smoothed_friction(const Log& log, const Sampled& rows, const Reading& reading,
+                                  double speed);
 RigidFit fit_rigid(const Log& log, const Sampled& rows, const Kinematics& motion,
                    const Reading& reading, const FitOptions& options = {});
 
@@ -85,6 +95,9 @@ struct Adopted {
   std::vector<Fault> faults;
   std::vector<ReadingWeight> weights;
 };
+
+/// Log density of the sampling rate and the duration, with so many seconds to a unit of t.
+double clock_weight(const Log& log, double seconds);
 
 Reading declared_reading(const Log& log);
 /// Log posterior but for a constant.

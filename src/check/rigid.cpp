@@ -24,8 +24,9 @@ struct Design {
 };
 
 /// Dry and viscous friction along the base's axes, dry friction along the sensor's z, (3,7).
-Eigen::MatrixXd friction_columns(const Eigen::Matrix3d& R, const Eigen::Vector3d& v) {
-  const auto dry = [](double speed) { return elementary::tanh(speed / kFrictionSpeed); };
+Eigen::MatrixXd friction_columns(const Eigen::Matrix3d& R, const Eigen::Vector3d& v,
+                                 double over) {
+  const auto dry = [&](double speed) { return elementary::tanh(speed / over); };
   Eigen::MatrixXd columns(3, 7);
   for (Index k = 0; k < 3; ++k) {
     columns.col(k) = -dry(v[k]) * R.transpose().col(k);
@@ -58,16 +59,20 @@ Design design_of(const Log& log, const Sampled& rows, const Kinematics& motion,
     Eigen::MatrixXd A(3, with_friction ? 14 : 7);
     A.leftCols(7) << field, -cross_matrix(dw) - cross_matrix(w) * cross_matrix(w),
         Eigen::Matrix3d::Identity();
-    if (with_friction) {
+    if (with_friction && options.columns) {
+      A.rightCols(7) = options.columns->row(i).reshaped(3, 7);
+    } else if (with_friction) {
       const Eigen::Vector3d v =
           rate * reading.position * (reading.position_axes * motion.velocity.row(i).transpose());
-      A.rightCols(7) = friction_columns(R, v);
+      A.rightCols(7) = friction_columns(R, v, kFrictionSpeed);
     }
     design.rows.push_back(std::move(A));
     design.field.row(i) = field;
     const Eigen::Vector3d F =
         reading.force * (reading.force_axes * design.force.row(i).transpose());
-    design.force.row(i) = reading.force_in_base ? Eigen::Vector3d(R.transpose() * F) : F;
+    const Eigen::Vector3d in_sensor = reading.force_in_base ? R.transpose() * F : F;
+    // What a controller has subtracted, where that is declared.
+    design.force.row(i) = in_sensor + log.declared.read.payload.mass * R.transpose() * g;
   }
   return design;
 }
@@ -111,6 +116,31 @@ double fit_once(const Design& design, bool with_tool, RigidFit& fit, Eigen::Matr
 
 }  // namespace
 
+Eigen::MatrixXd smoothed_friction(const Log& log, const Sampled& rows, const Reading& reading,
+                                  double speed) {
+  const Eigen::Matrix3d R_ES = log.declared.model ? log.declared.model->R_ES()
+                                                  : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  const double rate = 1.0 / (log.step * reading.clock);
+  Sampled every = rows;  // each row whose window lies within its segment
+  every.centres.clear();
+  for (const Segment& segment : log.segments) {
+    for (Index i = segment.begin + rows.half; i + rows.half < segment.end; ++i) {
+      every.centres.push_back(i);
+    }
+  }
+  const Eigen::MatrixXd velocity = every.smoothed(log.block(kPosition), rows.first);
+  const auto R_BE = orientations(log, reading);
+  Eigen::MatrixXd signals = Eigen::MatrixXd::Zero(log.rows(), 21);
+  for (std::size_t k = 0; k < every.centres.size(); ++k) {
+    const Index row = every.centres[k];
+    const Eigen::Vector3d v = rate * reading.position *
+                              (reading.position_axes * velocity.row(Index(k)).transpose());
+    signals.row(row) =
+        friction_columns(R_BE[static_cast<std::size_t>(row)] * R_ES, v, speed).reshaped().transpose();
+  }
+  return rows.smoothed(signals, rows.value);
+}
+
 double log_variance(const Eigen::MatrixXd& residual, double floor) {
   const Eigen::VectorXd squares = residual.rowwise().squaredNorm();
   const Index n = squares.size(), stretches = std::clamp<Index>(n / kFewestRows, 1, kStretches);
@@ -129,8 +159,12 @@ RigidFit fit_rigid(const Log& log, const Sampled& rows, const Kinematics& motion
   Design design = design_of(log, rows, motion, reading, options);
   Eigen::MatrixXd normal;
   Eigen::VectorXd x;
+  fit.free_mass = fit_once(design, true, fit, normal, x);
+  const Eigen::VectorXd first = Eigen::VectorXd::Unit(normal.rows(), 0);
+  fit.mass_spread = std::sqrt(3.0 * static_cast<double>(design.rows.size()) * fit.variance *
+                              std::max(0.0, normal.ldlt().solve(first)[0]));
   // No tool has a negative mass: then the reading explains nothing but a constant.
-  if (fit_once(design, true, fit, normal, x) <= 0.0) fit_once(design, false, fit, normal, x);
+  if (fit.free_mass <= 0.0) fit_once(design, false, fit, normal, x);
   fit.mass = std::max(0.0, x[0]);
   fit.moment = x.segment<3>(1);
   fit.bias = x.segment<3>(4);

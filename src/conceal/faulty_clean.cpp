@@ -66,7 +66,7 @@ void add_rates(const Path& path, Index rows, Rng& rng, Table& table) {
 }
 
 void use_quaternion(Table& table) {
-  Recording recording{"", table, 0.0, 0.0, {{0, table.values.rows()}}, {}};
+  Recording recording{"", table, 0.0, 0.0, {{0, table.values.rows()}}, false, {}};
   const Eigen::MatrixXd q = quaternions(recording);
   for (const char* name : {"alpha", "beta", "gamma"}) remove(table, name);
   Index j = 0;

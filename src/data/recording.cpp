@@ -142,10 +142,10 @@ void check_magnitudes(const Recording& recording, const System& system, const st
 }
 
 void check_options(const ReadOptions& options, const System& system) {
-  const bool plain =
-      options.position_unit == 1.0 && options.angle_unit == 1.0 && options.force_sign == 1.0;
+  const bool plain = options.position_unit == 1.0 && options.angle_unit == 1.0 &&
+                     options.force_sign == 1.0 && options.payload.mass == 0.0;
   require(plain || system.kind == System::Kind::kWrist, Exit::kUsage,
-          "--position-unit, --angle-unit and --force-sign are for wrist recordings; "
+          "--position-unit, --angle-unit, --force-sign and --payload are for wrist recordings; "
           "give the axis a 'scale' in the system description");
 }
 
@@ -203,6 +203,7 @@ Recording make_recording(SourceTable source, const std::filesystem::path& path,
   recording.name = path.filename().string();
   recording.table = std::move(source.table);
   recording.notes = std::move(source.notes);
+  recording.zeroed = source.zeroed;
   require(
       recording.has("t") || options.static_list, Exit::kData, file,
       ":1: column 't' is missing; log the time in seconds (only lists of static poses have none)");
@@ -222,6 +223,7 @@ Recording make_recording(SourceTable source, const std::filesystem::path& path,
   check_regular(recording, file);
   drop_short_stretches(recording);
   if (wrist) normalise_quaternions(recording);
+  if (options.payload.mass > 0.0) add_weight(options.payload, recording);
   return recording;
 }
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "diagnosis/axis_case.h"
 
 namespace dcnn {
@@ -70,6 +72,11 @@ void set_derivative(Case& study, const DerivativeSpec& derivative) {
   for (Log& log : study.logs) {
     log.motion = motion_of(log.recording, study.simulator.model, derivative);
   }
+}
+
+bool has_own_offsets(const Case& study) {
+  return std::all_of(study.logs.begin(), study.logs.end(),
+                     [](const Log& log) { return log.zeroed; });
 }
 
 double longest_seconds(const Case& study) {

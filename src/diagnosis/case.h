@@ -33,6 +33,7 @@ struct Log {
   Motion motion;               ///< by Case::derivative
   Eigen::MatrixXd measured;    ///< (T, channels), low-passed where the case is
   Eigen::MatrixXd unfiltered;  ///< then: as logged; else no rows
+  bool zeroed = false;         ///< its constant offset is its own, and fitted beside everything
   Wrench base;                 ///< of somebody else's simulator, added to ours; no rows without one
   /// Columns of a linear simulator whose coefficients are fitted, (T, channels) each.
   std::vector<Eigen::MatrixXd> regressors;
@@ -67,6 +68,9 @@ struct Case {
   bool has_clock() const { return logs.front().motion.has_clock; }
   double dt() const { return logs.front().motion.dt; }
 };
+
+/// Whether all recordings were zeroed: a common offset is then no finding.
+bool has_own_offsets(const Case& study);
 
 /// Duration of the longest recording, and from the beginning of the first to the end of the last
 /// [s].

@@ -83,6 +83,17 @@ std::vector<std::string> names_of(const Case& study) {
   return names;
 }
 
+/// The recordings whose offset is their own.
+std::vector<std::string> zeroed_in(const Case& fit, const Case& holdout) {
+  std::vector<std::string> names;
+  for (const Case* study : {&fit, &holdout}) {
+    for (const Log& log : study->logs) {
+      if (log.zeroed) names.push_back(log.recording.name);
+    }
+  }
+  return names;
+}
+
 /// RMSE on what was held out, before (of the simulator as it was given), with own numbers refitted,
 /// and after.
 Json errors_json(const Search& search, const HoldOut& simulator, const HoldOut& holdout,
@@ -147,10 +158,12 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
 
   Diagnosis diagnosis;
   Json& report = diagnosis.report;
+  const std::vector<std::string> zeroed = zeroed_in(study, loaded.holdout);
   report = {{"targets", study.targets},
             {"units", study.units},
             {"fit_recordings", names_of(study)},
             {"holdout_recordings", names_of(loaded.holdout)}};
+  if (!zeroed.empty()) report["zeroed"] = zeroed;
   const std::vector<std::string> without = study.without.names();
   if (!without.empty()) report["without"] = without;
   report["findings"] = findings_json(search, holdout, alternatives);

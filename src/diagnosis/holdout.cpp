@@ -61,7 +61,8 @@ std::vector<Span> held_out_blocks(const Case& study, bool with_guards) {
 }
 
 HoldOut::HoldOut(const Case& fitted, const Case& recordings) {
-  const bool own = own_ = !recordings.logs.empty();
+  const bool own = !recordings.logs.empty();
+  blocks_ = !own;
   study_ = own ? recordings : fitted;
   if (own && !study_.is_static()) set_derivative(study_, fitted.derivative);
   const auto blocks = held_out_blocks(study_, false);
@@ -88,10 +89,27 @@ bool HoldOut::empty() const {
 }
 
 Signals HoldOut::prediction(const std::vector<Member>& members, const Eigen::VectorXd& base) const {
-  if (base.size() == 0) return predict(study_, members);
   Case study = study_;
-  set_base(study, base);
-  return predict(study, members);
+  if (base.size() > 0) set_base(study, base);
+  Signals predicted = predict(study, members);
+  for (std::size_t k = 0; k < predicted.size(); ++k) {
+    if (study_.logs[k].zeroed) add_own_offset(k, predicted[k]);
+  }
+  return predicted;
+}
+
+void HoldOut::add_own_offset(std::size_t k, Eigen::MatrixXd& predicted) const {
+  const Eigen::MatrixXd left = study_.logs[k].measured - predicted;
+  Eigen::RowVectorXd inside = Eigen::RowVectorXd::Zero(left.cols()), outside = inside;
+  double held = 0.0;
+  for (Index i = 0; i < left.rows(); ++i) {
+    const bool is_held = held_[k][static_cast<std::size_t>(i)] != 0;
+    (is_held ? inside : outside) += left.row(i);
+    held += is_held ? 1.0 : 0.0;
+  }
+  const double others = static_cast<double>(left.rows()) - held;
+  predicted.rowwise() += blocks_ ? Eigen::RowVectorXd(outside / std::max(1.0, others))
+                                 : Eigen::RowVectorXd(inside / std::max(1.0, held));
 }
 
 HoldOut HoldOut::unfiltered() const {
@@ -131,7 +149,7 @@ double HoldOut::mean_rmse(const std::vector<Member>& members, const Eigen::Vecto
 std::vector<Floor> HoldOut::floors(const Search& search) const {
   const JointFit& fit = search.fit();
   // What a free matrix on gravity leaves of poses at rest is no noise of theirs.
-  if (!own_ || study_.is_static()) return search.floors();
+  if (blocks_ || study_.is_static()) return search.floors();
   Case study = study_;
   study.motion_hz = search.study().motion_hz;
   study.rounding_step = search.study().rounding_step;

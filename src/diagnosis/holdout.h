@@ -45,10 +45,13 @@ class HoldOut {
 
  private:
   HoldOut() = default;
+  /// Of a recording that was zeroed: from the rows that are not held out, or from these where all
+  /// are.
+  void add_own_offset(std::size_t recording, Eigen::MatrixXd& predicted) const;
 
   Case study_;
-  bool own_ = false;                     // recordings of their own, not blocks of the fitted
   std::vector<std::vector<char>> held_;  // per recording and row
+  bool blocks_ = false;                  // of the fitted recordings
 };
 
 }  // namespace dcnn

@@ -150,6 +150,27 @@ Eigen::VectorXd Setting::whitened(const Signals& signals) const {
   return whitener(signals).cwiseProduct(mask);
 }
 
+Index Setting::flat_columns() const {
+  Index zeroed = 0;
+  for (const Log& log : study.logs) zeroed += log.zeroed ? 1 : 0;
+  return static_cast<Index>(study.logs.front().regressors.size()) + zeroed * study.channel_count();
+}
+
+std::vector<Signals> own_offsets(const Case& study) {
+  std::vector<Signals> columns;
+  for (std::size_t k = 0; k < study.logs.size(); ++k) {
+    for (Index j = 0; study.logs[k].zeroed && j < study.channel_count(); ++j) {
+      Signals column;
+      for (const Log& log : study.logs) {
+        column.push_back(Eigen::MatrixXd::Zero(log.motion.samples(), study.channel_count()));
+      }
+      column[k].col(j).setOnes();
+      columns.push_back(std::move(column));
+    }
+  }
+  return columns;
+}
+
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   if (A.cols() == 0) return Eigen::VectorXd(0);
   return solve_gram(A.transpose() * A, A.transpose() * b, 1e-11);

@@ -15,12 +15,19 @@ struct Setting {
   Case coarse;               ///< the case at a stride at which searches are quick
   Whitener coarse_whitener;  ///< with the same rows
   Signals measured;
-  Eigen::MatrixXd nuisance;     ///< whitened columns that are always fitted beside the members
+  /// Whitened columns that are always fitted beside the members: of the case's regressors, of the
+  /// offsets of zeroed recordings (flat_columns() in all), then of other filters of the pose.
+  Eigen::MatrixXd nuisance;
   Eigen::VectorXd mask;         ///< 0 for rows that an impact disturbs, else 1
   double price = kNumberPrice;  ///< of chi-square, per fitted number, that an effect must gain
 
   Eigen::VectorXd whitened(const Signals& signals) const;
+  /// Nuisance columns of numbers that nothing is known of beforehand.
+  Index flat_columns() const;
 };
+
+/// 1 in one channel of one zeroed recording, for each of them: what its own offset adds.
+std::vector<Signals> own_offsets(const Case& study);
 
 struct JointFit {
   std::vector<Member> members;

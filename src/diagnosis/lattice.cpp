@@ -42,7 +42,11 @@ std::optional<double> lattice(const Signals& measured, Index channel) {
 
 Signals measured_of(const Case& study) {
   Signals measured;
-  for (const Log& log : study.logs) measured.push_back(log.measured);
+  for (const Log& log : study.logs) {
+    measured.push_back(log.measured);
+    // What was subtracted from a zeroed one lies on no lattice; its differences do.
+    if (log.zeroed) measured.back().rowwise() -= log.measured.row(0);
+  }
   return measured;
 }
 

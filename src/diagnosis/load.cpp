@@ -13,11 +13,18 @@ double first_time(const Recording& r) { return r.has("t") ? r.column("t")(0) : 0
 double last_time(const Recording& r) { return r.has("t") ? r.column("t")(r.samples() - 1) : 0.0; }
 
 std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
-                                const ReadOptions& options) {
+                                const DiagnosisRequest& request, const Case& study) {
   std::vector<Recording> recordings;
-  ReadOptions read = options;
+  ReadOptions read = request.read;
   read.static_list = true;
-  for (const auto& path : paths) recordings.push_back(read_recording(path, read, System()));
+  if (request.simulator) read.payload.rpy = study.simulator.model.sensor_rotation_rpy;
+  for (const auto& path : paths) {
+    recordings.push_back(read_recording(path, read, System()));
+    const auto& zeroed = request.zeroed;
+    if (std::find(zeroed.begin(), zeroed.end(), path) != zeroed.end()) {
+      recordings.back().zeroed = true;
+    }
+  }
   std::stable_sort(recordings.begin(), recordings.end(),
                    [](const auto& a, const auto& b) { return first_time(a) < first_time(b); });
   return recordings;
@@ -61,6 +68,7 @@ Log make_log(Recording recording, const Case& study, bool columns) {
   Log log;
   if (columns) log.base = simulated_columns(recording, study);
   log.measured = recording.block(study.targets);
+  log.zeroed = recording.zeroed;
   log.recording = std::move(recording);
   log.motion = motion_of(log.recording, study.simulator.model, study.derivative);
   return log;
@@ -109,7 +117,8 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
     study.own_tool = false;
     study.simulator.model.inertia = Eigen::Matrix3d::Zero();
   }
-  auto fit = read_all(request.fit, request.read), holdout = read_all(request.holdout, request.read);
+  auto fit = read_all(request.fit, request, study),
+       holdout = read_all(request.holdout, request, study);
   std::vector<Recording> all = fit;
   all.insert(all.end(), holdout.begin(), holdout.end());
   check_rates(all);

@@ -50,6 +50,7 @@ Signals difference(const Case& study, const Signals& prediction) {
   Signals left;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     left.push_back(study.logs[k].measured - prediction[k]);
+    if (study.logs[k].zeroed) left[k].rowwise() -= left[k].colwise().mean().eval();
   }
   return left;
 }

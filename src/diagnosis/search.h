@@ -185,7 +185,7 @@ class Search {
   bool ringing_ = false;  // what shakes the motion unseen rings in the modes that were found
 };
 
-/// measured - predicted per recording.
+/// measured - predicted per recording, of one that was zeroed without its mean.
 Signals difference(const Case& study, const Signals& prediction);
 
 }  // namespace dcnn

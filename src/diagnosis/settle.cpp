@@ -88,6 +88,9 @@ void Search::make_setting(const std::vector<Member>& members) {
     }
     setting_->nuisance = appended(setting_->nuisance, setting_->whitened(column));
   }
+  for (const Signals& column : own_offsets(study_)) {
+    setting_->nuisance = appended(setting_->nuisance, setting_->whitened(column));
+  }
   if (study_.is_static() || study_.without.smoothing) return;
   // What other filters of the pose change, per channel.
   for (const Case& other : smoothed_) {

@@ -56,6 +56,9 @@ double linear_misfit(const Case& study, const std::vector<Member>& members) {
   for (const auto& column : lag_columns(study, prediction)) {
     setting.nuisance = appended(setting.nuisance, setting.whitened(column));
   }
+  for (const auto& column : own_offsets(study)) {
+    setting.nuisance = appended(setting.nuisance, setting.whitened(column));
+  }
   JointFit empty;
   empty.members = members;
   empty.tangent = setting.nuisance;

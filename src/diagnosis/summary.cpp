@@ -10,10 +10,27 @@
 namespace dcnn {
 namespace {
 
-double mean_of(const Json& list) {
-  double sum = 0.0;
-  for (const Json& v : list) sum += v.get<double>();
-  return list.empty() ? 0.0 : sum / static_cast<double>(list.size());
+/// Over the targets that have the first one's unit: newtons and newton metres have no mean.
+double mean_of(const Json& report, const char* key) {
+  const Json& list = report["fit"][key];
+  double sum = 0.0, count = 0.0;
+  for (std::size_t j = 0; j < list.size(); ++j) {
+    if (report["units"][j] != report["units"][0]) continue;
+    sum += list[j].get<double>();
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+/// " N (mean of fx, fy, fz)".
+std::string of_what(const Json& report) {
+  std::string names;
+  for (std::size_t j = 0; j < report["units"].size(); ++j) {
+    if (report["units"][j] != report["units"][0]) continue;
+    names += (names.empty() ? "" : ", ") + report["targets"][j].get<std::string>();
+  }
+  const bool one = names.find(',') == std::string::npos;
+  return " " + report["units"][0].get<std::string>() + (one ? " (" : " (mean of ") + names + ")\n";
 }
 
 /// The channel on which the findings gain most.
@@ -113,6 +130,10 @@ std::string to_text(const Diagnosis& diagnosis) {
   std::ostringstream out;
   out << headline(report) << "\n\n";
   out << "verdict     " << report["verdict"].get<std::string>() << "\n";
+  if (report.contains("zeroed")) {
+    out << "zeroed      an offset of its own was estimated for each of " << report["zeroed"].size()
+        << " recordings: a constant offset has no name\n";
+  }
   for (const Json& finding : in_lines(report["findings"])) {
     out << "found       " << finding["effect"].get<std::string>();
     if (!finding["axis"].is_null()) out << " " << finding["axis"].get<std::string>();
@@ -143,16 +164,15 @@ std::string to_text(const Diagnosis& diagnosis) {
     out << "search      ended at its limit: not every exchange of effects was tried\n";
   }
   if (fit["holdout_rmse_before"].is_null()) {
-    out << "hold-out    none, noise " << brief(mean_of(fit["noise_floor"]))
-        << " (mean of the axes)\n";
+    out << "hold-out    none, noise " << brief(mean_of(report, "noise_floor")) << of_what(report);
     return out.str();
   }
-  out << "hold-out    before " << brief(mean_of(fit["holdout_rmse_before"]));
+  out << "hold-out    before " << brief(mean_of(report, "holdout_rmse_before"));
   if (!fit["holdout_rmse_parameters"].is_null()) {
-    out << ", own numbers refitted " << brief(mean_of(fit["holdout_rmse_parameters"]));
+    out << ", own numbers refitted " << brief(mean_of(report, "holdout_rmse_parameters"));
   }
-  out << ", after " << brief(mean_of(fit["holdout_rmse_after"])) << ", noise "
-      << brief(mean_of(fit["holdout_noise_floor"])) << " (mean of the axes)\n";
+  out << ", after " << brief(mean_of(report, "holdout_rmse_after")) << ", noise "
+      << brief(mean_of(report, "holdout_noise_floor")) << of_what(report);
   if (!report["next_motion"].is_null()) {
     out << "next        to tell " << report["next_motion"]["separates"][0].get<std::string>()
         << " from " << report["next_motion"]["separates"][1].get<std::string>() << ": "

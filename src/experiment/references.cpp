@@ -19,6 +19,16 @@ double mean_ratio(const std::vector<double>& rmse, const std::vector<double>& re
   return sum / static_cast<double>(rmse.size());
 }
 
+bool is_whole_wrench(const Targets& targets) {
+  return targets.names == std::vector<std::string>{"fx", "fy", "fz", "tx", "ty", "tz"};
+}
+
+/// Which of the two forms of --model rigid stands beside a model: fit_rigid()'s.
+const char* form_in_words(const Targets& targets) {
+  return is_whole_wrench(targets) ? "as one body (mass, centre, inertia, offset; the form inertial)"
+                                  : "by regression on its terms, without added noise";
+}
+
 }  // namespace
 
 std::vector<double> white_noise(const Eigen::MatrixXd& measured) {
@@ -49,7 +59,7 @@ Identifier fit_rigid(const Identifier& like, const Samples& training, const Samp
   rigid.base = like.base;
   rigid.seed = like.seed;
   const bool whole =
-      like.layout.system.kind == System::Kind::kWrist && like.targets.names.size() == 6;
+      like.layout.system.kind == System::Kind::kWrist && is_whole_wrench(like.targets);
   const ModelKind& kind = model_kind("rigid", Exit::kFailure);
   rigid.configuration =
       merged(kind.preset("standard", like.layout.system.kind == System::Kind::kAxes),
@@ -83,7 +93,7 @@ std::vector<std::string> warnings(const std::string& model, const std::vector<do
   const double ratio = mean_ratio(rmse, references.rigid);
   if (ratio > kTie) {
     lines.push_back(model + ": its error is " + significant(ratio, 3) +
-                    " times that of the rigid tool" +
+                    " times that of the rigid tool " + form_in_words(targets) +
                     (references.rigid_file.empty() ? "" : ", which is " + references.rigid_file) +
                     "; dcnn-train --model auto keeps the better one");
   }

@@ -4,9 +4,9 @@
 
 namespace dcnn {
 
-Payload payload_of(const ToolModel& model) {
+PayloadBody payload_of(const ToolModel& model) {
   const Eigen::Matrix3d R_ES = model.R_ES();
-  Payload payload;
+  PayloadBody payload;
   payload.mass = model.mass;
   payload.com = R_ES * model.com;
   if (model.inertia) {
@@ -19,12 +19,12 @@ Payload payload_of(const ToolModel& model) {
   return payload;
 }
 
-Eigen::Vector3d Payload::moments() const {
+Eigen::Vector3d PayloadBody::moments() const {
   if (!inertia_com) return Eigen::Vector3d::Zero();
   return spectrum_of(*inertia_com).values;
 }
 
-Eigen::Matrix3d Payload::axes() const {
+Eigen::Matrix3d PayloadBody::axes() const {
   if (!inertia_com) return Eigen::Matrix3d::Identity();
   Eigen::Matrix3d axes = spectrum_of(*inertia_com).vectors;
   if (axes.determinant() < 0.0) axes.col(0) = -axes.col(0);

@@ -35,18 +35,18 @@ std::string list(const Eigen::VectorXd& values, const std::string& between) {
 /// ixx, ixy, ixz, iyy, iyz, izz; zeros without an inertia.
 struct Six {
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  explicit Six(const Payload& payload) {
+  explicit Six(const PayloadBody& payload) {
     if (!payload.inertia_com) return;
     const Matrix3d& I = *payload.inertia_com;
     xx = I(0, 0), xy = I(0, 1), xz = I(0, 2), yy = I(1, 1), yz = I(1, 2), zz = I(2, 2);
   }
 };
 
-const char* no_inertia(const Payload& payload) {
+const char* no_inertia(const PayloadBody& payload) {
   return payload.inertia_com ? "" : " The inertia is unknown and written as 0.";
 }
 
-std::string urdf(const Payload& p) {
+std::string urdf(const PayloadBody& p) {
   const Six i(p);
   return "<?xml version=\"1.0\"?>\n<!-- " + std::string(kFrame) +
          " Inertia about the centre of mass, axes of E." + no_inertia(p) + " -->\n" +
@@ -58,7 +58,7 @@ std::string urdf(const Payload& p) {
          number(i.zz) + "\"/>\n    </inertial>\n  </link>\n</robot>\n";
 }
 
-std::string sdf(const Payload& p) {
+std::string sdf(const PayloadBody& p) {
   const Six i(p);
   const auto element = [](const std::string& name, double value) {
     return "          <" + name + ">" + number(value) + "</" + name + ">\n";
@@ -73,7 +73,7 @@ std::string sdf(const Payload& p) {
          "        </inertia>\n      </inertial>\n    </link>\n  </model>\n</sdf>\n";
 }
 
-std::string mujoco(const Payload& p) {
+std::string mujoco(const PayloadBody& p) {
   const Six i(p);
   Eigen::VectorXd six(6);
   six << i.xx, i.yy, i.zz, i.xy, i.xz, i.yz;
@@ -87,7 +87,7 @@ std::string mujoco(const Payload& p) {
          inertia + "/>\n    </body>\n  </worldbody>\n</mujoco>\n";
 }
 
-std::string ur(const Payload& p) {
+std::string ur(const PayloadBody& p) {
   const Six i(p);
   Eigen::VectorXd six(6);
   six << i.xx, i.yy, i.zz, i.xy, i.xz, i.yz;
@@ -98,7 +98,7 @@ std::string ur(const Payload& p) {
          "], [" + list(six, ", ") + "])\n";
 }
 
-std::string franka(const Payload& p) {
+std::string franka(const PayloadBody& p) {
   const Six i(p);
   Eigen::VectorXd nine(9);
   nine << i.xx, i.xy, i.xz, i.xy, i.yy, i.yz, i.xz, i.yz, i.zz;
@@ -118,7 +118,7 @@ std::string franka(const Payload& p) {
 }
 
 /// The least turn about z, y, x that has these principal axes: they may change places and sides.
-Matrix3d nearest_axes(const Payload& p, Vector3d& moments) {
+Matrix3d nearest_axes(const PayloadBody& p, Vector3d& moments) {
   const Matrix3d axes = p.axes();
   const Vector3d values = p.moments();
   std::array<Index, 3> order{0, 1, 2};
@@ -139,7 +139,7 @@ Matrix3d nearest_axes(const Payload& p, Vector3d& moments) {
   return best;
 }
 
-std::string kuka(const Payload& p) {
+std::string kuka(const PayloadBody& p) {
   Vector3d moments;
   const Vector3d abc = euler_from_rotation(nearest_axes(p, moments)) * 180.0 / M_PI;
   const Vector3d mm = p.com / kMillimetre;
@@ -151,7 +151,7 @@ std::string kuka(const Payload& p) {
          number(moments.x()) + ",Y " + number(moments.y()) + ",Z " + number(moments.z()) + "}}\n";
 }
 
-std::string abb(const Payload& p) {
+std::string abb(const PayloadBody& p) {
   Vector3d moments;
   const Eigen::Quaterniond q(nearest_axes(p, moments));
   const Vector3d mm = p.com / kMillimetre;
@@ -162,7 +162,7 @@ std::string abb(const Payload& p) {
          list(aom, ",") + "]," + list(moments, ",") + "];\n";
 }
 
-std::string ros2_yaml(const Payload& p) {
+std::string ros2_yaml(const PayloadBody& p) {
   return "# " + std::string(kFrame) + "\n# gravity_compensation of ros2_controllers' "
          "admittance_controller: CoG.pos [m] in frame.id, CoG.force = mass*9.81 [N].\n# "
          "payload: for other nodes; inertia ixx ixy ixz iyy iyz izz [kg*m^2] about the centre of "
@@ -181,7 +181,7 @@ std::string ros2_yaml(const Payload& p) {
 
 struct Format {
   const char *name, *file;
-  std::string (*text)(const Payload&);
+  std::string (*text)(const PayloadBody&);
 };
 constexpr Format kFormats[] = {
     {"urdf", "payload.urdf", urdf},         {"sdf", "payload.sdf", sdf},
@@ -206,7 +206,7 @@ std::vector<std::string> payload_formats() {
 
 std::string payload_file(const std::string& format) { return format_of(format).file; }
 
-std::string payload_text(const std::string& format, const Payload& payload) {
+std::string payload_text(const std::string& format, const PayloadBody& payload) {
   return format_of(format).text(payload);
 }
 

@@ -40,6 +40,19 @@ Table in_order(const StreamTable& from) {
   return table;
 }
 
+/// What the sensor read before the controller took a payload's weight off.
+void add_payload(const Payload& payload, const std::string& file, Imported* imported) {
+  if (payload.mass == 0.0) return;
+  Recording recording;
+  recording.table = std::move(imported->table);
+  recording.segments = {{0, recording.samples()}};
+  require(recording.has_all(kQuaternion) || recording.has_all(kEuler), Exit::kData, file,
+          ": a payload's weight needs an orientation to be added back by");
+  add_weight(payload, recording);
+  imported->table = std::move(recording.table);
+  imported->notes.insert(imported->notes.end(), recording.notes.begin(), recording.notes.end());
+}
+
 /// Columns of joints: "q:elbow" is q_elbow.
 void name_joints(Table* table) {
   for (std::string& column : table->columns) std::replace(column.begin(), column.end(), ':', '_');
@@ -84,11 +97,22 @@ Imported assemble(const ForeignLog& log, const Recipe& recipe) {
   StreamTable joined = join_streams(std::move(tables), &imported.notes);
   turn_wrench(recipe.wrench, &joined, log.file);
   imported.table = in_order(joined);
+  add_payload(recipe.wrench.payload, log.file, &imported);
   name_joints(&imported.table);
   if (recipe.resample_hz != 0.0 && !joined.t.empty()) {
     put_on_regular_clock(std::max(0.0, recipe.resample_hz), log.file, &imported);
   }
   return imported;
+}
+
+bool holds(const ForeignLog& log, const Recipe& recipe) {
+  return std::all_of(log.streams.begin(), log.streams.end(), [&](const LogStream& stream) {
+    return std::all_of(stream.channels.begin(), stream.channels.end(),
+                       [&](const LogChannel& channel) {
+                         return !recipe.names(stream, channel.name) ||
+                                static_cast<Index>(channel.values.size()) == stream.rows;
+                       });
+  });
 }
 
 std::vector<std::filesystem::path> split_paths(const std::filesystem::path& path) {

@@ -86,6 +86,7 @@ void join_one(const StreamTable& from, StreamTable* to, std::vector<std::string>
   require(!rows.empty(), Exit::kData, shown(to->stream), " (", a.begin, " to ", a.end, " s) and ",
           shown(from.stream), " (", b.begin, " to ", b.end,
           " s) have no time in common; see --clock-offset, --stamps and --clock-unit");
+  to->add(from.columns);
   for (std::size_t c = 0; c < from.columns.size(); ++c) {
     to->set(from.columns[c], interpolate_column(from, static_cast<Index>(c), to->t, knots));
   }

@@ -39,8 +39,9 @@ std::size_t LogBuilder::add_stream(const std::string& key, LogStream stream) {
 void LogBuilder::add(std::size_t index, double stamped, double received,
                      std::span<const double> row) {
   LogStream& stream = log_.streams[index];
-  require(row.size() == stream.channels.size(), Exit::kData, log_.file, ": rows of ",
-          shown(stream.name), " have different lengths");
+  if (row.size() != stream.channels.size()) {  // words are made for a message only
+    fail(Exit::kData, log_.file, ": rows of ", shown(stream.name), " have different lengths");
+  }
   for (std::size_t k = 0; k < row.size(); ++k) stream.channels[k].add(row[k], keep_[index][k] != 0);
   if (!std::isnan(stamped)) stream.stamped.push_back(stamped);
   if (!std::isnan(received)) stream.received.push_back(received);

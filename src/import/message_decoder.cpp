@@ -10,6 +10,9 @@ namespace {
 constexpr std::uint64_t kMostElements = 64;  // of an array whose values are channels
 constexpr std::size_t kMostValues = 1024;    // of a message
 constexpr std::size_t kMostShapes = 256;     // of a topic
+constexpr std::size_t kMostLayouts = 16;     // of a topic, tried one after the other
+constexpr std::size_t kMostParts = 4096;     // of a layout that are compared
+constexpr std::size_t kTimeBytes = 8, kEncapsulationBytes = 4;
 
 const std::string kNoPath;
 
@@ -72,9 +75,16 @@ double MessageDecoder::read_time(const MessageField& field, Bytes* bytes) const 
   return seconds + 1e-9 * bytes->number<std::uint32_t>();
 }
 
-std::string_view MessageDecoder::read_string(Bytes* bytes) const {
+std::uint64_t MessageDecoder::read_count(Bytes* bytes) {
   align(4, bytes);
-  std::string_view text = bytes->text32();
+  layout_.fix(bytes->at(), 4);
+  return bytes->number<std::uint32_t>();
+}
+
+std::string_view MessageDecoder::read_string(Bytes* bytes, bool tells) {
+  const std::uint64_t length = read_count(bytes);
+  if (tells) layout_.fix(bytes->at(), static_cast<std::size_t>(length));
+  std::string_view text = bytes->take(length);
   while (cdr_ && !text.empty() && text.back() == '\0') text.remove_suffix(1);
   return text;
 }
@@ -87,16 +97,18 @@ void MessageDecoder::skip_numbers(const MessageField& field, std::uint64_t count
 }
 
 void MessageDecoder::value(double number, const std::string& path) {
-  if (sample_.values.size() >= kMostValues) return;
   sample_.values.push_back(number);
   if (named_) sample_.names.push_back(path);
 }
 
 void MessageDecoder::read_header(const MessageType& type, Bytes* bytes) {
   for (const MessageField& field : type.fields) {
-    if (field.kind == FieldKind::kTime) sample_.stamp = read_time(field, bytes);
+    if (field.kind == FieldKind::kTime) {
+      sample_.stamp = read_time(field, bytes);
+      layout_.set_stamp(bytes->at() - kTimeBytes, field.number == 'i' ? 'T' : 't');
+    }
     if (field.kind == FieldKind::kNumber) read_number(field, bytes);
-    if (field.kind == FieldKind::kString) sample_.frame = read_string(bytes).substr(0, 256);
+    if (field.kind == FieldKind::kString) sample_.frame = read_string(bytes, true).substr(0, 256);
   }
   sample_.shape += '<' + sample_.frame + '>';
 }
@@ -106,15 +118,20 @@ void MessageDecoder::read_element(const MessageField& field, const std::string& 
   if (field.kind == FieldKind::kMessage) {
     read_message(schema_.types[static_cast<std::size_t>(field.message)], path, bytes, keep);
   } else if (field.kind == FieldKind::kString) {
-    const std::string_view text = read_string(bytes);
-    if (field.name == "child_frame_id" && sample_.child.empty()) {
+    const bool child = field.name == "child_frame_id";
+    const std::string_view text = read_string(bytes, child);
+    if (child && sample_.child.empty()) {
       sample_.child = text.substr(0, 256);
       sample_.shape += '>' + sample_.child;
     }
   } else {
-    const double number =
-        field.kind == FieldKind::kTime ? read_time(field, bytes) : read_number(field, bytes);
-    if (keep) value(number, path);
+    const bool time = field.kind == FieldKind::kTime;
+    const double number = time ? read_time(field, bytes) : read_number(field, bytes);
+    if (!keep || sample_.values.size() >= kMostValues) return;
+    value(number, path);
+    const char seconds = field.number == 'i' ? 'T' : 't';
+    const std::size_t size = time ? kTimeBytes : static_cast<std::size_t>(field.bytes);
+    layout_.add_value(bytes->at() - size, time ? seconds : field.number);
   }
 }
 
@@ -123,8 +140,7 @@ void MessageDecoder::read_field(const MessageField& field, const std::string& pa
   if (!field.array) return read_element(field, path, bytes, keep);
   std::uint64_t count = static_cast<std::uint64_t>(field.length);
   if (field.length < 0) {
-    align(4, bytes);
-    count = bytes->number<std::uint32_t>();
+    count = read_count(bytes);
     sample_.shape += std::to_string(count) + ',';
   }
   const bool few = count <= kMostElements && !field.name.ends_with("covariance");
@@ -132,7 +148,7 @@ void MessageDecoder::read_field(const MessageField& field, const std::string& pa
   const bool names = is_names(field) && few;
   for (std::uint64_t k = 0; k < count; ++k) {
     if (names) {
-      labels->emplace_back(read_string(bytes).substr(0, 256));
+      labels->emplace_back(read_string(bytes, true).substr(0, 256));
       sample_.shape += labels->back() + ',';
       continue;
     }
@@ -194,6 +210,7 @@ void MessageDecoder::read_sample(const MessageType& type, Bytes* bytes) {
   sample_.frame.clear();
   sample_.child.clear();
   sample_.stamp = std::numeric_limits<double>::quiet_NaN();
+  layout_ = MessageLayout();
   depth_ = 0;
   read_message(type, kNoPath, bytes, true);
 }
@@ -217,11 +234,12 @@ LogStream MessageDecoder::describe(const MessageType& type) const {
   return stream;
 }
 
-void MessageDecoder::add_sample(const MessageType& type, const Bytes& before, double received,
-                                LogBuilder& builder) {
+std::optional<std::size_t> MessageDecoder::add_sample(const MessageType& type, const Bytes& before,
+                                                      double received, LogBuilder& builder) {
   auto found = streams_.find(sample_.shape);
   if (found == streams_.end()) {
-    if (streams_.size() >= kMostShapes) return;  // what changes with every message is no signal
+    // What changes with every message is no signal.
+    if (streams_.size() >= kMostShapes) return std::nullopt;
     Bytes again = before;
     named_ = true;
     read_sample(type, &again);
@@ -231,15 +249,30 @@ void MessageDecoder::add_sample(const MessageType& type, const Bytes& before, do
     found = streams_.emplace(sample_.shape, stream).first;
   }
   builder.add(found->second, sample_.stamp, received, sample_.values);
+  return found->second;
+}
+
+bool MessageDecoder::decode_by_layout(std::string_view message, double received,
+                                      LogBuilder& builder) {
+  for (const MessageLayout& layout : layouts_) {
+    if (!layout.fits(message)) continue;
+    layout.read(message, &sample_.values);
+    const double stamp =
+        layout.has_stamp() ? layout.stamp(message) : std::numeric_limits<double>::quiet_NaN();
+    builder.add(layout.stream(), stamp, received, sample_.values);
+    return true;
+  }
+  return false;
 }
 
 void MessageDecoder::decode(std::string_view message, double received, const std::string& place,
                             LogBuilder& builder) {
+  if (decode_by_layout(message, received, builder)) return;
   Bytes bytes(message, place);
   start(&bytes);
   const MessageType* type = &schema_.types[0];
   std::uint64_t count = 1;
-  if (is_list()) {
+  if (list_) {
     align(4, &bytes);
     count = bytes.number<std::uint32_t>();
     type = &schema_.types[static_cast<std::size_t>(type->fields[0].message)];
@@ -247,7 +280,11 @@ void MessageDecoder::decode(std::string_view message, double received, const std
   for (std::uint64_t k = 0; k < count; ++k) {
     const Bytes before = bytes;
     read_sample(*type, &bytes);
-    add_sample(*type, before, received, builder);
+    const auto stream = add_sample(*type, before, received, builder);
+    if (list_ || !stream || layouts_.size() >= kMostLayouts) continue;
+    if (cdr_) layout_.fix(0, kEncapsulationBytes);
+    layout_.finish(message, cdr_ && message[1] % 2 == 0, *stream);
+    if (layout_.parts() <= kMostParts) layouts_.push_back(std::move(layout_));
   }
 }
 

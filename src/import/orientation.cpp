@@ -169,8 +169,9 @@ void convert_orientation(const Recipe& recipe, StreamTable* table, const std::st
   for (Index row = 1; row < q.rows(); ++row) {
     if (q.row(row).dot(q.row(row - 1)) < 0.0) q.row(row) *= -1.0;
   }
-  const char* names[] = {"qw", "qx", "qy", "qz"};
-  for (Index k = 0; k < 4; ++k) table->set(names[k], q.col(k));
+  const std::vector<std::string> names = {"qw", "qx", "qy", "qz"};
+  table->add(names);
+  for (Index k = 0; k < 4; ++k) table->set(names[static_cast<std::size_t>(k)], q.col(k));
 }
 
 }  // namespace dcnn

@@ -87,6 +87,9 @@ WrenchRule parse_wrench(Options options) {
   rule.frame = options.choice("frame", "sensor", {"sensor", "base"});
   rule.turn = triple_of(options, "turn_rpy");
   rule.origin = triple_of(options, "origin_m");
+  rule.zeroed = options.get("zeroed", false);
+  rule.payload.mass = options.number("payload_kg", 0.0, 0.0, 1e6);
+  rule.payload.com = triple_of(options, "payload_com_m");
   options.finish();
   return rule;
 }
@@ -143,6 +146,11 @@ Json to_json(const Recipe& recipe) {
   json["wrench"] = {{"frame", recipe.wrench.frame},
                     {"turn_rpy", numbers(recipe.wrench.turn)},
                     {"origin_m", numbers(recipe.wrench.origin)}};
+  if (recipe.wrench.zeroed) json["wrench"]["zeroed"] = true;
+  if (recipe.wrench.payload.mass > 0.0) {
+    json["wrench"]["payload_kg"] = recipe.wrench.payload.mass;
+    json["wrench"]["payload_com_m"] = numbers(recipe.wrench.payload.com);
+  }
   if (!recipe.arm.urdf.empty()) {
     json["arm"] = {{"urdf", recipe.arm.urdf}, {"base", recipe.arm.base}, {"link", recipe.arm.link}};
   }

@@ -118,6 +118,24 @@ std::string joint_state(const std::string& channel) {
   return field == "effort" ? "tau:" + joint : "";
 }
 
+/// KUKA's frames are {X, Y, Z, A, B, C}: A, B and C turn about z, y' and x''.
+std::string kuka_angle(const std::string& word) {
+  return word == "a" ? "alpha" : word == "b" ? "beta" : word == "c" ? "gamma" : "";
+}
+
+bool is_frame_of_kuka(const LogStream& stream) {
+  std::size_t found = 0;
+  for (const char* part : {"x", "y", "z", "a", "b", "c"}) {
+    found += std::any_of(stream.channels.begin(), stream.channels.end(),
+                         [&](const LogChannel& channel) {
+                           return words_of_name(channel.name) == Words{part};
+                         })
+                 ? 1
+                 : 0;
+  }
+  return found == 6;
+}
+
 }  // namespace
 
 Words words_of_name(const std::string& name) {
@@ -157,6 +175,7 @@ std::string role_of(const LogStream& stream, const std::string& full_name) {
   }
   if (words.size() == 1) {
     const std::string column = single_word(words[0]);
+    if (column.empty() && is_frame_of_kuka(stream)) return kuka_angle(words[0]);
     return column.empty() ? joint_word(words[0]) : column;
   }
   if (const std::string role = by_words(words); !role.empty()) return role;

@@ -13,6 +13,7 @@ namespace dcnn {
 namespace {
 
 constexpr double kInterval95 = 1.959963984540054;
+constexpr Index kMostOffsetRows = 100'000;  // of the force that are compared: a limit of computation
 
 Eigen::MatrixXd columns_of(const StreamTable& table, const std::vector<std::string>& names) {
   Eigen::MatrixXd out =
@@ -70,12 +71,17 @@ StreamOffset estimate_offset(const ForeignLog& log, const Recipe& recipe, double
   if (force.stream.empty() || pose.stream.empty() || force.stream == pose.stream) return result;
   if (force.t.empty() || pose.t.empty() || !force.has("fy") || !force.has("fz")) return result;
   ClockPair pair;
+  pair.step = std::max(clock_figures(force.t).step, clock_figures(pose.t).step);
   const double origin = force.t.front();
-  for (const double t : force.t) pair.t.push_back(t - origin);
+  std::vector<Index> rows;
+  const Index stride = 1 + static_cast<Index>(force.t.size()) / kMostOffsetRows;
+  for (Index row = 0; row < static_cast<Index>(force.t.size()); row += stride) {
+    rows.push_back(row);
+    pair.t.push_back(force.t[static_cast<std::size_t>(row)] - origin);
+  }
   for (const double t : pose.t) pair.pose_t.push_back(t - origin);
-  pair.force = columns_of(force, {"fx", "fy", "fz"});
+  pair.force = columns_of(force, {"fx", "fy", "fz"})(rows, Eigen::all);
   pair.pose = columns_of(pose, {"x", "y", "z", "qw", "qx", "qy", "qz"});
-  pair.step = std::max(clock_figures(pair.t).step, clock_figures(pair.pose_t).step);
   result.stream = pose.stream;
   result.offset = estimate_clock_offset(pair, most_s);
   return result;

@@ -26,7 +26,8 @@ void unwrap_register(double range, std::vector<double>* values) {
   }
 }
 
-std::vector<double> column_values(const ForeignLog& log, const LogStream& stream, const ColumnRule& rule) {
+std::vector<double> column_values(const ForeignLog& log, const LogStream& stream,
+                                  const ColumnRule& rule) {
   const Index at = stream.find(rule.channel);
   require(at >= 0, Exit::kData, log.file, ": ", shown(stream.name), " has no channel ",
           shown(rule.channel), ", which is to be ", rule.to, "; see dcnn-import --dry-run");
@@ -85,9 +86,10 @@ std::vector<std::size_t> usable_rows(const ForeignLog& log, const LogStream& str
     }
   }
   for (std::size_t k = 1; k < rows.size(); ++k) {
-    require(times[rows[k]] > times[rows[k - 1]], Exit::kData, log.file, ": ", shown(stream.name),
-            ": the clock goes from ", times[rows[k - 1]], " to ", times[rows[k]], " s in row ",
-            rows[k] + 1, "; cut the log there, or give --rate for a clock with too few digits");
+    if (times[rows[k]] > times[rows[k - 1]]) continue;  // words are made for a message only
+    fail(Exit::kData, log.file, ": ", shown(stream.name), ": the clock goes from ",
+         times[rows[k - 1]], " to ", times[rows[k]], " s in row ", rows[k] + 1,
+         "; cut the log there, or give --rate for a clock with too few digits");
   }
   return rows;
 }
@@ -107,6 +109,17 @@ void StreamTable::drop(const std::string& column) {
   rest.leftCols(at) = values.leftCols(at);
   rest.rightCols(rest.cols() - at) = values.rightCols(values.cols() - at - 1);
   values = std::move(rest);
+}
+
+void StreamTable::add(const std::vector<std::string>& names) {
+  const Index before = values.cols();
+  for (const std::string& name : names) {
+    if (!has(name)) columns.push_back(name);
+  }
+  const auto all = static_cast<Index>(columns.size());
+  if (all == before) return;
+  values.conservativeResize(Eigen::NoChange, all);
+  values.rightCols(all - before).setZero();
 }
 
 void StreamTable::set(const std::string& column, const Eigen::VectorXd& numbers) {

@@ -18,6 +18,8 @@ struct StreamTable {
   bool has(const std::string& column) const { return find(column) >= 0; }
   void drop(const std::string& column);
   void set(const std::string& column, const Eigen::VectorXd& values);
+  /// Columns of zeros for those of these names that are not there yet.
+  void add(const std::vector<std::string>& names);
 };
 
 /// The rows in which every used channel is a number, in the order of their times. Messages that

@@ -29,8 +29,8 @@ using testing::contains;
 
 constexpr double kSame = 1e-9;  // of what is exported
 
-Payload some_payload() {
-  Payload p;
+PayloadBody some_payload() {
+  PayloadBody p;
   p.mass = 0.7543210987654321;
   p.com = {0.0123456789, -0.023456789, 0.161803398875};
   Matrix3d R = rotation_from_euler({0.3, -0.2, 0.1});
@@ -61,7 +61,7 @@ TEST(Payload, OfAToolIsItsBodyInTheFlange) {
   model.com = {0.1, 0.0, 0.0};
   model.sensor_rotation_rpy = {0.0, 0.0, M_PI / 2};  // the sensor's x is the flange's y
   model.inertia = Matrix3d(Vector3d(0.01, 0.04, 0.05).asDiagonal());
-  const Payload p = payload_of(model);
+  const PayloadBody p = payload_of(model);
   EXPECT_LT((p.com - Vector3d(0.0, 0.1, 0.0)).norm(), 1e-15);
   const Matrix3d expected = Vector3d(0.04 - 0.02, 0.01, 0.05 - 0.02).asDiagonal();
   EXPECT_LT((*p.inertia_com - expected).norm(), 1e-15);
@@ -70,7 +70,7 @@ TEST(Payload, OfAToolIsItsBodyInTheFlange) {
 }
 
 TEST(Payload, UrScriptTakesThemInItsOrder) {
-  const Payload p = some_payload();
+  const PayloadBody p = some_payload();
   const auto v = numbers(payload_text("ur", p), "\nset_target_payload");
   ASSERT_EQ(v.size(), 10U);
   EXPECT_NEAR(v[0], p.mass, kSame);
@@ -79,7 +79,7 @@ TEST(Payload, UrScriptTakesThemInItsOrder) {
 }
 
 TEST(Payload, FrankaTakesAColumnMajorMatrix) {
-  const Payload p = some_payload();
+  const PayloadBody p = some_payload();
   const Json json = parse_json(payload_text("franka", p), "franka", Exit::kData);
   EXPECT_EQ(json["mass"].get<double>(), p.mass);
   const auto I = json["inertia"].get<std::vector<double>>();
@@ -90,7 +90,7 @@ TEST(Payload, FrankaTakesAColumnMajorMatrix) {
 }
 
 TEST(Payload, KukaTakesMillimetresDegreesAndPrincipalMoments) {
-  const Payload p = some_payload();
+  const PayloadBody p = some_payload();
   const auto v = numbers(payload_text("kuka", p), "PAYLOAD=");
   ASSERT_EQ(v.size(), 10U);
   EXPECT_NEAR(v[0], p.mass, kSame);
@@ -102,7 +102,7 @@ TEST(Payload, KukaTakesMillimetresDegreesAndPrincipalMoments) {
 }
 
 TEST(Payload, AbbTakesMillimetresAndAQuaternion) {
-  const Payload p = some_payload();
+  const PayloadBody p = some_payload();
   const auto v = numbers(payload_text("abb", p), "payload :=");
   ASSERT_EQ(v.size(), 11U);
   EXPECT_LT((Vector3d(v[1], v[2], v[3]) / 1e3 - p.com).norm(), kSame);
@@ -112,7 +112,7 @@ TEST(Payload, AbbTakesMillimetresAndAQuaternion) {
 }
 
 TEST(Payload, MujocoTakesAFullInertia) {
-  const Payload p = some_payload();
+  const PayloadBody p = some_payload();
   const std::string text = payload_text("mujoco", p);
   const auto v = numbers(text, "<inertial");
   ASSERT_EQ(v.size(), 10U);
@@ -122,7 +122,7 @@ TEST(Payload, MujocoTakesAFullInertia) {
 }
 
 TEST(Payload, WithoutAnInertiaEveryFormatSaysSo) {
-  Payload p = some_payload();
+  PayloadBody p = some_payload();
   p.inertia_com.reset();
   for (const std::string& format : payload_formats()) {
     EXPECT_TRUE(contains(payload_text(format, p), "inertia is unknown")) << format;
@@ -132,7 +132,7 @@ TEST(Payload, WithoutAnInertiaEveryFormatSaysSo) {
 
 TEST(Payload, UrdfdomReadsTheUrdf) {
 #ifdef DCNN_WITH_URDFDOM
-  const Payload p = some_payload();
+  const PayloadBody p = some_payload();
   const auto robot = urdf::parseURDF(payload_text("urdf", p));
   ASSERT_TRUE(robot);
   const auto inertial = robot->getLink("payload")->inertial;
@@ -151,7 +151,7 @@ TEST(Payload, UrdfdomReadsTheUrdf) {
 
 TEST(Payload, SdformatReadsTheSdf) {
 #ifdef DCNN_WITH_SDFORMAT
-  const Payload p = some_payload();
+  const PayloadBody p = some_payload();
   sdf::Root root;
   const auto errors = root.LoadSdfString(payload_text("sdf", p));
   for (const auto& error : errors) ADD_FAILURE() << error.Message();
@@ -175,7 +175,7 @@ TEST(Payload, PyYamlReadsTheParameters) {
   if (std::system("/usr/bin/python3 -c 'import yaml' 2>/dev/null") != 0) {
     GTEST_SKIP() << "without python3-yaml";
   }
-  const Payload p = some_payload();
+  const PayloadBody p = some_payload();
   const test::TemporaryFolder folder;
   const auto in = folder / "payload.yaml", out = folder / "payload.json";
   std::ofstream(in) << payload_text("ros2-yaml", p);

@@ -202,5 +202,16 @@ TEST(TextImport, CellsAreReadExactly) {
   EXPECT_EQ(find_unit("N.m")->quantity, "torque");
 }
 
+// KUKA's frames: A, B and C are no names elsewhere.
+TEST(TextImport, AFrameOfKukaHasItsAngles) {
+  const Imported imported = import_text(
+      "t;X [mm];Y [mm];Z [mm];A [deg];B [deg];C [deg];fx;fy;fz\n"
+      "0,00;100;0;0;90;45;-30;1;2;3\n0,01;100;0;0;90;45;-30;1;2;3\n0,02;100;0;0;90;45;-30;1;2;3\n");
+  EXPECT_NEAR(cell(imported, "x", 1), 0.1, 1e-12);
+  EXPECT_NEAR(cell(imported, "alpha", 1), 90.0 * kDegree, 1e-12);
+  EXPECT_NEAR(cell(imported, "beta", 1), 45.0 * kDegree, 1e-12);
+  EXPECT_NEAR(cell(imported, "gamma", 1), -30.0 * kDegree, 1e-12);
+}
+
 }  // namespace
 }  // namespace dcnn

@@ -13,6 +13,13 @@ std::string line_of(const std::string& log, const check::Fault& fault) {
          (fault.flag.empty() ? "" : " (" + fault.flag + ")");
 }
 
+std::vector<std::filesystem::path> files_in(const std::vector<std::filesystem::path>& logs) {
+  std::vector<std::filesystem::path> files;
+  std::copy_if(logs.begin(), logs.end(), std::back_inserter(files),
+               [](const auto& path) { return std::filesystem::is_regular_file(path); });
+  return files;
+}
+
 }  // namespace
 
 std::vector<check::Report> check_logs(const CheckRequest& request) {
@@ -23,8 +30,7 @@ std::vector<check::Report> check_logs(const CheckRequest& request) {
   }
   if (!request.simulator.empty()) declared.model = read_simulator(request.simulator).model;
   std::vector<check::Report> reports;
-  for (const auto& path : request.logs) {
-    if (!std::filesystem::is_regular_file(path)) continue;
+  for (const auto& path : files_in(request.logs)) {
     reports.push_back(check::check(check::read_log(path, declared)));
   }
   return reports;
@@ -43,10 +49,13 @@ std::vector<std::string> Doctor::words() const {
   return words;
 }
 
-std::vector<std::string> Doctor::examine(const Tool& tool, const CheckRequest& request,
-                                         const std::vector<std::string>& own) const {
-  std::vector<std::string> lines;
-  for (check::Report& report : check_logs(request)) {
+Examined Doctor::examine(const Tool& tool, const CheckRequest& request,
+                         const std::vector<std::string>& own) const {
+  Examined examined;
+  const auto files = files_in(request.logs);
+  std::vector<check::Report> reports = check_logs(request);
+  for (std::size_t k = 0; k < reports.size(); ++k) {
+    check::Report& report = reports[k];
     std::erase_if(report.faults, [&](const check::Fault& fault) {
       if (fault.id == "clock_order") return true;  // every reader refuses it, with the line
       if (fault.id == "jitter" && request.read.resample) return true;
@@ -57,11 +66,13 @@ std::vector<std::string> Doctor::examine(const Tool& tool, const CheckRequest& r
     }
     for (const check::Fault& fault : report.faults) {
       if (fault.probability < check::kLikely) continue;
-      lines.push_back("likely: " + line_of(report.log, fault));
-      tool.note(lines.back());
+      examined.lines.push_back("likely: " + line_of(report.log, fault));
+      tool.note(examined.lines.back());
+      const bool accepted = std::find(accepted_.begin(), accepted_.end(), fault.id) != accepted_.end();
+      if (fault.id == "zeroed" && !accepted) examined.zeroed.push_back(files[k]);
     }
   }
-  return lines;
+  return examined;
 }
 
 }  // namespace dcnn

@@ -20,15 +20,20 @@ struct CheckRequest {
 /// Reports in the order of the logs; streams (`-`) are left out, for they can be read once only.
 std::vector<check::Report> check_logs(const CheckRequest& request);
 
+/// What the check found that does not stop a command.
+struct Examined {
+  std::vector<std::string> lines;             ///< of likely faults, for the report
+  std::vector<std::filesystem::path> zeroed;  ///< logs whose sensor was likely set to zero first
+};
+
 /// --accept.
 class Doctor {
  public:
   explicit Doctor(Tool& tool);
   /// Error(kData) with the remedy where a fault is certain and not accepted; a line on stderr for
-  /// each that is likely. Gives these lines, for the report. Faults in `own` are the command's own
-  /// business and are passed over.
-  std::vector<std::string> examine(const Tool& tool, const CheckRequest& request,
-                                   const std::vector<std::string>& own = {}) const;
+  /// each that is likely. Faults in `own` are the command's own business and are passed over.
+  Examined examine(const Tool& tool, const CheckRequest& request,
+                   const std::vector<std::string>& own = {}) const;
 
   /// --accept for the command line of another tool.
   std::vector<std::string> words() const;

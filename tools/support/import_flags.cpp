@@ -113,6 +113,12 @@ void ImportFlags::add_frames(Tool& tool) {
   tool.option("--wrench-origin", origin_, "logged origin in the sensor's frame: x y z [m]")
       .values(3)
       .group(kFrames);
+  tool.flag("--zeroed", zeroed_, "the sensor was set to zero when each recording began")
+      .group(kFrames);
+  tool.option("--payload", payload_,
+              "KG [X Y Z]: mass and centre [m] of a body whose weight the robot's controller has "
+              "subtracted from the force; it is added back")
+      .group(kFrames);
   tool.option("--urdf", urdf_, "robot description: joint angles become the pose of --link")
       .called("FILE")
       .group(kFrames);
@@ -148,7 +154,8 @@ ImportWishes ImportFlags::wishes() const {
   wishes.euler_order = euler_order_;
   wishes.also = also_;
   wishes.orientation.inverse = inverse_;
-  wishes.wrench = {wrench_frame_, vector_of(turn_), vector_of(origin_)};
+  wishes.wrench = {wrench_frame_, vector_of(turn_), vector_of(origin_), zeroed_,
+                   payload_of(payload_)};
   wishes.arm = {urdf_, base_link_, link_};
   require(urdf_.empty() == link_.empty(), Exit::kUsage, "--urdf and --link belong together");
   return wishes;

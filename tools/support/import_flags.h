@@ -26,8 +26,8 @@ class ImportFlags {
   std::string clock_, clock_unit_, stamps_ = "header";
   double rate_hz_ = 0.0;
   std::string quaternion_order_, euler_order_, wrench_frame_ = "sensor";
-  bool inverse_ = false, truncated_ = false;
-  std::vector<double> turn_, origin_;
+  bool inverse_ = false, truncated_ = false, zeroed_ = false;
+  std::vector<double> turn_, origin_, payload_;
   std::string urdf_, link_, base_link_;
 };
 

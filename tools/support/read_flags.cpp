@@ -21,6 +21,10 @@ ReadFlags::ReadFlags(Tool& tool) {
       .one_of({1.0, -1.0})
       .with_default()
       .group(kReading);
+  tool.option("--payload", payload_,
+              "KG [X Y Z]: mass and centre [m] of a body whose weight the robot's controller has "
+              "subtracted from the force; it is added back")
+      .group(kReading);
   resample_ =
       tool.option("--resample", resample_hz_,
                   "put irregular clocks on a regular one [Hz; default: the recording's rate]")
@@ -39,11 +43,22 @@ void read_by_recipe(const std::filesystem::path& file) {
   set_table_reader([recipe = read_recipe(file)](const std::filesystem::path& log) {
     Imported imported = import_recording(log, recipe, {});
     imported.notes.insert(imported.notes.begin(), "imported by a recipe");
-    return SourceTable{std::move(imported.table), std::move(imported.notes)};
+    return SourceTable{std::move(imported.table), std::move(imported.notes), recipe.wrench.zeroed};
   });
 }
 
 }  // namespace
+
+Payload payload_of(const std::vector<double>& numbers) {
+  if (numbers.empty()) return {};
+  require((numbers.size() == 1 || numbers.size() == 4) && numbers[0] > 0.0, Exit::kUsage,
+          "--payload: give the mass in kg, above 0, and where the centre of mass matters (torques) "
+          "its x y z in m");
+  Payload payload;
+  payload.mass = numbers[0];
+  if (numbers.size() == 4) payload.com = {numbers[1], numbers[2], numbers[3]};
+  return payload;
+}
 
 ReadOptions ReadFlags::options() const {
   ReadOptions options;
@@ -51,6 +66,7 @@ ReadOptions ReadFlags::options() const {
   if (position_unit_ == "mm") options.position_unit = 1e-3;
   if (angle_unit_ == "deg") options.angle_unit = std::numbers::pi / 180.0;
   options.force_sign = force_sign_;
+  options.payload = payload_of(payload_);
   options.resample = resample_->given();
   options.resample_hz = resample_hz_;
   return options;
@@ -64,6 +80,10 @@ std::vector<std::string> ReadFlags::words() const {
   if (position_unit_ != "m") add("--position-unit", position_unit_);
   if (angle_unit_ != "rad") add("--angle-unit", angle_unit_);
   if (force_sign_ < 0.0) add("--force-sign", "-1");
+  for (std::size_t k = 0; k < payload_.size(); ++k) {
+    if (k == 0) words.emplace_back("--payload");
+    words.push_back(Json(payload_[k]).dump());
+  }
   if (resample_->given()) add("--resample", Json(resample_hz_).dump());
   return words;
 }

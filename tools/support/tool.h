@@ -72,7 +72,10 @@ class Tool {
   CommonFlags common_;
 };
 
-/// --position-unit, --angle-unit, --force-sign, --resample and --recipe.
+/// KG, or KG X Y Z, of --payload.
+Payload payload_of(const std::vector<double>& numbers);
+
+/// --position-unit, --angle-unit, --force-sign, --payload, --resample and --recipe.
 class ReadFlags {
  public:
   explicit ReadFlags(Tool& tool);
@@ -84,6 +87,7 @@ class ReadFlags {
  private:
   std::string position_unit_ = "m", angle_unit_ = "rad";
   double force_sign_ = 1.0, resample_hz_ = 0.0;
+  std::vector<double> payload_;
   std::optional<std::filesystem::path> recipe_;
   std::optional<Option> resample_;
 };

@@ -24,11 +24,19 @@ struct Segment {
   Index size() const { return end - begin; }
 };
 
+/// A body whose weight a robot's controller has subtracted from the force.
+struct Payload {
+  double mass = 0.0;                              ///< kg; 0: nothing was subtracted
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();  ///< m, in S
+  Eigen::Vector3d rpy = Eigen::Vector3d::Zero();  ///< (rx, ry, rz): R_ES = Rz·Ry·Rx
+};
+
 /// How a file is turned into SI units on a regular clock.
 struct ReadOptions {
   double position_unit = 1.0;  ///< metres per unit in the file (0.001: millimetres)
   double angle_unit = 1.0;     ///< radians per unit in the file (pi/180: degrees)
   double force_sign = 1.0;     ///< -1 where the log holds the reaction
+  Payload payload;             ///< whose weight is added back
   bool resample = false;       ///< put an irregular clock on a regular one
   double resample_hz = 0.0;    ///< 0: the recording's own median rate
   bool static_list = false;    ///< accept a list of poses without time
@@ -41,6 +49,7 @@ struct Recording {
   double dt = 0.0;   ///< s, median step; 0 for a list of poses at rest
   double clock_origin = 0.0;       ///< s, subtracted from t where the smallest t exceeds 1e6 s
   std::vector<Segment> segments;   ///< in order, covering every row
+  bool zeroed = false;             ///< the sensor was set to zero for it: its offset is its own
   std::vector<std::string> notes;  ///< conversions, resampling, gaps: for every report
 
   Index samples() const { return table.values.rows(); }
@@ -64,6 +73,10 @@ Recording read_recording(const std::filesystem::path& path, const ReadOptions& o
 /// The same from a table that is in memory; `file` names it in errors.
 Recording make_recording(SourceTable table, const std::filesystem::path& file,
                          const ReadOptions& options, const System& system);
+
+/// Adds the weight of a payload to the measured force and torque, m R^T g and c x m R^T g with
+/// g = (0, 0, -9.80665) m/s²: what the sensor read before the controller compensated it.
+void add_weight(const Payload& payload, Recording& recording);
 
 /// The measured quantities to predict: for `wrist` fx,fy,fz and tx,ty,tz where present.
 struct Targets {

@@ -14,6 +14,7 @@ namespace dcnn {
 struct SourceTable {
   Table table;
   std::vector<std::string> notes;
+  bool zeroed = false;  ///< as Recording::zeroed
 };
 
 using TableReader = std::function<SourceTable(const std::filesystem::path&)>;

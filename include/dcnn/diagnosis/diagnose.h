@@ -19,6 +19,7 @@ struct DiagnosisRequest {
   std::optional<std::filesystem::path> system;     ///< system.json of another machine, instead
   Json arm;  ///< kinematics instead of those of `system`; or null
   std::vector<std::filesystem::path> fit, holdout;
+  std::vector<std::filesystem::path> zeroed;  ///< of them, whose sensor was set to zero for each
   ReadOptions read;
   std::optional<bool> shared_clock;  ///< none: shared where the times do not overlap
   Ablation without;                  ///< for research

@@ -11,7 +11,7 @@
 namespace dcnn {
 
 /// A body on the flange, SI, in the flange's frame E (the frame whose pose the robot reports).
-struct Payload {
+struct PayloadBody {
   double mass = 0.0;
   Eigen::Vector3d com = Eigen::Vector3d::Zero();
   std::optional<Eigen::Matrix3d> inertia_com;  ///< about the centre of mass, axes of E
@@ -22,7 +22,7 @@ struct Payload {
 };
 
 /// The tool of sim.json behind its mounting.
-Payload payload_of(const ToolModel& model);
+PayloadBody payload_of(const ToolModel& model);
 
 /// urdf, sdf, mujoco, ur, franka, kuka, abb, ros2-yaml.
 std::vector<std::string> payload_formats();
@@ -30,6 +30,6 @@ std::vector<std::string> payload_formats();
 std::string payload_file(const std::string& format);
 /// Its text; frames and units stand in comments. Where no inertia is known, zeros are written and said
 /// (MuJoCo, which takes no zeros: 1e-9).
-std::string payload_text(const std::string& format, const Payload& payload);
+std::string payload_text(const std::string& format, const PayloadBody& payload);
 
 }  // namespace dcnn

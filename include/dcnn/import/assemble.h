@@ -18,6 +18,9 @@ struct Imported {
 /// Applies `recipe`; what is not as it says is an Error(kData).
 Imported assemble(const ForeignLog& log, const Recipe& recipe);
 
+/// Whether every channel that the recipe names was kept when the log was read.
+bool holds(const ForeignLog& log, const Recipe& recipe);
+
 /// Of a pose's clock against that of the force, where the two are streams of their own.
 struct StreamOffset {
   std::string stream;  ///< whose times would be moved; empty: there is nothing to estimate

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dcnn/core/json.h"
+#include "dcnn/data/recording.h"
 #include "dcnn/import/log.h"
 
 namespace dcnn {
@@ -45,6 +46,8 @@ struct WrenchRule {
   std::string frame = "sensor";                      ///< "base": turned into the sensor's frame
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();    ///< rx,ry,rz of the logged frame in E, rad
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the logged frame in E, m
+  bool zeroed = false;  ///< the sensor was set to zero for each recording
+  Payload payload;      ///< whose weight the controller has subtracted; it is added back
 };
 
 struct ArmRule {

@@ -15,7 +15,7 @@ void compensations(const Log& log, const Reading& base, std::vector<Reading>& ou
 }  // namespace
 
 const FaultKind compensated_fault{"compensated", true,
-                                  "record with the payload set to 0 kg, or add m R^T g of that payload back", "",
+                                  "record with the payload set to 0 kg, or say its mass, which is then added back", "--payload KG",
                                   nullptr, compensations, true};
 
 }  // namespace dcnn::check

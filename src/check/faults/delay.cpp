@@ -8,6 +8,9 @@ namespace dcnn::check {
 namespace {
 
 constexpr Eigen::Index kMostShift = 40;
+/// Speeds [m/s] over which dry friction changes its sign: about what the window makes of any, and a
+/// sharp one.
+constexpr double kFrictionSpeeds[] = {0.02, 0.005};
 
 /// Gain of log-likelihood by shifting the force, for shifts -K … K; penalised by their number.
 std::vector<Fault> find_delay(const Evidence& e) {
@@ -17,22 +20,37 @@ std::vector<Fault> find_delay(const Evidence& e) {
   const double spread =
       std::sqrt((a.fit.force.rowwise() - a.fit.force.colwise().mean()).squaredNorm() /
                 static_cast<double>(3 * a.fit.force.rows()));
-  const double floor = kToolError * spread,
-               independent = independent_of(
-                   fit_rigid(e.log, a.rows, a.motion, a.reading, {0, true}).residual);
-  const auto cost = [&](Eigen::Index shift) {
-    return 0.5 * independent *
-           log_variance(fit_rigid(e.log, a.rows, a.motion, a.reading, {shift, true}).residual,
-                        floor);
+  std::vector<Eigen::MatrixXd> frictions;
+  for (const double speed : kFrictionSpeeds) {
+    if (!a.motion.has_position) break;
+    frictions.push_back(smoothed_friction(e.log, a.rows, a.reading, speed));
+  }
+  if (frictions.empty()) frictions.emplace_back();
+  const auto residual = [&](Eigen::Index shift, const Eigen::MatrixXd& friction) {
+    const FitOptions options{shift, true, friction.size() > 0 ? &friction : nullptr};
+    return fit_rigid(e.log, a.rows, a.motion, a.reading, options).residual;
   };
-  const double as_is = cost(0);
+  const double floor = kToolError * spread, independent = independent_of(residual(0, frictions[0]));
+  const auto cost = [&](Eigen::Index shift, const Eigen::MatrixXd& friction) {
+    return 0.5 * independent * log_variance(residual(shift, friction), floor);
+  };
+  // Each hypothesis with the friction that suits it best.
+  const auto least_cost = [&](Eigen::Index shift) {
+    double least = cost(shift, frictions[0]);
+    for (std::size_t k = 1; k < frictions.size(); ++k) {
+      least = std::min(least, cost(shift, frictions[k]));
+    }
+    return least;
+  };
   Eigen::Index best = 0;
-  double least = as_is;
+  double least = cost(0, frictions[0]);
   for (Eigen::Index shift = -reach; shift <= reach; ++shift) {
-    const double here = shift == 0 ? as_is : cost(shift);
+    const double here = cost(shift, frictions[0]);
     if (here < least) least = here, best = shift;
   }
   if (best == 0) return {};
+  const double as_is = least_cost(0);
+  least = least_cost(best);
   const double odds = kFaultPrior / static_cast<double>(2 * reach) *
                       elementary::exp(std::min(as_is - least, 600.0));
   const double seconds = e.log.step * a.reading.clock * static_cast<double>(std::abs(best));

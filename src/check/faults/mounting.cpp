@@ -28,7 +28,10 @@ std::vector<Fault> find_mounting(const Evidence& e) {
   if (turn.angle() < kLeastAngle) return {};
   Reading turned = a.reading;
   turned.force_axes = turn.toRotationMatrix().transpose() * a.reading.force_axes;
-  const RigidFit fit = fit_rigid(e.log, a.rows, a.motion, turned);
+  // Beside friction, which a turn imitates where the tool moves along one line.
+  const FitOptions beside_friction{0, true};
+  const RigidFit declared = fit_rigid(e.log, a.rows, a.motion, a.reading, beside_friction);
+  const RigidFit fit = fit_rigid(e.log, a.rows, a.motion, turned, beside_friction);
   if (fit.mass <= 0.0) return {};
   const double spread = (a.fit.force.rowwise() - a.fit.force.colwise().mean()).norm() /
                         std::sqrt(static_cast<double>(3 * a.fit.force.rows()));
@@ -36,7 +39,7 @@ std::vector<Fault> find_mounting(const Evidence& e) {
   // Three more numbers: Schwarz' penalty.
   const double gain =
       0.5 * a.independent *
-          (log_variance(a.fit.residual, floor) - log_variance(fit.residual, floor)) -
+          (log_variance(declared.residual, floor) - log_variance(fit.residual, floor)) -
       1.5 * elementary::log(a.independent);
   const double odds = kFaultPrior * elementary::exp(std::min(gain, 600.0));
   if (odds < 0.05) return {};

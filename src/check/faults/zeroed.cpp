@@ -13,6 +13,8 @@ constexpr Eigen::Index kFirstRows = 10;
 /// in.
 std::vector<Fault> find_zeroed(const Evidence& e) {
   const Adopted& a = e.adopted;
+  // A force without its weight begins near zero anyway.
+  if (e.log.declared.read.payload.mass > 0.0) return {};
   if (!a.compared || !e.log.smooth || e.log.rows() < 10 * kFirstRows || a.fit.mass <= 0.0)
     return {};
   const Eigen::MatrixXd F = e.log.block({"fx", "fy", "fz"});
@@ -35,7 +37,7 @@ std::vector<Fault> find_zeroed(const Evidence& e) {
 }  // namespace
 
 const FaultKind zeroed_fault{
-    "zeroed", false, "do not carry the offset from one recording to another: estimate it for each",
+    "zeroed", false, "do not carry the offset from one recording to another; dcnn-diagnose --zeroed estimates one for each",
     "", find_zeroed};
 
 }  // namespace dcnn::check

@@ -18,13 +18,12 @@ namespace {
 
 constexpr std::size_t kMostFields = 4, kTriedAgain = 30;
 
-/// Precisions of the priors of a fit's linear columns: free parameters and the base simulator's are
-/// flat.
+/// Precisions of the priors of a fit's linear columns: free parameters, the base simulator's
+/// and the offsets of zeroed recordings are flat.
 Eigen::VectorXd precisions(const Setting& setting, const JointFit& fit) {
   Eigen::VectorXd precision = Eigen::VectorXd::Zero(fit.tangent.cols());
-  const auto regressors = static_cast<Index>(setting.study.logs.front().regressors.size());
-  const Index first = fit.free_parameters() + regressors;
-  const Index smoothing = setting.nuisance.cols() - regressors;
+  const Index first = fit.free_parameters() + setting.flat_columns();
+  const Index smoothing = setting.nuisance.cols() - setting.flat_columns();
   precision.segment(first, smoothing).setConstant(1.0 / (prior::kFiltering * prior::kFiltering));
   Index column = first + smoothing;
   const auto logs = static_cast<Index>(setting.study.logs.size());

@@ -1,0 +1,65 @@
+// Which effects the signals of a log can show.
+#include "diagnosis/candidates.h"
+#include "physics/effect_law.h"
+
+namespace dcnn {
+namespace {
+
+bool has_acceleration(const Case& study) {
+  return std::all_of(study.logs.begin(), study.logs.end(),
+                     [](const Log& log) { return log.motion.a_B.rows() == log.motion.samples(); });
+}
+
+}  // namespace
+
+bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
+  const auto because = [&](const char* text) {
+    if (why) *why = text;
+    return false;
+  };
+  if (kind.needs_time == TimeNeed::kMotion && study.is_static()) {
+    return because("between poses at rest nothing is recorded");
+  }
+  if (kind.needs_time == TimeNeed::kClock && !study.has_clock()) {
+    return because("the recordings have no time");
+  }
+  if (kind.axis == AxisRule::kLine) {
+    if (study.is_static()) return because("nothing moves in a list of poses");
+    for (const Log& log : study.logs) {
+      if (log.motion.v_B.rows() != log.motion.samples()) {
+        return because("no position or velocity is logged");
+      }
+    }
+  }
+  const bool along = kind.axis == AxisRule::kLine || kind.axis == AxisRule::kAngle;
+  if (study.axis && (along || kind.stage == Stage::kDynamics) && !study.axis_moves) {
+    return because("the axis moves no more than the noise of its position");
+  }
+  if (study.axis && kind.axis == AxisRule::kAngle && study.axis->axis().position.empty()) {
+    return because("no position is logged");
+  }
+  const std::string name = kind.name;
+  const bool felt_at_rest =
+      name != "inertial_terms" && name != "loose_load" && (name != "com" || study.has_torque());
+  if (!study.is_static() && !felt_at_rest && !has_acceleration(study)) {
+    return because("no position or acceleration is logged");
+  }
+  if (kind.stage == Stage::kTool && !study.own_tool && name != "mass") {
+    return because("the simulator's own tool is not known");
+  }
+  if (name == "time_delay" && study.axis && study.axis->system.axes.size() > 1) {
+    return because("the axes share one clock: none of them alone is late");
+  }
+  if (name == "inertial_terms" && study.simulator.model.inertial == ToolModel::Inertial::kFull) {
+    return because("the simulator has all inertial terms");
+  }
+  if ((name == "com" || name == "inertial_terms") && study.is_static() && !study.has_torque()) {
+    return because("at rest the force does not depend on it");
+  }
+  if (name == "bias" && has_own_offsets(study)) {
+    return because("each recording has an offset of its own (zeroed)");
+  }
+  return true;
+}
+
+}  // namespace dcnn

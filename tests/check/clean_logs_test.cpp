@@ -1,0 +1,57 @@
+// Logs with nothing wrong in them that a check may take for faulty ones.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "dcnn/check/check.h"
+#include "dcnn/data/rotation.h"
+
+namespace dcnn {
+namespace {
+
+/// A tool of 1 kg at rest at every instant, `turn` [rad] the size of its slow turns, a row every
+/// `step` [s].
+check::Log slow_log(Eigen::Index rows, double step, double turn) {
+  Table table{{"t", "x", "y", "z", "alpha", "beta", "gamma", "fx", "fy", "fz"},
+              Eigen::MatrixXd(rows, 10)};
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 0.04);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const double s = static_cast<double>(i) / static_cast<double>(rows);
+    const Eigen::Vector3d angles =
+        turn * Eigen::Vector3d(std::sin(9.0 * s), std::sin(14.0 * s + 1.0), std::cos(11.0 * s));
+    const Eigen::Vector3d force =
+        rotation_from_euler(angles).transpose() * Eigen::Vector3d(0.0, 0.0, -9.81);
+    table.values.row(i) << step * static_cast<double>(i), 0.3 + 0.1 * std::sin(7.0 * s),
+        0.1 * std::cos(5.0 * s), 0.4, angles.transpose(), force[0] + 1.0 + noise(random),
+        force[1] - 2.0 + noise(random), force[2] + 0.5 + noise(random);
+  }
+  check::Declared declared;
+  declared.model = ToolModel();
+  declared.model->mass = 1.05;
+  return check::make_log("slow.csv", table, declared);
+}
+
+TEST(CleanLogs, ARowEveryFourSecondsIsNotInMilliseconds) {
+  const check::Report report = check::check(slow_log(120, 4.0, 0.6));
+  EXPECT_EQ(report.stopping({}), nullptr) << check::to_text(report);
+}
+
+TEST(CleanLogs, MillisecondsAreStillFound) {
+  const check::Report report = check::check(slow_log(4000, 4.0, 0.6));
+  ASSERT_NE(report.stopping({}), nullptr) << check::to_text(report);
+  EXPECT_EQ(report.stopping({})->id, "clock_unit");
+}
+
+// Its weight is a constant then, which an offset explains as well: no reason to say that it is
+// gone.
+TEST(CleanLogs, AToolThatHardlyTurnsIsNotCompensated) {
+  for (const double turn : {0.003, 0.01, 0.03}) {
+    const check::Report report = check::check(slow_log(4000, 0.004, turn));
+    EXPECT_EQ(report.stopping({"no_motion"}), nullptr) << turn << "\n" << check::to_text(report);
+  }
+}
+
+}  // namespace
+}  // namespace dcnn

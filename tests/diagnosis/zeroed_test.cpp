@@ -1,0 +1,60 @@
+// Sensors as they are used: zeroed for each recording, or with a payload's weight subtracted.
+#include <gtest/gtest.h>
+
+#include "dcnn/data/rotation.h"
+#include "diagnosis/support.h"
+
+namespace dcnn {
+namespace {
+
+using test::Bench;
+using test::configuration;
+using test::hidden;
+using test::names;
+
+void zero(Recording& log) {
+  for (const char* name : {"fx", "fy", "fz"}) {
+    log.set(name, log.column(name).array() - log.column(name).head(10).mean());
+  }
+}
+
+TEST(ZeroedRecordings, GetTheNamesOfTheRawOnes) {
+  const Bench bench(
+      configuration(Json::array({hidden("viscous_friction", "base_x", {{"c_nspm", 0.6}})})));
+  test::change(bench, zero);
+  DiagnosisRequest request = bench.request();
+  const Json raw = diagnose(request, nullptr).report;
+  EXPECT_NE(names(raw), std::vector<std::string>{"viscous_friction"}) << "the test tells nothing";
+  request.zeroed = {bench / "fit.csv", bench / "hold.csv"};
+  const Json report = diagnose(request, nullptr).report;
+  EXPECT_EQ(names(report), std::vector<std::string>{"viscous_friction"}) << report["findings"];
+  EXPECT_EQ(report["verdict"], "explained");
+  EXPECT_EQ(report["zeroed"], (Json{"fit.csv", "hold.csv"}));
+  for (const Json& error : report["fit"]["holdout_rmse_after"]) {
+    EXPECT_NEAR(error.get<double>(), 0.04, 0.004);
+  }
+}
+
+TEST(ZeroedRecordings, OfASimulatorThatIsRightLackNothing) {
+  const Bench bench(configuration(Json::array()));
+  test::change(bench, zero);
+  DiagnosisRequest request = bench.request(false);
+  request.zeroed = {bench / "fit.csv"};
+  const Json report = diagnose(request, nullptr).report;
+  EXPECT_EQ(report["verdict"], "consistent") << report["findings"];
+}
+
+TEST(SubtractedPayload, IsAddedBackInTheSensorsFrame) {
+  const Bench bench(configuration(Json::array()));
+  const Recording raw = read_recording(bench / "fit.csv", ReadOptions(), System());
+  ReadOptions read;
+  read.payload = {0.5, {0.0, 0.01, 0.1}, {0.3, -0.2, 0.1}};
+  const Recording added = read_recording(bench / "fit.csv", read, System());
+  const Eigen::Matrix3d R_BS = rotations(raw)[7] * rotation_from_euler({0.1, -0.2, 0.3});
+  const Eigen::Vector3d weight = R_BS.transpose() * Eigen::Vector3d(0.0, 0.0, -0.5 * 9.80665);
+  const Eigen::MatrixXd change = added.block({"fx", "fy", "fz"}) - raw.block({"fx", "fy", "fz"});
+  EXPECT_LT((change.row(7).transpose() - weight).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace dcnn
