@@ -3,6 +3,7 @@
 
 #include "dcnn/check/check.h"
 #include "dcnn/conceal/faulty.h"
+#include "dcnn/core/random.h"
 
 namespace dcnn {
 namespace {
@@ -34,6 +35,35 @@ TEST_P(FaultyLogs, AreNamedFirst) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, FaultyLogs, ::testing::ValuesIn(conceal::faulty_kinds()),
                          [](const auto& kind) { return kind.param; });
+
+// A joint that stands still most of the time: its rate's noise at rest says nothing of its unit, and
+// how long it stands nothing of a clock.
+TEST(CheckedLogs, AJointThatSticksHasTheRateThatItSays) {
+  constexpr Eigen::Index kRows = 4000;
+  Rng rng({9});
+  Table table;
+  table.columns = {"t", "q", "qd", "tau"};
+  table.values.resize(kRows, 4);
+  double q = 0.0;
+  for (Eigen::Index i = 0; i < kRows; ++i) {
+    const bool moves = (i / 100) % 5 == 0;  // 0.4 s of every 2 s
+    const double v = moves ? ((i / 500) % 2 == 0 ? 0.3 : -0.3) : 0.0;
+    q += 0.004 * v;
+    table.values.row(i) << 0.004 * static_cast<double>(i), std::round(q / 1e-4) * 1e-4,
+        v + 0.01 * rng.normal(), (moves ? 0.4 * v / 0.3 : 0.0) + 0.02 * rng.normal();
+  }
+  check::Declared declared;
+  declared.system = parse_system(
+      Json{{"kind", "axes"},
+           {"axes", Json::array({{{"name", "joint"}, {"measured", "tau"}, {"unit", "N*m"},
+                                  {"position", "q"}, {"velocity", "qd"}, {"base", Json::array()}}})}},
+      "system.json");
+  const check::Report report = check::check(check::make_log("sticks.csv", table, declared));
+  for (const check::Fault& fault : report.faults) {
+    EXPECT_NE(fault.id, "rates") << fault.words;
+    EXPECT_NE(fault.id, "held") << fault.words;
+  }
+}
 
 TEST(CheckedLogs, WithoutASimulatorSignsAxesAndFramesAreFoundToo) {
   for (const char* kind : {"reaction", "sign_fx", "swap_xy", "base_frame", "angle_deg", "position_mm", "quaternion_xyzw"}) {

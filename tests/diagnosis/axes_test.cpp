@@ -103,6 +103,56 @@ TEST(DiagnoseAxes, SaysThatNothingIsMissing) {
   EXPECT_NEAR(report["fit"]["holdout_rmse_after"][0].get<double>(), kAxisNoise, 0.003);
 }
 
+// Two collisions of 0.4 s hold far more energy than the friction of all seconds.
+TEST(DiagnoseAxes, CollisionsDoNotHideFriction) {
+  const auto hit = [](double t, double at) {
+    if (t < at || t > at + 0.4) return 0.0;
+    return 5.0 * std::sin(12.0 * std::numbers::pi * (t - at)) *
+           std::sin(std::numbers::pi * (t - at) / 0.4);
+  };
+  const AxisBench bench([&](const State& s) {
+    return 0.12 * std::tanh(s.v / 0.01) + hit(s.t, 4.0) + hit(s.t, 12.0);
+  });
+  const Json report = bench.diagnose(one_axis()).report;
+  EXPECT_EQ(report["verdict"], "explained");
+  ASSERT_EQ(report["findings"].size(), 1u) << report["findings"].dump(1);
+  const Json* friction = find(report, "coulomb_friction");
+  ASSERT_NE(friction, nullptr);
+  EXPECT_NEAR(number(*friction, "fc", "N*m"), 0.12, 0.006);
+  ASSERT_EQ(report["left_out"].size(), 2u) << report["left_out"].dump(1);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Json& ends = report["left_out"][k]["interval_s"];
+    EXPECT_LE(ends[0].get<double>(), 4.1 + 8.0 * static_cast<double>(k));
+    EXPECT_GE(ends[1].get<double>(), 4.3 + 8.0 * static_cast<double>(k));
+    EXPECT_LE(ends[1].get<double>() - ends[0].get<double>(), 2.5);
+  }
+}
+
+// Where the base simulator has a constant, a spring's rest is no number of its own: it was fitted
+// as the difference of two constants of any size.
+TEST(DiagnoseAxes, ASpringBesideAConstantHasNoRest) {
+  const AxisBench bench([](const State& s) { return -kInertia * s.a + 1.5 * s.q + 4.0; });
+  const Json report = bench.diagnose(one_axis({{"base", Json::array()}})).report;
+  const Json* spring = find(report, "cable_spring");
+  ASSERT_NE(spring, nullptr) << report["findings"].dump(1);
+  EXPECT_NEAR(std::abs(number(*spring, "k", "N*m/rad")), 1.5, 0.01);
+  EXPECT_EQ((*spring)["parameters"]["rest"]["value"], 0.0);
+}
+
+// Another recording may be noisier: its error is compared with its own noise.
+TEST(DiagnoseAxes, ANoisierHeldOutRecordingRefutesNothing) {
+  Rng rng({77});
+  const AxisBench bench([&](const State& s) {
+    const double more = s.t > 24.0 ? 0.17 * rng.normal() : 0.0;
+    return 0.8 * std::tanh(s.v / 0.01) + more;
+  });
+  const Json report = bench.diagnose(one_axis()).report;
+  EXPECT_EQ(report["verdict"], "explained") << report["unnamed"].dump(1);
+  EXPECT_GT(report["fit"]["holdout_rmse_after"][0].get<double>(), 0.15);
+  EXPECT_NEAR(report["fit"]["noise_floor"][0].get<double>(), kAxisNoise, 0.005);
+  EXPECT_NEAR(report["fit"]["holdout_noise_floor"][0].get<double>(), 0.18, 0.02);
+}
+
 // What was found in other recordings is part of the simulator: the new difference alone is named.
 TEST(DiagnoseAxes, TakesACorrectedSimulator) {
   const auto friction = [](const State& s) { return 0.8 * std::tanh(s.v / 0.01); };
