@@ -6,13 +6,17 @@
 namespace dcnn {
 
 /// Checks column t (line = row + 2 in errors that name `file`), moves its origin where it is an
-/// epoch time, and fills dt and segments. A recording without t, and where `poses` one whose rows are
-/// a second or more apart, is a list of poses at rest: one segment, dt 0.
+/// epoch time, and fills dt and segments. A recording without t, and where `poses` one whose rows
+/// are a second or more apart, is a list of poses at rest: one segment, dt 0.
 void set_clock(Recording& recording, const std::string& file, bool poses);
 
 /// More than 1 % of the steps inside segments off by more than 20 % of dt is an Error(kData); steps
 /// of two to five dt are rows that were lost, at most a tenth of all, which derivatives bridge.
 void check_regular(Recording& recording, const std::string& file);
+
+/// Leaves out stretches between gaps of fewer than three rows, which no second derivative can be
+/// taken of, with a note, where there are longer ones.
+void drop_short_stretches(Recording& recording);
 
 /// Puts every segment on a regular clock of `hz` (0: the recording's own rate): the columns in
 /// `smooth` by cubic spline, all others linearly. Angles must be unwrapped and quaternions

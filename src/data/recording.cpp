@@ -221,6 +221,7 @@ Recording make_recording(SourceTable source, const std::filesystem::path& path,
     resample(recording, hz, smooth_columns(system));
   }
   check_regular(recording, file);
+  drop_short_stretches(recording);
   if (wrist) normalise_quaternions(recording);
   if (options.payload.mass > 0.0) add_weight(options.payload, recording);
   return recording;

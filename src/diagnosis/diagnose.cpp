@@ -114,6 +114,12 @@ Json errors_json(const Search& search, const HoldOut& simulator, const HoldOut& 
   return json;
 }
 
+Json deviations(const std::vector<Floor>& floors) {
+  Json list = Json::array();
+  for (const Floor& floor : floors) list.push_back(floor.deviation());
+  return list;
+}
+
 }  // namespace
 
 CaseDiagnosis diagnose_case(LoadedCase loaded,
@@ -154,8 +160,9 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   report["clock_end_s"] =
       study.shared_clock && study.has_clock() ? Json(study.end_of_clock) : Json();
   // What a loose load's impacts are is not predicted.
+  const std::vector<Floor> heldout_floors = holdout.floors(search);
   std::optional<HoldOut::Excess> refuted;
-  if (!search.knocking()) refuted = holdout.excess(search);
+  if (!search.knocking()) refuted = holdout.excess(search, heldout_floors);
   report["verdict"] =
       verdict_of(!report["findings"].empty(), search.remains() || refuted.has_value());
   const bool corrected = is_corrected(study);
@@ -171,15 +178,13 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   const Json formulas = law_findings(search, laws, holdout);
   report["unnamed"] = unnamed_part(search, bands, formulas, refuted);
   for (const Json& law : formulas) report["findings"].push_back(law);
-  Json floors = Json::array(), sources = Json::array();
-  for (const Floor& floor : search.floors()) {
-    floors.push_back(floor.deviation());
-    sources.push_back(floor.source);
-  }
+  Json sources = Json::array();
+  for (const Floor& floor : search.floors()) sources.push_back(floor.source);
   report["posterior"] = evidence::posterior_json(search.posterior());
   report["structures"] = evidence::structures_json(search.posterior());
   report["fit"] = errors_json(search, first, holdout, given);
-  report["fit"]["noise_floor"] = floors;
+  report["fit"]["noise_floor"] = deviations(search.floors());
+  report["fit"]["holdout_noise_floor"] = holdout.empty() ? Json() : deviations(heldout_floors);
   report["fit"]["noise_floor_source"] = sources;
   report["fit"]["oracle"] = nullptr;
   if (study.lowpass_hz > 0.0) {

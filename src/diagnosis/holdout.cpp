@@ -61,8 +61,7 @@ std::vector<Span> held_out_blocks(const Case& study, bool with_guards) {
 }
 
 HoldOut::HoldOut(const Case& fitted, const Case& recordings) {
-  const bool own = !recordings.logs.empty();
-  blocks_ = !own;
+  const bool own = own_ = !recordings.logs.empty();
   study_ = own ? recordings : fitted;
   if (own && !study_.is_static()) set_derivative(study_, fitted.derivative);
   const auto blocks = held_out_blocks(study_, false);
@@ -108,8 +107,8 @@ void HoldOut::add_own_offset(std::size_t k, Eigen::MatrixXd& predicted) const {
     held += is_held ? 1.0 : 0.0;
   }
   const double others = static_cast<double>(left.rows()) - held;
-  predicted.rowwise() += blocks_ ? Eigen::RowVectorXd(outside / std::max(1.0, others))
-                                 : Eigen::RowVectorXd(inside / std::max(1.0, held));
+  predicted.rowwise() += own_ ? Eigen::RowVectorXd(inside / std::max(1.0, held))
+                              : Eigen::RowVectorXd(outside / std::max(1.0, others));
 }
 
 HoldOut HoldOut::unfiltered() const {
@@ -146,7 +145,23 @@ double HoldOut::mean_rmse(const std::vector<Member>& members, const Eigen::Vecto
   return sum / static_cast<double>(study_.channel_count());
 }
 
-std::optional<HoldOut::Excess> HoldOut::excess(const Search& search) const {
+std::vector<Floor> HoldOut::floors(const Search& search) const {
+  const JointFit& fit = search.fit();
+  // What a free matrix on gravity leaves of poses at rest is no noise of theirs.
+  if (!own_ || study_.is_static()) return search.floors();
+  Case study = study_;
+  if (fit.base.size() > 0) set_base(study, fit.base);
+  const Signals left = study.lowpass_hz > 0.0 ? unfiltered_left(study, fit.members)
+                                              : difference(study, predict(study, fit.members));
+  const Signals levels = noise_level(study, left);
+  std::vector<Floor> floors = noise_floor(study, left, levels);
+  bound_by_residual(study, left, levels, floors);
+  add_pose_noise(study, floors);
+  return floors;
+}
+
+std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
+                                               const std::vector<Floor>& floors) const {
   constexpr double kMost = 1.2, kChance = 1.96;
   const std::vector<double> errors = rmse(search.fit().members, search.fit().base);
   double rows = 0.0;
@@ -157,7 +172,7 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search) const {
   const double chance = kChance / std::sqrt(2.0 * std::max(1.0, rows / block));
   std::optional<Excess> worst;
   for (std::size_t j = 0; j < errors.size(); ++j) {
-    double noise = search.floors()[j].whole_deviation();
+    double noise = std::max(search.floors()[j].whole_deviation(), floors[j].whole_deviation());
     if (!search.floors()[j].pose_gain.empty()) {
       double square = 0.0, count = 0.0;
       for (const auto& left : search.left()) {

@@ -21,7 +21,8 @@ class HoldOut {
   std::vector<double> rmse(const std::vector<Member>& members, const Eigen::VectorXd& base) const;
   /// Their mean over the channels.
   double mean_rmse(const std::vector<Member>& members, const Eigen::VectorXd& base) const;
-  /// A channel whose error exceeds 1.2 times its noise (with a pose that is differentiated, also
+  /// A channel whose error exceeds 1.2 times its noise (that of the fitted recordings or of the
+  /// held-out ones, `floors`, whichever is more; with a pose that is differentiated, also
   /// what the model leaves where it was fitted: the error of the filtered pose stands in both) by
   /// more than chance makes of so many rows (97.5 %), of which a whitener's block counts as one:
   /// the farthest.
@@ -29,7 +30,10 @@ class HoldOut {
     std::size_t channel;
     double ratio;  ///< error over noise
   };
-  std::optional<Excess> excess(const Search& search) const;
+  std::optional<Excess> excess(const Search& search, const std::vector<Floor>& floors) const;
+  /// The noise of the held-out recordings, by what the model leaves of them above the motion's
+  /// band; of held-out blocks and of poses at rest that of the fitted ones.
+  std::vector<Floor> floors(const Search& search) const;
   Signals prediction(const std::vector<Member>& members, const Eigen::VectorXd& base) const;
   /// ln of the factor by which the held-out data change the odds of one prediction against another
   /// (diagnosis/evidence/support.h; blocks of 1 s, of poses at rest each).
@@ -46,8 +50,8 @@ class HoldOut {
   void add_own_offset(std::size_t recording, Eigen::MatrixXd& predicted) const;
 
   Case study_;
+  bool own_ = false;                     // recordings of their own, not blocks of the fitted
   std::vector<std::vector<char>> held_;  // per recording and row
-  bool blocks_ = false;                  // of the fitted recordings
 };
 
 }  // namespace dcnn

@@ -65,7 +65,7 @@ std::string other_channels(const Json& report, std::size_t named) {
   std::size_t worst = named;
   for (std::size_t j = 0; j < report["targets"].size(); ++j) {
     const double before = fit["holdout_rmse_before"][j], after = fit["holdout_rmse_after"][j];
-    const double noise = fit["noise_floor"][j];
+    const double noise = fit["holdout_noise_floor"][j];
     if (j != named && after > before && brief(after) != brief(before)) {
       text += "; that of " + report["targets"][j].get<std::string>() + " " + change_of(report, j);
     } else if (after > most * noise) {
@@ -115,12 +115,13 @@ std::string headline(const Json& report) {
   const auto at = [&](const char* key) { return brief(fit[key][j].get<double>()); };
   if (report["verdict"] == "consistent") {
     return "Nothing is missing: the simulator leaves " + at("holdout_rmse_before") + " " + unit +
-           " on held-out data, the sensor's noise is " + at("noise_floor") + " " + unit + ".";
+           " on held-out data, the sensor's noise is " + at("holdout_noise_floor") + " " + unit +
+           ".";
   }
   return what_is_missing(report) + ". The hold-out error of " +
          report["targets"][j].get<std::string>() + " " + change_of(report, j) +
-         ", the sensor's noise is " + at("noise_floor") + " " + unit + other_channels(report, j) +
-         ".";
+         ", the sensor's noise is " + at("holdout_noise_floor") + " " + unit +
+         other_channels(report, j) + ".";
 }
 
 std::string to_text(const Diagnosis& diagnosis) {
@@ -165,7 +166,7 @@ std::string to_text(const Diagnosis& diagnosis) {
     out << ", own numbers refitted " << brief(mean_of(report, "holdout_rmse_parameters"));
   }
   out << ", after " << brief(mean_of(report, "holdout_rmse_after")) << ", noise "
-      << brief(mean_of(report, "noise_floor")) << of_what(report);
+      << brief(mean_of(report, "holdout_noise_floor")) << of_what(report);
   if (!report["next_motion"].is_null()) {
     out << "next        to tell " << report["next_motion"]["separates"][0].get<std::string>()
         << " from " << report["next_motion"]["separates"][1].get<std::string>() << ": "

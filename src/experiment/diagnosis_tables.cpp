@@ -20,11 +20,14 @@ std::string share_text(const Json& value) {
   return value.is_null() ? "" : percent(value.get<double>());
 }
 
-const std::vector<std::pair<const char*, const char*>> kStages{
-    {"holdout_rmse_before", "as given"},
-    {"holdout_rmse_parameters", "own numbers refitted"},
-    {"holdout_rmse_after", "with all findings"},
-    {"noise_floor", "sensor's noise"}};
+/// Rows of the table of errors: keys of `fit` and what they are called.
+std::vector<std::pair<std::string, std::string>> stages_of(const Json& fit) {
+  const bool theirs = !fit.value("holdout_noise_floor", Json()).is_null();
+  return {{"holdout_rmse_before", "as given"},
+          {"holdout_rmse_parameters", "own numbers refitted"},
+          {"holdout_rmse_after", "with all findings"},
+          {theirs ? "holdout_noise_floor" : "noise_floor", "sensor's noise"}};
+}
 
 /// The unit of the target of this name.
 std::string unit_of_target(const Json& report, const Json& target) {
@@ -57,17 +60,18 @@ std::string plain_text(const Json& value) {
 
 void add_errors(const Json& report, HtmlReport& page) {
   const Json& fit = report["fit"];
+  const auto stages = stages_of(fit);
   std::vector<int> decimals;
   for (std::size_t j = 0; j < report["targets"].size(); ++j) {
     std::vector<double> column;
-    for (const auto& [key, label] : kStages) {
+    for (const auto& [key, label] : stages) {
       if (!fit[key].is_null() && !fit[key][j].is_null())
         column.push_back(fit[key][j].get<double>());
     }
     decimals.push_back(common_decimals(column, 3));
   }
   std::vector<std::vector<std::string>> rows;
-  for (const auto& [key, label] : kStages) {
+  for (const auto& [key, label] : stages) {
     if (fit[key].is_null()) continue;
     std::vector<std::string> row{label};
     for (std::size_t j = 0; j < decimals.size(); ++j) {

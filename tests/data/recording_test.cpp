@@ -97,6 +97,19 @@ TEST(Recording, SplitsAtAGap) {
   EXPECT_TRUE(noted(recording, "gap"));
 }
 
+TEST(Recording, LeavesOutTwoRowsBetweenGaps) {
+  const Recording recording = read(log_text([](Index i, auto& row) {
+    if (i >= 60) row[0] += 1.0;
+    if (i >= 62) row[0] += 1.0;
+  }));
+  ASSERT_EQ(recording.segments.size(), 2u);
+  EXPECT_EQ(recording.samples(), 98);
+  EXPECT_EQ(recording.segments[1].begin, 60);
+  EXPECT_EQ(recording.segments[1].end, 98);
+  EXPECT_NEAR(recording.column("t")[60], 62 * 0.002 + 2.0, 1e-9);
+  EXPECT_TRUE(noted(recording, "2 rows"));
+}
+
 std::string irregular_text() {
   return log_text([](Index i, auto& row) {
     if (i % 10 == 5) row[0] += 0.001;

@@ -13,8 +13,11 @@ constexpr double kTwoWays = 0.5;
 /// Whether new values come every k rows: p-value of so many runs of one length, were a run's end as
 /// likely in any row (geometric lengths with the same mean).
 double regularity_p(const std::vector<Run>& runs, double mean, Eigen::Index* length) {
-  std::vector<Eigen::Index> count(64, 0);
-  for (const Run& run : runs) ++count[static_cast<std::size_t>(std::min<Eigen::Index>(run.length, 63))];
+  constexpr Eigen::Index kLongest = 63;  // rows; longer runs stand still and tell of no clock
+  std::vector<Eigen::Index> count(kLongest + 1, 0);
+  for (const Run& run : runs) {
+    if (run.length <= kLongest) ++count[static_cast<std::size_t>(run.length)];
+  }
   const auto most = std::max_element(count.begin() + 2, count.end());
   *length = most - count.begin();
   const double end = 1.0 / mean;

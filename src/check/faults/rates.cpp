@@ -19,11 +19,27 @@ struct RateMeaning {
   std::string words;
 };
 
+/// Rows that move by more than the rms of the motion: at rest there is nothing to compare, and the
+/// logged rate's noise there would favour the meaning that divides it by most.
+std::vector<Index> moving_rows(const Eigen::MatrixXd& rate) {
+  const Eigen::VectorXd square = rate.rowwise().squaredNorm();
+  const double mean = square.mean();
+  std::vector<Index> moving;
+  for (Index i = 0; i < square.size(); ++i) {
+    if (square(i) >= mean) moving.push_back(i);
+  }
+  return moving;
+}
+
 double rate_cost(const Eigen::MatrixXd& logged, const RateMeaning& meaning, double independent) {
-  const Eigen::MatrixXd off = logged / meaning.scale - meaning.rate;
+  const std::vector<Index> moving = moving_rows(meaning.rate);
+  const Eigen::MatrixXd rate = meaning.rate(moving, Eigen::all);
+  const Eigen::MatrixXd off = logged(moving, Eigen::all) / meaning.scale - rate;
   const double variance = median(off.rowwise().squaredNorm());
-  const double size = meaning.rate.squaredNorm() / static_cast<double>(meaning.rate.rows());
-  return 0.5 * independent * elementary::log(std::max(variance + kRateError * kRateError * size, 1e-300));
+  const auto rows = static_cast<double>(rate.rows());
+  const double size = rate.squaredNorm() / rows;
+  const double share = rows / static_cast<double>(meaning.rate.rows());
+  return 0.5 * share * independent * elementary::log(std::max(variance + kRateError * kRateError * size, 1e-300));
 }
 
 /// The first meaning is the declared one.
