@@ -91,7 +91,7 @@ void set_curves(const Log& log, const Adopted& a, Report& report) {
 
 void add_notes(const Log& log, const Adopted& a, Report& report) {
   if (a.compared) return;
-  report.notes.push_back(log.is_wrist() ? "too short to fit a rigid tool: units, signs, axes and frames were not compared"
+  report.notes.push_back(log.is_wrist() ? "too short to fit a rigid tool, or its force never changes: units, signs, axes and frames were not compared"
                                         : "no pose with forces: units, signs and axes were compared by their size alone");
 }
 

@@ -233,11 +233,18 @@ double log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
   return sum + std::max(own, weight(quasi_static) + elementary::log(kQuasiStatic));
 }
 
+/// Whether the force never changes: then no reading of the log explains more of it than another.
+bool is_dead(const Log& log) {
+  const Eigen::MatrixXd force = log.block({"fx", "fy", "fz"});
+  return (force.rowwise() - force.row(0)).isZero(0.0);
+}
+
 Adopted adopt(const Log& log) {
   Adopted out;
   out.reading = declared_reading(log);
   out.rows = sample(log);
-  out.compared = log.is_wrist() && static_cast<Index>(out.rows.centres.size()) >= kFewestCentres;
+  out.compared = log.is_wrist() && static_cast<Index>(out.rows.centres.size()) >= kFewestCentres &&
+                 !is_dead(log);
   out.independent = independent_residuals(out.rows);
   Motions motions(log, out.rows);
   for (int k = 0; k < kRounds; ++k) {
