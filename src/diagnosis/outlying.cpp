@@ -14,15 +14,15 @@ namespace {
 constexpr double kOutlyingSeconds = 0.5;  // bursts of the noise are followed in as long ones
 constexpr double kByChance = 0.01;        // that any stretch of a recording is called outlying
 constexpr double kOfNormal = 1.4826;      // deviation over median absolute deviation
-constexpr std::size_t kFewestStretches = 10;
+constexpr std::size_t kFewestHalfSeconds = 10;
 
-struct Stretch {
+struct HalfSecond {
   std::size_t log;
   double begin, size;  ///< s; logarithm of the mean square
 };
 
-std::vector<Stretch> stretches(const Setting& setting, const Signals& left,
-                               const std::vector<Span>& held_out, double seconds) {
+std::vector<HalfSecond> half_seconds(const Setting& setting, const Signals& left,
+                                     const std::vector<Span>& held_out, double seconds) {
   const Eigen::VectorXd residual = setting.whitener(left);
   const auto& info = setting.whitener.row_info();
   std::map<std::pair<std::size_t, std::int64_t>, std::pair<double, double>> sums;
@@ -35,7 +35,7 @@ std::vector<Stretch> stretches(const Setting& setting, const Signals& left,
     const double r = residual(static_cast<Index>(row));
     square += r * r, count += 1.0;
   }
-  std::vector<Stretch> list;
+  std::vector<HalfSecond> list;
   for (const auto& [key, sum] : sums) {
     if (sum.first == 0.0) continue;  // a reading that repeats its value
     list.push_back({key.first, static_cast<double>(key.second) * seconds,
@@ -49,16 +49,16 @@ std::vector<Stretch> stretches(const Setting& setting, const Signals& left,
 std::vector<Span> outlying(const Setting& setting, const Signals& left,
                            const std::vector<Span>& held_out) {
   const double seconds = kOutlyingSeconds * setting.study.axis_seconds;
-  const auto all = stretches(setting, left, held_out, seconds);
-  if (all.size() < kFewestStretches) return {};
+  const auto all = half_seconds(setting, left, held_out, seconds);
+  if (all.size() < kFewestHalfSeconds) return {};
   std::vector<double> sizes;
-  for (const Stretch& s : all) sizes.push_back(s.size);
+  for (const HalfSecond& s : all) sizes.push_back(s.size);
   const double middle = median(sizes);
   for (double& size : sizes) size = std::abs(size - middle);
   const double deviation = kOfNormal * median(sizes);
   std::vector<Span> spans;
   double theirs = 0.0, whole = 0.0;
-  for (const Stretch& s : all) {
+  for (const HalfSecond& s : all) {
     const double energy = elementary::exp(s.size);
     const double tail = 0.5 * std::erfc((s.size - middle) / (deviation * std::sqrt(2.0)));
     whole += energy;

@@ -10,9 +10,13 @@
 namespace dcnn {
 namespace {
 
+/// By target, of the held-out recordings; of the fitted ones in reports that do not know theirs.
+const Json& heldout_noise(const Json& fit) {
+  return fit[fit.contains("holdout_noise_floor") ? "holdout_noise_floor" : "noise_floor"];
+}
+
 /// Over the targets that have the first one's unit: newtons and newton metres have no mean.
-double mean_of(const Json& report, const char* key) {
-  const Json& list = report["fit"][key];
+double mean_of(const Json& report, const Json& list) {
   double sum = 0.0, count = 0.0;
   for (std::size_t j = 0; j < list.size(); ++j) {
     if (report["units"][j] != report["units"][0]) continue;
@@ -65,7 +69,7 @@ std::string other_channels(const Json& report, std::size_t named) {
   std::size_t worst = named;
   for (std::size_t j = 0; j < report["targets"].size(); ++j) {
     const double before = fit["holdout_rmse_before"][j], after = fit["holdout_rmse_after"][j];
-    const double noise = fit["holdout_noise_floor"][j];
+    const double noise = heldout_noise(fit)[j];
     if (j != named && after > before && brief(after) != brief(before)) {
       text += "; that of " + report["targets"][j].get<std::string>() + " " + change_of(report, j);
     } else if (after > most * noise) {
@@ -115,12 +119,12 @@ std::string headline(const Json& report) {
   const auto at = [&](const char* key) { return brief(fit[key][j].get<double>()); };
   if (report["verdict"] == "consistent") {
     return "Nothing is missing: the simulator leaves " + at("holdout_rmse_before") + " " + unit +
-           " on held-out data, the sensor's noise is " + at("holdout_noise_floor") + " " + unit +
-           ".";
+           " on held-out data, the sensor's noise is " +
+           brief(heldout_noise(fit)[j].get<double>()) + " " + unit + ".";
   }
   return what_is_missing(report) + ". The hold-out error of " +
          report["targets"][j].get<std::string>() + " " + change_of(report, j) +
-         ", the sensor's noise is " + at("holdout_noise_floor") + " " + unit +
+         ", the sensor's noise is " + brief(heldout_noise(fit)[j].get<double>()) + " " + unit +
          other_channels(report, j) + ".";
 }
 
@@ -154,7 +158,7 @@ std::string to_text(const Diagnosis& diagnosis) {
     }
     out << "\n";
   }
-  for (const Json& stretch : report["left_out"]) {
+  for (const Json& stretch : report.value("left_out", Json::array())) {
     out << "left out    " << brief(stretch["interval_s"][0].get<double>()) << " to "
         << brief(stretch["interval_s"][1].get<double>()) << " s of "
         << stretch["recording"].get<std::string>()
@@ -164,15 +168,16 @@ std::string to_text(const Diagnosis& diagnosis) {
     out << "search      ended at its limit: not every exchange of effects was tried\n";
   }
   if (fit["holdout_rmse_before"].is_null()) {
-    out << "hold-out    none, noise " << brief(mean_of(report, "noise_floor")) << of_what(report);
+    out << "hold-out    none, noise " << brief(mean_of(report, fit["noise_floor"]))
+        << of_what(report);
     return out.str();
   }
-  out << "hold-out    before " << brief(mean_of(report, "holdout_rmse_before"));
+  out << "hold-out    before " << brief(mean_of(report, fit["holdout_rmse_before"]));
   if (!fit["holdout_rmse_parameters"].is_null()) {
-    out << ", own numbers refitted " << brief(mean_of(report, "holdout_rmse_parameters"));
+    out << ", own numbers refitted " << brief(mean_of(report, fit["holdout_rmse_parameters"]));
   }
-  out << ", after " << brief(mean_of(report, "holdout_rmse_after")) << ", noise "
-      << brief(mean_of(report, "holdout_noise_floor")) << of_what(report);
+  out << ", after " << brief(mean_of(report, fit["holdout_rmse_after"])) << ", noise "
+      << brief(mean_of(report, heldout_noise(fit))) << of_what(report);
   if (!report["next_motion"].is_null()) {
     out << "next        to tell " << report["next_motion"]["separates"][0].get<std::string>()
         << " from " << report["next_motion"]["separates"][1].get<std::string>() << ": "
