@@ -48,9 +48,7 @@ void add_pose_noise(const Case& study, std::vector<Floor>& floors) {
         pose.emplace_back(x);
       }
       const Periodograms p = periodograms(study, pose, 0);
-      // A clock that jitters shifts the pose by its velocity: noisy where it moves fast, and still
-      // at rest.
-      const Eigen::VectorXd density = density_of(p, /*uneven=*/true);
+      const Eigen::VectorXd density = density_of(p);
       std::vector<double> quiet;
       for (Index i = 0; i < p.hz.size(); ++i) {
         if (p.hz(i) >= quiet_band(study) && p.hz(i) <= 0.49 / study.dt()) {
