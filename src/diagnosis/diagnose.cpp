@@ -172,8 +172,8 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   report["rivals"] = rivals_json(search, alternatives);
   report["clock_end_s"] =
       study.shared_clock && study.has_clock() ? Json(study.end_of_clock) : Json();
-  // What a loose load's impacts are is not predicted.
   const std::vector<Floor> heldout_floors = holdout.floors(search);
+  // What a loose load's impacts are is not predicted.
   std::optional<HoldOut::Excess> refuted;
   if (!search.knocking()) refuted = holdout.excess(search, heldout_floors);
   report["verdict"] =
