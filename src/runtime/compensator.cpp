@@ -23,6 +23,13 @@ Matrix3d rotation_of(const OnlineSample& sample) {
   return rotation_from_quaternion(sample.quaternion.normalized());
 }
 
+/// Euler angles count where a sample has them: its quaternion may then be anything.
+Vector4d attitude(const OnlineSample& sample) {
+  if (!sample.euler) return sample.quaternion;
+  const Eigen::Quaterniond q(rotation_from_euler(*sample.euler));
+  return {q.w(), q.x(), q.y(), q.z()};
+}
+
 Vector6d turned(const Matrix3d& R, const Vector6d& wrench) {
   Vector6d out;
   out << R * wrench.head<3>(), R * wrench.tail<3>();
@@ -120,8 +127,9 @@ Reason OnlineCompensator::tell_time(const OnlineSample& sample) noexcept {
 
 /// Straight lines through samples that are missing between the last one and this one.
 void OnlineCompensator::bridge(const OnlineSample& sample, Index steps) noexcept {
-  Vector4d to = sample.quaternion;
-  if (to.dot(last_.quaternion) < 0.0) to = -to;
+  const Vector4d from = attitude(last_);
+  Vector4d to = attitude(sample);
+  if (to.dot(from) < 0.0) to = -to;
   for (Index k = 1; k < steps; ++k) {
     const double u = static_cast<double>(k) / static_cast<double>(steps);
     std::optional<Vector3d> euler;
@@ -130,8 +138,7 @@ void OnlineCompensator::bridge(const OnlineSample& sample, Index steps) noexcept
       for (double& angle : way) angle = nearest_turn(angle, 0.0);
       euler = *last_.euler + u * way;
     }
-    feed(last_.position + u * (sample.position - last_.position),
-         last_.quaternion + u * (to - last_.quaternion), euler);
+    feed(last_.position + u * (sample.position - last_.position), from + u * (to - from), euler);
   }
 }
 

@@ -268,7 +268,8 @@ TEST_F(CompensatorClock, FourMissingSamplesAreBridgedAndFiveAreAGap) {
 }
 
 /// A wrist that turns while samples are missing: what is between is on the way, whichever sign its
-/// quaternion has, whether it comes as angles, and where angles begin or end in between.
+/// quaternion has, whether it comes as angles, and where angles begin or end, outside or in
+/// between.
 TEST(CompensatorLimits, MissingSamplesLieOnTheWay) {
   const Simulator simulator = tool_with_inertia(true);
   const auto turned = [](Index k, int kind) {
@@ -277,13 +278,14 @@ TEST(CompensatorLimits, MissingSamplesLieOnTheWay) {
     sample.position = Vector3d(0.1, -0.2, 0.3) * 0.002 * static_cast<double>(k);
     sample.quaternion = {std::cos(0.5 * angle), 0.0, 0.0, std::sin(0.5 * angle)};
     if (kind == 1 && k % 2 == 1) sample.quaternion = -sample.quaternion;
-    if (kind == 2 || (kind == 3 && k % 14 < 7)) {
-      sample.euler = Vector3d(0.0, 0.0, std::remainder(angle, 6.283185307179586));
+    const bool changes_within = kind == 4 && (k % 14 < 4 || k % 14 > 10);
+    if (kind == 2 || (kind == 3 && k % 14 < 7) || changes_within) {
+      sample.euler = Vector3d(std::remainder(angle, 6.283185307179586), 0.0, 0.0);
     }
-    if (kind == 2) sample.quaternion = {1.0, 0.0, 0.0, 0.0};  // angles alone count where they come
+    if (kind == 2 || changes_within) sample.quaternion = {1.0, 0.0, 0.0, 0.0};  // does not count
     return sample;
   };
-  for (const int kind : {0, 1, 2, 3}) {
+  for (const int kind : {0, 1, 2, 3, 4}) {
     OnlineCompensator whole(nullptr, &simulator, {}, "test");
     OnlineCompensator holed(nullptr, &simulator, {}, "test");
     for (Index k = 0; k < 300; ++k) {
