@@ -65,6 +65,16 @@ void keep_apart(std::vector<Member>& list, const std::vector<Member>& members) {
 
 }  // namespace
 
+double Search::net_gain_as_trial(std::size_t member) const {
+  const Member& own = fit_.members[member];
+  double most = 0.0;
+  for (const Trial& trial : others(member)) {
+    const bool same = trial.member.kind == own.kind && trial.member.axis == own.axis;
+    if (same) most = std::max(most, trial.net_gain());
+  }
+  return most > 0.0 ? std::min(most, net_gain(member)) : net_gain(member);
+}
+
 std::vector<Trial> Search::additions(bool events) const {
   return additions(fit_, events, std::nullopt);
 }

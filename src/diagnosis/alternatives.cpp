@@ -26,14 +26,14 @@ std::vector<std::vector<Alternative>> Search::alternatives() const {
     const Member& own = fit_.members[m];
     if (own.fixed) continue;
     const JointFit& rest = without(m);
-    const double net = net_gain(m), own_gain = gain(m);
+    const double told = net_gain_as_trial(m), own_gain = gain(m);
     const double each = own_gain < kFaint * price ? kAkaike : kLeastOfMore;
     for (const Trial& trial : others(m)) {
       // What explains a remainder better than the member explains its own is none in its place.
       if (remains_ && trial.member.axis != own.axis) continue;
       const bool same = trial.member.kind == own.kind;
       if ((same && (trial.member.form == own.form || trial.member.axis != own.axis)) ||
-          trial.net_gain() < net - std::max(0.4 * kAsLikely * price, doubt(trial))) {
+          trial.net_gain() < told - std::max(0.4 * kAsLikely * price, doubt(trial))) {
         continue;
       }
       std::vector<Member> members = rest.members;

@@ -198,7 +198,7 @@ bool Search::swap() {
     if (stays(fit_.members[m])) continue;
     if (is_spent()) return false;
     const JointFit& rest = without(m);
-    const double own = net_gain(m);
+    const double own = net_gain(m), told = net_gain_as_trial(m);
     for (const Trial& trial : others(m)) {
       // The same effect counts where it has better shapes than those that it was found with.
       if (trial.member.kind == fit_.members[m].kind && trial.member.axis == fit_.members[m].axis &&
@@ -206,7 +206,8 @@ bool Search::swap() {
         continue;
       }
       const double doubtful = is_degenerate(fit_.members[m]) ? kDegenerateError * trial.gain : 0.0;
-      if (trial.net_gain() < own - std::max({2.0 * setting_->price, doubt(trial), doubtful})) break;
+      if (trial.net_gain() < told - std::max({2.0 * setting_->price, doubt(trial), doubtful}))
+        break;
       std::vector<Member> members = rest.members;
       members.push_back(trial.member);
       const JointFit other = joint_fit(*setting_, members);

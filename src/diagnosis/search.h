@@ -101,6 +101,9 @@ class Search {
   /// What a member takes off chi-square, and that beyond the price of its numbers.
   double gain(std::size_t member) const;
   double net_gain(std::size_t member) const;
+  /// The latter as a trial in its place tells it, with the other members' shapes as they are
+  /// without it: what trials of other effects there are to be compared with.
+  double net_gain_as_trial(std::size_t member) const;
   void forget_places();
   /// Chi-square that the members took off: all, for what an error of the motion makes of their
   /// forces; or those with numbers, for what an error of a law may hide (what has no number of its
