@@ -7,20 +7,17 @@
 #include "data/rows.h"
 
 namespace dcnn {
-namespace {
 
-Eigen::Vector4d quaternion_from_euler(double alpha, double beta, double gamma) {
-  const double ca = elementary::cos(alpha / 2), sa = elementary::sin(alpha / 2);
-  const double cb = elementary::cos(beta / 2), sb = elementary::sin(beta / 2);
-  const double cg = elementary::cos(gamma / 2), sg = elementary::sin(gamma / 2);
+Eigen::Vector4d quaternion_from_euler(const Eigen::Vector3d& euler) {
+  const double ca = elementary::cos(euler[0] / 2), sa = elementary::sin(euler[0] / 2);
+  const double cb = elementary::cos(euler[1] / 2), sb = elementary::sin(euler[1] / 2);
+  const double cg = elementary::cos(euler[2] / 2), sg = elementary::sin(euler[2] / 2);
   return {ca * cb * cg + sa * sb * sg, ca * cb * sg - sa * sb * cg, ca * sb * cg + sa * cb * sg,
           sa * cb * cg - ca * sb * sg};
 }
 
-}  // namespace
-
 Eigen::Matrix3d rotation_from_euler(const Eigen::Vector3d& euler) {
-  return rotation_from_quaternion(quaternion_from_euler(euler[0], euler[1], euler[2]));
+  return rotation_from_quaternion(quaternion_from_euler(euler));
 }
 
 Eigen::Vector3d euler_from_rotation(const Eigen::Matrix3d& R) {
@@ -73,9 +70,8 @@ Eigen::MatrixXd quaternions(const Recording& recording) {
   } else {
     const Eigen::MatrixXd euler = recording.block(kEuler);
     q.resize(euler.rows(), 4);
-    for_each_row(euler.rows(), [&](Index i) {
-      q.row(i) = quaternion_from_euler(euler(i, 0), euler(i, 1), euler(i, 2));
-    });
+    for_each_row(euler.rows(),
+                 [&](Index i) { q.row(i) = quaternion_from_euler(euler.row(i).transpose()); });
   }
   for (Index i = 1; i < q.rows(); ++i) {
     if (q.row(i).dot(q.row(i - 1)) < 0.0) q.row(i) = -q.row(i);

@@ -25,9 +25,7 @@ Matrix3d rotation_of(const OnlineSample& sample) {
 
 /// Euler angles count where a sample has them: its quaternion may then be anything.
 Vector4d attitude(const OnlineSample& sample) {
-  if (!sample.euler) return sample.quaternion;
-  const Eigen::Quaterniond q(rotation_from_euler(*sample.euler));
-  return {q.w(), q.x(), q.y(), q.z()};
+  return sample.euler ? quaternion_from_euler(*sample.euler) : sample.quaternion;
 }
 
 Vector6d turned(const Matrix3d& R, const Vector6d& wrench) {
@@ -127,6 +125,7 @@ Reason OnlineCompensator::tell_time(const OnlineSample& sample) noexcept {
 
 /// Straight lines through samples that are missing between the last one and this one.
 void OnlineCompensator::bridge(const OnlineSample& sample, Index steps) noexcept {
+  if (steps < 2) return;  // nothing is missing, as in nearly every cycle
   const Vector4d from = attitude(last_);
   Vector4d to = attitude(sample);
   if (to.dot(from) < 0.0) to = -to;

@@ -10,6 +10,8 @@ namespace dcnn {
 
 /// (alpha, beta, gamma), rad.
 Eigen::Matrix3d rotation_from_euler(const Eigen::Vector3d& euler);
+/// The same turn as a unit quaternion (w,x,y,z).
+Eigen::Vector4d quaternion_from_euler(const Eigen::Vector3d& euler);
 /// beta in [-pi/2, pi/2], alpha and gamma in (-pi, pi]; at the singularity alpha carries the turn.
 Eigen::Vector3d euler_from_rotation(const Eigen::Matrix3d& R);
 
