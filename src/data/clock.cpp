@@ -42,6 +42,20 @@ double median_step(const Eigen::VectorXd& t) {
   return *middle;
 }
 
+/// The step of a clock: the median, but where rows counted at it leave their own stamps by more
+/// than half a step in all, stamps jitter, or are rounded: then the mean. (Of N steps of relative
+/// jitter s the median is wrong by 1.25 s/sqrt(N), the mean by 1.4 s/N; forces go with its square.)
+double step_of(const Eigen::VectorXd& t, double median) {
+  double time = 0.0, ticks = 0.0;
+  for (Index i = 1; i < t.size(); ++i) {
+    const double step = (t[i] - t[i - 1]) / median, whole = std::max(1.0, std::round(step));
+    if (step > kGap || std::abs(step - whole) > kOff) continue;
+    time += step;
+    ticks += whole;
+  }
+  return std::abs(time - ticks) > 0.5 ? median * time / ticks : median;
+}
+
 std::vector<Segment> split_at_gaps(const Eigen::VectorXd& t, double dt) {
   std::vector<Segment> segments = {{0, t.size()}};
   for (Index i = 1; i < t.size(); ++i) {
@@ -139,6 +153,7 @@ void set_clock(Recording& recording, const std::string& file, bool poses) {
           recording.dt, " s; write t in seconds");
   require(recording.dt >= kFastestStep, Exit::kData, file, ": the median step of column 't' is ",
           recording.dt, " s, faster than any sensor; write t in seconds");
+  recording.dt = step_of(t, recording.dt);
   recording.segments = split_at_gaps(t, recording.dt);
   for (std::size_t k = 1; k < recording.segments.size(); ++k) {
     const Index row = recording.segments[k].begin;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kPadSeconds = 2.0;
 constexpr double kEndSeconds = 1.0;  // in which what is taken out at an end decays
+constexpr double kFlankSeconds = 0.5, kFlankSamples = 50.0;  // at least, of the taper at an end
 
 /// The second derivative [1/s^2] at the first of some samples: of the quartic through them.
 double bend(const Eigen::VectorXd& x, double dt) {
@@ -89,27 +90,82 @@ Eigen::VectorXd running_mean(const Eigen::VectorXd& power, Index half) {
   return mean;
 }
 
-/// The filter's gain in every bin of a spectrum over `seconds`.
-Eigen::VectorXd gains(const Eigen::VectorXcd& spectrum, double seconds, const LowPass& filter) {
-  constexpr double kHalfBand = 0.25;  // Hz
-  const Index bins = spectrum.size();
-  Eigen::VectorXd gain = Eigen::VectorXd::Ones(bins);
-  if (filter.subtraction > 0.0) {
-    const Index half = std::max<Index>(4, std::llround(kHalfBand * seconds));
-    const Eigen::VectorXd power = running_mean(spectrum.cwiseAbs2(), half);
-    std::vector<double> upper(power.begin() + bins / 2, power.end());
-    std::nth_element(upper.begin(), upper.begin() + std::ptrdiff_t(upper.size() / 2), upper.end());
-    const double noise = filter.subtraction * upper[upper.size() / 2] *
-                         (1.0 + 2.0 / std::sqrt(2.0 * double(half) + 1.0));
-    gain = (1.0 - noise / power.array().max(1e-300)).max(0.0);
-  }
+/// The gain of the fixed edge.
+double edge(double hz, double cutoff_hz) {
+  const double ratio = hz / cutoff_hz, square = ratio * ratio, fourth = square * square;
+  return 1.0 / (1.0 + fourth * fourth);
+}
+
+/// What a signal holds above its slow motion, tapered at its ends by the fourth power of a sine: a
+/// kink there, or where a reflection ends, would stand over the noise of a pose at all frequencies.
+struct Rest {
+  Eigen::VectorXcd spectrum;
+  Eigen::VectorXd share;  ///< in each bin, of the signal's power
+  double fourth = 0.0;    ///< sum of the weights' fourth powers over the square of that of squares
+};
+
+Rest rest_of(const Padded& padded, Index n, double dt, double slow_hz, const Fourier& transform) {
+  const Index length = padded.values.size(), bins = length / 2 + 1;
+  Rest rest;
+  rest.share.resize(bins);
+  Eigen::VectorXcd above = transform(padded.values);
   for (Index k = 0; k < bins; ++k) {
-    const double ratio = static_cast<double>(k) / seconds / filter.cutoff_hz;
-    const double square = ratio * ratio, fourth = square * square;
-    gain(k) *= 1.0 / (1.0 + fourth * fourth);
+    const double hz = static_cast<double>(k) / (static_cast<double>(length) * dt);
+    const double part = 1.0 - edge(hz, slow_hz);
+    above(k) *= part;
+    rest.share(k) = part * part;
+  }
+  Eigen::VectorXd values = transform.inverse(above);
+  values.head(padded.pad).setZero();
+  values.tail(length - padded.pad - n).setZero();
+  const double seconds = std::max(kFlankSeconds, kFlankSamples * dt);
+  const double flank = std::clamp(seconds / dt, 1.0, static_cast<double>(n) / 4.0 + 1.0);
+  double squares = 0.0, fourths = 0.0;
+  for (Index k = 0; k < n; ++k) {
+    const double place = static_cast<double>(std::min(k, n - 1 - k)) + 0.5;
+    const double part = std::min(1.0, place / flank);
+    const double sine = elementary::sin(0.5 * std::numbers::pi * part), square = sine * sine;
+    const double weight = square * square;
+    values(padded.pad + k) *= weight;
+    squares += weight * weight;
+    fourths += weight * weight * weight * weight;
+  }
+  rest.spectrum = transform(values);
+  rest.fourth = fourths / (squares * squares);
+  return rest;
+}
+
+/// S/(S + N) of a signal in noise of power N = 1, where both together have been measured to have
+/// `power`, give or take `chance`: S is the mean of power - 1 given that it is not negative, near
+/// enough (the hyperbola that meets that of a normal deviate at 0 and far from it).
+double wiener_gain(double power, double chance) {
+  const double half = 0.5 * (power - 1.0);
+  const double signal = half + std::sqrt(half * half + 2.0 / std::numbers::pi * chance * chance);
+  return signal / (signal + 1.0);
+}
+
+/// The Wiener gain in every bin: 1 for the slow motion.
+Eigen::VectorXd wiener_gains(const Rest& rest, double dt, Index length, double subtraction) {
+  constexpr double kHalfBand = 0.25;   // Hz
+  constexpr double kLeastShare = 0.5;  // of a bin's power, that tells what the rest is
+  const Index bins = rest.spectrum.size();
+  const Index half = std::max<Index>(4, std::llround(kHalfBand * dt * static_cast<double>(length)));
+  const Eigen::VectorXd power = running_mean(rest.spectrum.cwiseAbs2(), half);
+  // Relative deviation of a mean over so many bins, of noise alone.
+  const double chance = std::sqrt(rest.fourth * double(length) / (2.0 * double(half) + 1.0));
+  std::vector<double> upper(power.begin() + bins / 2, power.end());
+  std::nth_element(upper.begin(), upper.begin() + std::ptrdiff_t(upper.size() / 2), upper.end());
+  const double noise = subtraction * upper[upper.size() / 2];
+  Eigen::VectorXd gain = Eigen::VectorXd::Ones(bins);
+  for (Index k = 0; k < bins && noise > 0.0; ++k) {
+    if (rest.share(k) < kLeastShare) continue;
+    gain(k) = wiener_gain(power(k) / (noise * rest.share(k)), chance);
   }
   return gain;
 }
+
+/// The frequency up to which motion is slow: little noise passes two derivatives there.
+double slow_hz(double cutoff_hz) { return std::min(3.0, cutoff_hz / 3.0); }
 
 }  // namespace
 
@@ -119,13 +175,17 @@ Smoothed smooth(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, const Low
   const Padded padded = pad_oddly(x - ends.derivative(0), dt);
   const Index length = padded.values.size();
   const Fourier transform(length);
-  const Eigen::VectorXcd spectrum = transform(padded.values);
-  const Eigen::VectorXd gain = gains(spectrum, static_cast<double>(length) * dt, filter);
+  Eigen::VectorXcd spectrum = transform(padded.values);
+  if (filter.subtraction > 0.0) {
+    const Rest rest = rest_of(padded, n, dt, slow_hz(filter.cutoff_hz), transform);
+    const Eigen::VectorXd gain = wiener_gains(rest, dt, length, filter.subtraction);
+    spectrum -= (1.0 - gain.array()).matrix().cwiseProduct(rest.spectrum);
+  }
   Eigen::VectorXcd value(spectrum.size()), first(spectrum.size()), second(spectrum.size());
   for (Index k = 0; k < spectrum.size(); ++k) {
     const double hz = static_cast<double>(k) / (static_cast<double>(length) * dt);
     const std::complex<double> s(0.0, 2.0 * std::numbers::pi * hz);
-    value(k) = gain(k) * spectrum(k);
+    value(k) = edge(hz, filter.cutoff_hz) * spectrum(k);
     first(k) = s * value(k);
     second(k) = s * first(k);
   }
@@ -147,8 +207,15 @@ Eigen::VectorXd gain_of(const Eigen::Ref<const Eigen::VectorXd>& x, double dt,
                         const LowPass& filter, Index steps) {
   const Ends ends(x, dt, filter.cutoff_hz);
   const Padded padded = pad_oddly(x - ends.derivative(0), dt);
-  const double seconds = dt * static_cast<double>(padded.values.size());
-  const Eigen::VectorXd gain = gains(fourier(padded.values), seconds, filter);
+  const Index length = padded.values.size();
+  Eigen::VectorXd gain = Eigen::VectorXd::Ones(length / 2 + 1);
+  if (filter.subtraction > 0.0) {
+    const Rest rest = rest_of(padded, x.size(), dt, slow_hz(filter.cutoff_hz), Fourier(length));
+    gain = wiener_gains(rest, dt, length, filter.subtraction);
+  }
+  for (Index k = 0; k < gain.size(); ++k) {
+    gain(k) *= edge(static_cast<double>(k) / (static_cast<double>(length) * dt), filter.cutoff_hz);
+  }
   Eigen::VectorXd out(steps);
   for (Index k = 0; k < steps; ++k) {
     const Index first = k * (gain.size() - 1) / steps, end = (k + 1) * (gain.size() - 1) / steps;

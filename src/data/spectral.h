@@ -6,11 +6,11 @@
 namespace dcnn {
 
 /// A zero-phase filter |H| = W(f)/(1 + (f/cutoff)^8). W = 1, or with `subtraction` > 0 the Wiener
-/// gain max(0, 1 - c N/P): P the signal's own spectrum, averaged over half a hertz, N its noise,
-/// the median of P in the upper half of the band, and c = subtraction (1 + 2/sqrt(n)) for averages
-/// over n bins, so that noise alone passes in one bin of forty (Wiener 1949; spectral subtraction,
-/// Boll 1979). What moves in several bands, a hand that moves slowly and trembles fast, passes;
-/// what lies between them does not.
+/// gain S/(S + cN) (Wiener 1949): c = subtraction, N the noise's power, the median of the
+/// signal's own spectrum, averaged over half a hertz, in the upper half of the band, and S what
+/// stands above cN, at least what chance hides there; the variance of what it leaves is W N. What
+/// moves in several bands, a hand that moves slowly and trembles fast, passes; what lies between
+/// them does not.
 struct LowPass {
   double cutoff_hz = 11.0;
   double subtraction = 0.0;

@@ -148,8 +148,13 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   Json refuted_names = leave_refuted(search, holdout);
   const bool replaced = prefer_one_law(search);
   const std::vector<BandTest> bands = search.bands();
-  const auto laws = add_discovered(search);
-  if (replaced || !laws.empty()) {
+  const double unnamed = search.posterior().unknown + search.posterior().named_and_unknown;
+  auto laws = add_discovered(search);
+  const bool added = !laws.empty();
+  for (const Json& law : leave_refuted_laws(search, holdout, unnamed, laws)) {
+    refuted_names.push_back(law);
+  }
+  if (replaced || added) {
     for (const Json& name : leave_refuted(search, holdout)) refuted_names.push_back(name);
   }
   const auto alternatives = adopt_likelier(search, holdout);

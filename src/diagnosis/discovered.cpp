@@ -203,6 +203,34 @@ std::vector<Discovered> add_discovered(Search& search) {
   return laws.found;
 }
 
+Json leave_refuted_laws(Search& search, const HoldOut& holdout, double unnamed,
+                        std::vector<Discovered>& laws) {
+  Json refuted = Json::array();
+  while (!laws.empty()) {
+    const std::vector<Member> members = search.fit().members;
+    const Signals with = holdout.prediction(members, search.fit().base);
+    double least = 0.5;
+    std::optional<std::size_t> worst;  // of the members
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      if (members[m].law.is_null()) continue;
+      const JointFit& rest = search.without(m);
+      const double after = evidence::updated(
+          unnamed,
+          holdout.log_support(with, holdout.prediction(rest.members, rest.base), search.floors()));
+      if (after < least) least = after, worst = m;
+    }
+    if (!worst) break;
+    const auto place = std::count_if(members.begin(), members.begin() + std::ptrdiff_t(*worst),
+                                     [](const Member& m) { return !m.law.is_null(); });
+    refuted.push_back({{"effect", "discovered"},
+                       {"axis", law_finding(laws[std::size_t(place)], members[*worst].law)["axis"]},
+                       {"confidence", least}});
+    laws.erase(laws.begin() + place);
+    search.hold(search.members_without(*worst));
+  }
+  return refuted;
+}
+
 Json law_findings(const Search& search, const std::vector<Discovered>& laws,
                   const HoldOut& holdout) {
   const JointFit& fit = search.fit();

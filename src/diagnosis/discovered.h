@@ -16,6 +16,12 @@ bool prefer_one_law(Search& search);
 /// laws that then stand in the fit, in their order; none where none is found.
 std::vector<discovery::Discovered> add_discovered(Search& search);
 
+/// Takes back laws that held-out data make less probable than not, the least probable first, as
+/// leave_refuted() does names; `unnamed` is the probability of each before: that something which no
+/// name explains acts.
+Json leave_refuted_laws(Search& search, const HoldOut& holdout, double unnamed,
+                        std::vector<discovery::Discovered>& laws);
+
 /// Laws of the fit as findings.
 Json law_findings(const Search& search, const std::vector<discovery::Discovered>& laws,
                   const HoldOut& holdout);

@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "data/sample_recording.h"
 #include "data/spectral.h"
 #include "data/testing.h"
 #include "dcnn/core/json.h"
+#include "dcnn/core/random.h"
 
 namespace dcnn {
 namespace {
@@ -166,6 +170,47 @@ TEST(Smooth, KeepsTheAccelerationUpToTheEnds) {
   EXPECT_LT((s.second.array() - exact).segment(250, n - 500).abs().maxCoeff(), 2e-3 * most);
   const Eigen::ArrayXd slope = 0.1 * w * (w * t + 1.0).cos();
   EXPECT_LT((s.first.array() - slope).abs().maxCoeff(), 0.01 * 0.1 * w);
+}
+
+/// Slow, large motion that ends on the move, a tremor, and white noise, over 40 s at 400 Hz.
+Eigen::VectorXd trembling(double noise) {
+  constexpr double kDt = 0.0025;
+  Rng rng({11});
+  Eigen::VectorXd x(16'000);
+  for (Index i = 0; i < x.size(); ++i) {
+    const double t = kDt * static_cast<double>(i), turn = 2.0 * std::numbers::pi * t;
+    x(i) = 0.1 * std::sin(0.31 * turn) + 1e-4 * std::sin(9.5 * turn) + noise * rng.normal();
+  }
+  return x;
+}
+
+TEST(Smooth, TakesNoiseOffBetweenTheBandsOfTheMotion) {
+  const Eigen::VectorXd gain = gain_of(trembling(1e-5), 0.0025, {30.0, 1.0}, 400);  // 0.5 Hz each
+  const auto mean = [&](double from, double to) {
+    const auto first = static_cast<Index>(2.0 * from), end = static_cast<Index>(2.0 * to);
+    return gain.segment(first, end - first).mean();
+  };
+  EXPECT_GT(mean(0.0, 2.0), 0.99);
+  EXPECT_GT(mean(9.0, 10.0), 0.9);
+  // Of noise alone a mean of 41 bins leaves about sqrt(2/pi/41) = 0.125.
+  EXPECT_LT(mean(4.5, 7.5), 0.2);
+  EXPECT_LT(mean(12.0, 25.0), 0.2);
+}
+
+/// Between the bands of the motion the noise of the acceleration falls to a fifth, and at the ends
+/// the filter adds nothing to it.
+TEST(Smooth, LeavesTheAccelerationOfWhatMovesUpToTheEnds) {
+  const Eigen::VectorXd noisy = trembling(1e-5), exact = trembling(0.0);
+  const auto error = [&](const LowPass& filter, Index first, Index count) {
+    const Eigen::VectorXd r =
+        smooth(noisy, 0.0025, filter).second - smooth(exact, 0.0025, {200.0, 0.0}).second;
+    return std::sqrt(r.segment(first, count).squaredNorm() / double(count));
+  };
+  const LowPass with{25.0, 1.0}, without{25.0, 0.0};
+  EXPECT_LT(error(with, 2000, 12'000), 0.5 * error(without, 2000, 12'000));
+  for (const Index first : {Index{120}, Index{16'000 - 120 - 400}}) {
+    EXPECT_LT(error(with, first, 400), 1.1 * error(without, first, 400));
+  }
 }
 
 }  // namespace
