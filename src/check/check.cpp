@@ -13,6 +13,7 @@ namespace {
 using Eigen::Index;
 constexpr double kListed = 0.05;  // of a fault's probability; less is not worth a line
 constexpr std::size_t kReadingsListed = 8;
+constexpr double kMostForeign = 0.5;  // share of the force's power that a tool's log leaves
 
 /// What one fault does to the statistic of another: the consequence is not listed beside its cause.
 const std::vector<std::pair<std::string, std::string>> kConsequences{
@@ -94,8 +95,28 @@ void set_curves(const Log& log, const Adopted& a, Report& report) {
   }
 }
 
+/// Share of the force's power that neither a rigid tool nor the sensor's white noise makes.
+double foreign_share(const Log& log, const Adopted& a) {
+  const double power = (a.fit.force.rowwise() - a.fit.force.colwise().mean()).squaredNorm();
+  double noise = 0.0;
+  for (const char* name : {"fx", "fy", "fz"}) {
+    noise += std::pow(a.reading.force * noise_of(log.column(name)), 2);
+  }
+  noise *= a.rows.value.squaredNorm() * static_cast<double>(a.fit.residual.rows());
+  return power > 0.0 ? (a.fit.residual.squaredNorm() - noise) / power : 0.0;
+}
+
 void add_notes(const Log& log, const Adopted& a, Report& report) {
-  if (a.compared) return;
+  if (a.compared) {
+    const double share = std::min(foreign_share(log, a), 1.0);
+    if (share > kMostForeign) {
+      report.notes.push_back(
+          brief(100.0 * share) +
+          " % of what the force varies by is no rigid tool's: contacts, friction, or a force and a "
+          "pose that do not belong together; no mass or offset from this log is the tool's");
+    }
+    return;
+  }
   report.notes.push_back(
       log.is_wrist()
           ? "too short to fit a rigid tool, or its force never changes: units, signs, axes and "

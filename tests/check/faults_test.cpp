@@ -102,6 +102,13 @@ TEST(CheckedLogs, AMountingThatNobodyDeclaredStopsNothing) {
   EXPECT_EQ(report.stopping({}), nullptr);
 }
 
+TEST(CheckedLogs, ASubtractedWeightIsFoundWithoutASimulatorAndStopsNothing) {
+  const check::Report report = check::check(log_of("compensated", 1, false));
+  ASSERT_FALSE(report.faults.empty()) << check::to_text(report);
+  EXPECT_EQ(report.faults[0].id, "compensated") << check::to_text(report);
+  EXPECT_EQ(report.stopping({}), nullptr);
+}
+
 TEST(CheckedLogs, TwoFaultsOfUnitsAreFoundTogether) {
   conceal::FaultyLog made = conceal::make_faulty("angle_deg", 3);
   made.table = conceal::with_fault("position_mm", made.table, 3);
