@@ -54,6 +54,14 @@ TEST(CheckedLogs, ALongContactIsLeftOutOfTheFitThatFindsIt) {
   EXPECT_GE(report.faults[0].probability, check::kCertain) << check::to_text(report);
 }
 
+// Three rows of 18 to 20 deviations: no one of them is beyond the worst noise alone.
+TEST(CheckedLogs, SeveralSpikesTogetherAreNamed) {
+  const check::Report report = check::check(log_of("spikes", 55101));
+  ASSERT_FALSE(report.faults.empty());
+  EXPECT_EQ(report.faults[0].id, "spikes") << check::to_text(report);
+  EXPECT_GE(report.faults[0].probability, check::kLikely);
+}
+
 // A joint that stands still most of the time: its rate's noise at rest says nothing of its unit,
 // and how long it stands nothing of a clock.
 TEST(CheckedLogs, AJointThatSticksHasTheRateThatItSays) {
