@@ -166,7 +166,10 @@ TEST(BinaryLogs, FormatsOfOthersAreNamedWithWhatMakesALogOfThem) {
       {archive_of("photo.png"), "without NumPy arrays"},
       {std::string("\x80\x04\x95\0\0", 5), "pickle"},
       {"\x89HDF\r\n\x1A\n", "HDF5"},
-      {"PAR1....", "Parquet"}};
+      {"PAR1....", "Parquet"},
+      {std::string("\x93NUMPY\1\0\x40\0", 10) +
+           "{'descr': '|O', 'fortran_order': False, 'shape': (10,), }       \n",
+       "Python objects"}};
   const test::TemporaryFolder folder;
   for (const auto& [bytes, words] : files) {
     test::spill(folder / "log.bin", bytes);

@@ -210,6 +210,22 @@ TEST(TextImport, WhatAControllerWantsIsNoMeasurement) {
   EXPECT_EQ(cell(imported, "z", 2), 3.0);
 }
 
+// One answer for all columns of one sensor and one body.
+TEST(TextImport, ColumnsThatBeginLikeTheOneThatWasSaidFollowIt) {
+  const std::string text =
+      "t,LeftX(m),LeftY(m),LeftZ(m),RightX(m),RightY(m),RightZ(m),LeftFx,LeftFy,LeftFz,RightFx,"
+      "RightFy,RightFz\n0,1,2,3,4,5,6,7,8,9,10,11,12\n0.1,1,2,3,4,5,6,7,8,9,10,11,12\n";
+  const std::string words = data_error([&] { import_text(text); });
+  EXPECT_NE(words.find("--map fx="), std::string::npos) << words;
+  EXPECT_EQ(words.find("--map fy="), std::string::npos) << words;
+  ImportWishes wishes;
+  wishes.map = {{"fx", "RightFx"}};
+  const Imported imported = import_text(text, wishes);
+  EXPECT_EQ(cell(imported, "fx", 0), 10.0);
+  EXPECT_EQ(cell(imported, "fz", 0), 12.0);
+  EXPECT_EQ(cell(imported, "y", 0), 5.0);
+}
+
 TEST(TextImport, AUnitSaysWhatAnAxisIsOf) {
   const Imported imported = import_text(
       "t,HandleX(m),HandleY(m),HandleZ(m),Cell X (N),Cell Y (N),Cell Z (N)\n"
