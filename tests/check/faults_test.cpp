@@ -54,6 +54,14 @@ TEST(CheckedLogs, ALongContactIsLeftOutOfTheFitThatFindsIt) {
   EXPECT_GE(report.faults[0].probability, check::kCertain) << check::to_text(report);
 }
 
+// The residual of the log as it is, smooth by the delay itself, would count as a few rows.
+TEST(CheckedLogs, ADelayIsCertainWhereItsResidualIsSmooth) {
+  const check::Report report = check::check(log_of("delay_late", 99025));
+  ASSERT_FALSE(report.faults.empty());
+  EXPECT_EQ(report.faults[0].id, "delay") << check::to_text(report);
+  EXPECT_GE(report.faults[0].probability, check::kCertain);
+}
+
 // Three rows of 18 to 20 deviations: no one of them is beyond the worst noise alone.
 TEST(CheckedLogs, SeveralSpikesTogetherAreNamed) {
   const check::Report report = check::check(log_of("spikes", 55101));
