@@ -60,6 +60,19 @@ TEST(CleanLogs, RowsOfOnePoseAfterAnotherAreNotHeld) {
   for (const check::Fault& fault : report.faults) EXPECT_NE(fault.id, "held") << fault.words;
 }
 
+// A press of five rows is sharp beside the sensor's noise, and no single row is off.
+TEST(CleanLogs, ShortPressesAreNoSpikes) {
+  const check::Log log = slow_log(4000, 0.01, 0.6);
+  Table table = log.table;
+  for (Eigen::Index peak = 300; peak < 3900; peak += 400) {
+    for (Eigen::Index k = -3; k <= 3; ++k) {
+      table.values(peak + k, 9) += 3.0 * (1.0 + std::cos(static_cast<double>(k)));
+    }
+  }
+  const check::Report report = check::check(check::make_log("presses.csv", table, log.declared));
+  for (const check::Fault& fault : report.faults) EXPECT_NE(fault.id, "spikes") << fault.words;
+}
+
 TEST(CleanLogs, AForceThatIsNoToolsIsSaid) {
   check::Log log = slow_log(4000, 0.004, 0.6);
   EXPECT_TRUE(check::check(log).notes.empty());

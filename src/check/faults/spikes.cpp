@@ -8,7 +8,7 @@ namespace dcnn::check {
 namespace {
 
 constexpr double kLeast = 8.0;   // deviations from the neighbours: nearer ones show nothing
-constexpr double kLonely = 0.3;  // of a spike's height: how far its neighbours are from theirs
+constexpr double kLonely = 0.3;  // of a spike's height: how far its neighbours are apart
 
 /// Two-sided tail of Student's t with five degrees of freedom far out: noise of sensors at its
 /// worst.
@@ -41,7 +41,8 @@ std::vector<Spike> lonely_rows(const Eigen::VectorXd& x, const Eigen::VectorXd& 
   std::vector<Spike> spikes;
   for (Eigen::Index i = 3; i + 3 < x.size(); ++i) {
     const double height = std::abs(far[i]);
-    const double beside = std::max(std::abs(x[i + 1] - x[i - 1]), std::abs(x[i + 2] - x[i - 2]));
+    const Eigen::Vector4d near(x[i - 2], x[i - 1], x[i + 1], x[i + 2]);
+    const double beside = near.maxCoeff() - near.minCoeff();
     if (height < kLeast * scale || beside > kLonely * height || x[i] == 0.0) continue;
     spikes.push_back({height / scale, i});
   }
