@@ -13,15 +13,16 @@ namespace {
 using Eigen::Index;
 constexpr double kListed = 0.05;  // of a fault's probability; less is not worth a line
 constexpr std::size_t kReadingsListed = 8;
+constexpr double kMostForeign = 0.5;  // share of the force's power that a tool's log leaves
 
 /// What one fault does to the statistic of another: the consequence is not listed beside its cause.
 const std::vector<std::pair<std::string, std::string>> kConsequences{
-    {"counts", "force_unit"}, {"counts", "quantisation"}, {"wrap", "spikes"}, {"wrap", "contact"},
-    {"dropouts", "spikes"},   {"dropouts", "frozen"},     {"saturation", "frozen"},
-    {"frozen", "contact"},    {"saturation", "contact"},  {"held", "quantisation"},
-    {"held", "frozen"},       {"held", "delay"},          {"frozen", "held"},
-    {"clock_order", "jitter"}, {"moving_rows", "no_motion"}, {"frozen", "delay"},
-    {"contact", "position_axes"}, {"no_motion", "delay"}};
+    {"counts", "force_unit"}, {"counts", "quantisation"},   {"wrap", "spikes"},
+    {"wrap", "contact"},      {"dropouts", "spikes"},       {"dropouts", "frozen"},
+    {"saturation", "frozen"}, {"frozen", "contact"},        {"saturation", "contact"},
+    {"held", "quantisation"}, {"held", "frozen"},           {"held", "delay"},
+    {"frozen", "held"},       {"clock_order", "jitter"},    {"moving_rows", "no_motion"},
+    {"frozen", "delay"},      {"contact", "position_axes"}, {"no_motion", "delay"}};
 
 void drop_consequences(std::vector<Fault>& faults) {
   const std::vector<Fault> all = faults;
@@ -42,7 +43,7 @@ void drop_readings_of_broken_columns(std::vector<Fault>& faults) {
   if (!broken) return;
   std::erase_if(faults, [](const Fault& fault) {
     return std::any_of(fault_kinds().begin(), fault_kinds().end(), [&](const FaultKind* kind) {
-      return kind->id == fault.id && kind->readings != nullptr && kind->of_force;
+      return kind->id == fault.id && kind->of_force;
     });
   });
 }
@@ -61,14 +62,18 @@ void sort_faults(std::vector<Fault>& faults) {
 /// What the motion shows of a rigid tool: relative deviations from the fit's covariance.
 void set_identifiable(const Adopted& a, Report& report) {
   if (!a.compared) return;
-  const double scale = std::max(1.0, static_cast<double>(3 * a.rows.centres.size()) / independent_of(a.fit.residual));
-  const auto deviation = [&](Index k) { return std::sqrt(std::max(0.0, a.fit.covariance(k, k) * scale)); };
+  const double scale = std::max(
+      1.0, static_cast<double>(3 * a.rows.centres.size()) / independent_of(a.fit.residual));
+  const auto deviation = [&](Index k) {
+    return std::sqrt(std::max(0.0, a.fit.covariance(k, k) * scale));
+  };
   const bool mass = a.fit.mass > 0.0 && deviation(0) < 0.1 * a.fit.mass;
   report.identifiable["mass"] = mass;
   for (Index k = 0; k < 3; ++k) {
     const std::string axis(1, "xyz"[k]);
     report.identifiable["com_" + axis] = mass && deviation(1 + k) < 0.01 * a.fit.mass;
-    report.identifiable["bias_" + axis] = deviation(4 + k) < 0.02 * 9.81 * std::max(a.fit.mass, 0.1);
+    report.identifiable["bias_" + axis] =
+        deviation(4 + k) < 0.02 * 9.81 * std::max(a.fit.mass, 0.1);
   }
   report.identifiable["friction"] = a.motion.has_position && a.rows.half > 0;
   report.identifiable["delay"] = a.rows.half > 0;
@@ -85,14 +90,38 @@ void set_curves(const Log& log, const Adopted& a, Report& report) {
   for (Index j = 0; j < 3; ++j) {
     const std::string axis = std::string("f") + "xyz"[j];
     report.measured.push_back({axis, t, a.fit.force.col(j)});
-    report.rigid.push_back({axis + " of a rigid tool", t, a.fit.force.col(j) - a.fit.residual.col(j)});
+    report.rigid.push_back(
+        {axis + " of a rigid tool", t, a.fit.force.col(j) - a.fit.residual.col(j)});
   }
 }
 
+/// Share of the force's power that neither a rigid tool nor the sensor's white noise makes.
+double foreign_share(const Log& log, const Adopted& a) {
+  const double power = (a.fit.force.rowwise() - a.fit.force.colwise().mean()).squaredNorm();
+  double noise = 0.0;
+  for (const char* name : {"fx", "fy", "fz"}) {
+    noise += std::pow(a.reading.force * noise_of(log.column(name)), 2);
+  }
+  noise *= a.rows.value.squaredNorm() * static_cast<double>(a.fit.residual.rows());
+  return power > 0.0 ? (a.fit.residual.squaredNorm() - noise) / power : 0.0;
+}
+
 void add_notes(const Log& log, const Adopted& a, Report& report) {
-  if (a.compared) return;
-  report.notes.push_back(log.is_wrist() ? "too short to fit a rigid tool, or its force never changes: units, signs, axes and frames were not compared"
-                                        : "no pose with forces: units, signs and axes were compared by their size alone");
+  if (a.compared) {
+    const double share = std::min(foreign_share(log, a), 1.0);
+    if (share > kMostForeign) {
+      report.notes.push_back(
+          brief(100.0 * share) +
+          " % of what the force varies by is no rigid tool's: contacts, friction, or a force and a "
+          "pose that do not belong together; no mass or offset from this log is the tool's");
+    }
+    return;
+  }
+  report.notes.push_back(
+      log.is_wrist()
+          ? "too short to fit a rigid tool, or its force never changes: units, signs, axes and "
+            "frames were not compared"
+          : "no pose with forces: units, signs and axes were compared by their size alone");
 }
 
 }  // namespace

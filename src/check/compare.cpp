@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "check/kind.h"
 #include "check/statistics.h"
@@ -10,12 +11,12 @@ namespace dcnn::check {
 namespace {
 
 using Eigen::Index;
-constexpr int kRounds = 3;          // faults that come together
-constexpr double kMentioned = 0.02;  // a rival of less probability is not listed
-constexpr Index kFewestCentres = 6;  // of a fit with seven unknowns
+constexpr int kRounds = 3;            // faults that come together
+constexpr double kMentioned = 0.02;   // a rival of less probability is not listed
+constexpr Index kFewestCentres = 6;   // of a fit with seven unknowns
 constexpr double kNoEvidence = -1e9;  // ln of a weight next to none
-constexpr double kLeastMass = 1e-3;  // kg; below, no tool is told from none
-constexpr int kMassSteps = 32;       // from the estimate to the typical mass, even in logarithms
+constexpr double kLeastMass = 1e-3;   // kg; below, no tool is told from none
+constexpr int kMassSteps = 32;        // from the estimate to the typical mass, even in logarithms
 
 double rms(const Eigen::MatrixXd& m) {
   return m.rows() == 0 ? 0.0 : std::sqrt(m.squaredNorm() / static_cast<double>(m.rows()));
@@ -106,14 +107,15 @@ class Motions {
   std::vector<std::pair<Reading, Kinematics>> known_;
 };
 
-std::vector<Reading> readings_about(const Log& log, const Reading& base) {
+/// All readings one fault away from `base`, those of a fit only where there is one.
+std::vector<Reading> readings_about(const Log& log, const Reading& base, const RigidFit* fit) {
   std::vector<Reading> all{base};
   all[0].fault.clear();
   all[0].words = "as declared";
   for (const FaultKind* kind : fault_kinds()) {
-    if (kind->readings == nullptr) continue;
     std::vector<Reading> variants;
-    kind->readings(log, base, variants);
+    if (kind->readings != nullptr) kind->readings(log, base, variants);
+    if (kind->estimates != nullptr && fit != nullptr) kind->estimates(base, *fit, variants);
     for (Reading& variant : variants) {
       variant.fault = kind->id;
       variant.prior = kFaultPrior / static_cast<double>(variants.size());
@@ -145,12 +147,13 @@ struct Round {
 
 Round weigh(const Log& log, const Sampled& rows, Motions* motions, const Reading& base) {
   Round round;
-  round.readings = readings_about(log, base);
+  std::optional<RigidFit> fit;
+  if (motions != nullptr) fit = fit_rigid(log, rows, motions->of(base), base);
+  round.readings = readings_about(log, base, fit ? &*fit : nullptr);
   Eigen::VectorXd weights(static_cast<Index>(round.readings.size()));
   for (Index k = 0; k < weights.size(); ++k) {
     const Reading& reading = round.readings[static_cast<std::size_t>(k)];
-    const double weight =
-        log_weight(log, rows, motions ? &motions->of(reading) : nullptr, reading);
+    const double weight = log_weight(log, rows, motions ? &motions->of(reading) : nullptr, reading);
     // Numbers that overflow are refused by whoever reads the log; they are no evidence.
     weights[k] = std::isfinite(weight) ? weight : kNoEvidence;
   }
@@ -217,7 +220,9 @@ Reading declared_reading(const Log& log) {
 
 double log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
                   const Reading& reading) {
-  double sum = elementary::log(reading.prior) + angle_weight(log, reading);
+  // Schwarz' penalty for what was estimated.
+  double sum = elementary::log(reading.prior) + angle_weight(log, reading) -
+               0.5 * reading.estimated * elementary::log(independent_residuals(rows));
   if (log.smooth && log.step > 0.0) sum += clock_weight(log, reading.clock);
   if (motion == nullptr) return sum;
   sum += motion_weight(log, *motion, reading);
@@ -249,6 +254,7 @@ Adopted adopt(const Log& log) {
   Motions motions(log, out.rows);
   for (int k = 0; k < kRounds; ++k) {
     out.reading.prior = 1.0;
+    out.reading.estimated = 0;
     const Round round = weigh(log, out.rows, out.compared ? &motions : nullptr, out.reading);
     if (k == 0) list_weights(round, out);
     const Reading& best = round.readings[static_cast<std::size_t>(round.best)];

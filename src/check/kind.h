@@ -26,6 +26,8 @@ struct FaultKind {
   std::vector<Fault> (*find)(const Evidence&) = nullptr;
   void (*readings)(const Log&, const Reading& base, std::vector<Reading>& out) = nullptr;
   bool of_force = false;  ///< a reading of the forces or of their frame
+  /// Readings whose numbers are estimated, from the fit of the reading that they alter.
+  void (*estimates)(const Reading& base, const RigidFit& fit, std::vector<Reading>& out) = nullptr;
 };
 
 #define FAULT(id) extern const FaultKind id##_fault;

@@ -1,5 +1,6 @@
-// A reading: what the numbers of a log mean. The log as declared is one, each fault of units, signs,
-// axes, frames and orders is another; they are compared by how well a rigid tool explains them.
+// A reading: what the numbers of a log mean. The log as declared is one, each fault of units,
+// signs, axes, frames and orders is another; they are compared by how well a rigid tool explains
+// them.
 #pragma once
 
 #include <Eigen/Dense>
@@ -12,9 +13,9 @@ namespace dcnn::check {
 
 /// How three or four columns make R_BE.
 struct Orientation {
-  std::string order;                  ///< of elementary turns, "zyx"; of a quaternion, "wxyz"
-  bool reversed = false;              ///< the first column belongs to the last letter
-  bool inverse = false;               ///< the log holds R_EB
+  std::string order;                    ///< of elementary turns, "zyx"; of a quaternion, "wxyz"
+  bool reversed = false;                ///< the first column belongs to the last letter
+  bool inverse = false;                 ///< the log holds R_EB
   Eigen::Vector3d sign{1.0, 1.0, 1.0};  ///< of the Euler angles
 
   bool operator==(const Orientation&) const = default;
@@ -29,6 +30,7 @@ struct Reading {
   Eigen::Matrix3d force_axes = Eigen::Matrix3d::Identity();  ///< F_S = force_axes * F_log
   bool force_in_base = false, compensated = false;
   bool harmless = false;  ///< what one may leave undeclared: it stops nothing
+  int estimated = 0;      ///< numbers chosen to suit the log
 };
 
 /// Rows of the log on which readings are compared, smoothed over some 0.12 s, with derivatives
@@ -45,8 +47,8 @@ Sampled sample(const Log& log);
 
 /// The motion as one reading has it, per sample.
 struct Kinematics {
-  std::vector<Eigen::Matrix3d> R;       ///< R_BE
-  Eigen::MatrixXd w, dw;                ///< (n,3) in E
+  std::vector<Eigen::Matrix3d> R;                    ///< R_BE
+  Eigen::MatrixXd w, dw;                             ///< (n,3) in E
   Eigen::MatrixXd position, velocity, acceleration;  ///< (n,3) in B; (n,3) zero without a position
   bool has_position = false;
 };
@@ -62,9 +64,9 @@ struct RigidFit {
   /// variance grows by the factor 1 + (m - free_mass)²/mass_spread² where the mass is held at m.
   double free_mass = 0.0, mass_spread = 0.0;
   Eigen::Vector3d moment{0, 0, 0}, bias{0, 0, 0};  ///< m c [kg m], [N]
-  double variance = 0.0;     ///< of the residual per axis, robust [N^2]
-  Eigen::MatrixXd residual, force;  ///< (n,3) in S [N]
-  Eigen::MatrixXd field, covariance;  ///< (n,3) [m/s^2]; of mass, moment, bias (7,7)
+  double variance = 0.0;                           ///< of the residual per axis, robust [N^2]
+  Eigen::MatrixXd residual, force;                 ///< (n,3) in S [N]
+  Eigen::MatrixXd field, covariance;               ///< (n,3) [m/s^2]; of mass, moment, bias (7,7)
 };
 struct FitOptions {
   Eigen::Index shift = 0;  ///< the force is read so many rows later
@@ -72,9 +74,10 @@ struct FitOptions {
   /// Its columns as smoothed_friction() has them; null: of the smoothed velocity.
   const Eigen::MatrixXd* columns = nullptr;
 };
-/// (n,21), three rows of seven columns each: friction of every row of the log, dry friction changing
-/// its sign over `speed` [m/s], smoothed as the force is. Dry friction of a smoothed velocity turns
-/// more sharply than what the smoothed force shows of it, and a shift in time mends that.
+/// (n,21), three rows of seven columns each: friction of every row of the log, dry friction
+/// changing its sign over `speed` [m/s], smoothed as the force is. Dry friction of a smoothed
+/// velocity turns more sharply than what the smoothed force shows of it, and a shift in time mends
+/// that.
 Eigen::MatrixXd smoothed_friction(const Log& log, const Sampled& rows, const Reading& reading,
                                   double speed);
 RigidFit fit_rigid(const Log& log, const Sampled& rows, const Kinematics& motion,
@@ -90,7 +93,7 @@ struct Adopted {
   Sampled rows;
   Kinematics motion;  ///< without rows where there is no pose
   RigidFit fit;
-  bool compared = false;  ///< a rigid tool was fitted
+  bool compared = false;     ///< a rigid tool was fitted
   double independent = 0.0;  ///< effective number of residuals
   std::vector<Fault> faults;
   std::vector<ReadingWeight> weights;
@@ -104,6 +107,5 @@ Reading declared_reading(const Log& log);
 double log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
                   const Reading& reading);
 Adopted adopt(const Log& log);
-
 
 }  // namespace dcnn::check

@@ -13,9 +13,10 @@ using identification::WristFit;
 using identification::WristLog;
 using identification::WristState;
 
-constexpr int kDraws = 4000;           // 2.5 % quantiles to some 4 % of a deviation
-constexpr double kSmallest = 0.03;     // m: radius of gyration of what is taken for a tool's least
+constexpr int kDraws = 4000;        // 2.5 % quantiles to some 4 % of a deviation
+constexpr double kSmallest = 0.03;  // m: radius of gyration of what is taken for a tool's least
 constexpr double kOtherMounting = 20.0 * M_PI / 180.0;  // no assembly tolerance
+constexpr double kMostIsForeign = 0.5;  // share of the force's power that the fit leaves
 
 Eigen::Matrix3d least_inertia(double mass, const Eigen::Vector3d& com) {
   const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
@@ -54,6 +55,33 @@ ToolModel model_of(const WristState& point, const std::vector<WristLog>& logs,
   return model;
 }
 
+/// (channels) about the mean of each log.
+Eigen::VectorXd measured_rms(const WristFit& fit) {
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(fit.layout.channels());
+  double rows = 0.0;
+  for (const auto& columns : fit.columns) {
+    const Eigen::MatrixXd centred = columns.y.rowwise() - columns.y.colwise().mean();
+    squares += centred.colwise().squaredNorm().transpose();
+    rows += static_cast<double>(columns.rows());
+  }
+  return (squares / std::max(rows, 1.0)).cwiseSqrt();
+}
+
+/// Numbers fitted to a force that is mostly something else are not the tool's.
+void note_foreign_force(ToolIdentification& result) {
+  const double measured = result.measured_rms.head(3).squaredNorm();
+  const double share = result.residual_rms.head(3).squaredNorm() / std::max(measured, 1e-300);
+  if (share <= kMostIsForeign) return;
+  char line[300];
+  std::snprintf(
+      line, sizeof line,
+      "%.0f %% of what the force varies by is no rigid tool's: something was touched, the "
+      "weight is subtracted already (--payload KG adds it back), or force and pose do not "
+      "belong together; do not use these numbers before dcnn-check knows which",
+      100.0 * std::min(share, 1.0));
+  result.notes.push_back(line);
+}
+
 void add_notes(const std::vector<WristLog>& logs, const WristState& point, bool mounting_estimated,
                ToolIdentification& result) {
   for (const WristLog& log : logs) {
@@ -61,17 +89,19 @@ void add_notes(const std::vector<WristLog>& logs, const WristState& point, bool 
     for (const auto& note : log.recording.notes) result.notes.push_back(name + ": " + note);
     if (log.at_rest) result.notes.push_back(name + ": a list of poses at rest");
     if (!log.at_rest && !log.accelerated) {
-      result.notes.push_back(name + ": no position is logged: the weight alone is fitted, and what "
-                                    "accelerations add is taken for noise");
+      result.notes.push_back(name +
+                             ": no position is logged: the weight alone is fitted, and what "
+                             "accelerations add is taken for noise");
     }
   }
   const double angle = Eigen::AngleAxisd(point.R_SE).angle();
   if (mounting_estimated && angle > kOtherMounting) {
     char line[200];
-    std::snprintf(line, sizeof line,
-                  "the mounting is turned by %.0f degrees against the pose frame; if it is not, check "
-                  "axes and signs: --mounting 0 0 0, --force-sign -1",
-                  angle * 180.0 / M_PI);
+    std::snprintf(
+        line, sizeof line,
+        "the mounting is turned by %.0f degrees against the pose frame; if it is not, check "
+        "axes and signs: --mounting 0 0 0, --force-sign -1",
+        angle * 180.0 / M_PI);
     result.notes.push_back(line);
   }
 }
@@ -99,6 +129,7 @@ ToolIdentification identify_tool(const IdentifyRequest& request) {
   result.constrained = draws.constrained;
   result.possible_share = draws.inside;
   result.residual_rms = fit.residual_rms;
+  result.measured_rms = measured_rms(fit);
   result.cutoff_hz.resize(static_cast<Index>(logs.size()));
   for (std::size_t k = 0; k < logs.size(); ++k) {
     result.recordings.push_back(logs[k].recording.name);
@@ -111,6 +142,7 @@ ToolIdentification identify_tool(const IdentifyRequest& request) {
     result.units.insert(result.units.end(), {"N*m", "N*m", "N*m"});
   }
   add_notes(logs, point, fit.layout.mounting, result);
+  note_foreign_force(result);
   return result;
 }
 

@@ -68,6 +68,7 @@ Json to_json(const ToolIdentification& id) {
             {"targets", id.targets},
             {"units", id.units},
             {"residual_rms", numbers_of(id.residual_rms)},
+            {"measured_rms", numbers_of(id.measured_rms)},
             {"cutoff_hz", numbers_of(id.cutoff_hz)},
             {"constrained", id.constrained},
             {"possible_share", id.possible_share},
@@ -89,20 +90,24 @@ Json to_json(const ToolIdentification& id) {
 }
 
 std::string to_text(const ToolIdentification& id) {
-  std::string text = "The tool in the sensor's frame, from " + join(id.recordings) +
-                     " (95 % intervals):\n";
+  std::string text =
+      "The tool in the sensor's frame, from " + join(id.recordings) + " (95 % intervals):\n";
   for (const IdentifiedNumber& e : id.parameters) text += line_of(e);
   char line[160];
-  std::snprintf(line, sizeof line, "Residual: %.3g N", id.residual_rms.head(3).norm() / std::sqrt(3.0));
+  const auto rms = [](const auto& channels) { return channels.norm() / std::sqrt(3.0); };
+  std::snprintf(line, sizeof line, "Residual: %.3g N of %.3g N", rms(id.residual_rms.head(3)),
+                rms(id.measured_rms.head(3)));
   text += line;
   if (id.residual_rms.size() == 6) {
-    std::snprintf(line, sizeof line, ", %.3g N*m", id.residual_rms.tail(3).norm() / std::sqrt(3.0));
+    std::snprintf(line, sizeof line, ", %.3g N*m of %.3g N*m", rms(id.residual_rms.tail(3)),
+                  rms(id.measured_rms.tail(3)));
     text += line;
   }
   text += " rms in the motion's band.\n";
   if (id.constrained) {
-    text += "Least squares alone gave a body that cannot exist; the numbers are those of bodies that "
-            "can.\n";
+    text +=
+        "Least squares alone gave a body that cannot exist; the numbers are those of bodies that "
+        "can.\n";
   }
   if (!id.beside.empty()) text += "Fitted beside the tool, since the data show it:\n";
   for (const BesideTool& law : id.beside) text += "  " + law.words + "\n";

@@ -74,6 +74,10 @@ void propose_unit(const ForeignLog& log, const ImportWishes& wishes, ColumnRule*
     rule->assumed = true;
   } else if (source.stream->si) {
     rule->why = "type of the message";
+  } else if (const std::string unit = unknown_unit_of_name(rule->channel);
+             !unit.empty() && rule->gain == 1.0) {
+    rule->why = "its name, which is not understood";
+    rule->assumed = true;
   } else {
     guess_column_unit(*source.channel, rule);
   }
@@ -105,6 +109,13 @@ void propose_units(const ForeignLog& log, const ImportWishes& wishes, Proposal* 
   for (ColumnRule& rule : proposal->recipe.columns) {
     propose_unit(log, wishes, &rule);
     if (!rule.assumed) continue;
+    if (const std::string unit = unknown_unit_of_name(rule.channel);
+        !unit.empty() && rule.unit.empty()) {
+      proposal->guesses.push_back(shown(unit) + " behind the name of " + rule.to +
+                                  " is no unit that is known here: say --unit " + rule.to +
+                                  "=N, or what it is");
+      continue;
+    }
     std::string& list = guessed[rule.unit];
     list += (list.empty() ? "" : ",") + rule.to;
   }

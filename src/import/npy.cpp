@@ -133,11 +133,31 @@ void read_npy(const std::filesystem::path& path, const std::string& name, LogBui
   builder.log().format = "NumPy array";
 }
 
+namespace {
+
+/// Spreadsheets and other archives begin with the same bytes.
+void require_arrays(const std::vector<ZipEntry>& entries, const std::string& file) {
+  const auto has = [&](const auto& wanted) {
+    return std::any_of(entries.begin(), entries.end(),
+                       [&](const ZipEntry& entry) { return wanted(entry.name); });
+  };
+  require(!has([](const std::string& name) {
+    return name.starts_with("xl/") || name == "content.xml";
+  }),
+          Exit::kData, file, ": is a spreadsheet; save the sheet as CSV");
+  require(has([](const std::string& name) { return name.ends_with(".npy"); }), Exit::kData, file,
+          ": is an archive without NumPy arrays; unpack it and name the files in it");
+}
+
+}  // namespace
+
 void read_npz(const std::filesystem::path& path, LogBuilder& builder) {
   ByteFile file(path);
   Decompressor expand(file.name(), file.size());
   std::vector<NumberArray> arrays;
-  for (const ZipEntry& entry : zip_directory(file)) {
+  const std::vector<ZipEntry> entries = zip_directory(file);
+  require_arrays(entries, file.name());
+  for (const ZipEntry& entry : entries) {
     if (!entry.name.ends_with(".npy")) continue;
     const std::string name = entry.name.substr(0, entry.name.size() - 4);
     const std::string_view content = zip_content(file, entry, &expand);

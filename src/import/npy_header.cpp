@@ -65,6 +65,7 @@ class Literal {
 };
 
 NpyField parse_descr(const std::string& descr, const Literal& literal) {
+  if (descr == "|O") throw NotNumbers("has Python objects as elements, which only Python reads");
   if (descr.size() < 3) literal.broken();
   NpyField field;
   field.big = descr[0] == '>';

@@ -4,6 +4,7 @@
 #include "data/text.h"
 #include "dcnn/core/error.h"
 #include "dcnn/core/options.h"
+#include "import/candidates.h"
 #include "import/clocks.h"
 #include "import/column_units.h"
 #include "import/roles.h"
@@ -111,55 +112,63 @@ class Proposer {
            std::find(wishes_.use.begin(), wishes_.use.end(), stream.name) != wishes_.use.end();
   }
 
-  /// The channels of a stream that are the columns of a vector; empty where one is missing.
+  /// The channels of a stream that are the columns of a vector, but for those that were said; empty
+  /// where one is missing.
   std::vector<ColumnRule> find_vector(const LogStream& stream, const VectorRole& role,
                                       bool as_translation) {
     std::vector<ColumnRule> rules;
+    std::string open;
     for (const std::string& column : role.columns) {
-      const std::size_t before = rules.size();
+      if (has(column)) continue;
+      Names candidates;
       for (const LogChannel& channel : stream.channels) {
         std::string found = role_of(stream, channel.name);
         if (as_translation && found.size() == 2 && found[0] == 't') found.erase(0, 1);
-        if (found != column || channel.finite == 0) continue;
-        if (rules.size() > before) {
-          ask_which(column, stream.name + ":" + rules.back().channel,
-                    stream.name + ":" + channel.name);
-          break;
-        }
-        rules.push_back({.to = column, .stream = stream.name, .channel = channel.name});
+        if (found == column && channel.finite > 0) candidates.push_back(channel.name);
       }
-      if (rules.size() == before) return {};
+      if (candidates.empty()) return {};
+      const auto nearest = nearest_to_said(candidates, said_of(stream));
+      if (candidates.size() > 1 && !nearest && open.empty()) {
+        open = question_between(column, stream.name, candidates);
+      }
+      rules.push_back(
+          {.to = column, .stream = stream.name, .channel = candidates[nearest.value_or(0)]});
     }
+    if (!open.empty()) proposal_.questions.push_back(open);
     return rules;
   }
 
-  void ask_which(const std::string& column, const std::string& one, const std::string& other) {
-    proposal_.questions.push_back("both " + shown(one) + " and " + shown(other) + " may be " +
-                                  column + ": say --map " + column + "=…");
-  }
-
-  /// "timestamp tx ty tz qx qy qz qw" (the TUM format of trajectories): a translation.
-  bool is_trajectory(const LogStream& stream) const {
-    bool translation = false, other = false;
-    for (const LogChannel& channel : stream.channels) {
-      const std::string role = role_of(stream, channel.name);
-      translation = translation || role == "tx";
-      other = other || role == "fx" || role == "x";
+  /// Channels of a stream that --map names.
+  Names said_of(const LogStream& stream) const {
+    Names said;
+    for (const auto& [to, spec] : wishes_.map) {
+      const ColumnRule rule = find_channel(spec);
+      if (rule.stream == stream.name) said.push_back(rule.channel);
     }
-    return translation && !other;
+    return said;
   }
 
   void take_vector(const VectorRole& role) {
     const bool oriented = has_any({"qw", "quat0", "r11", "alpha", "rot1"});
     const std::string first = role.columns[0];
-    if (has_any(role.columns)) return;
-    if (oriented && (first == "quat0" || first == "r11" || first == "alpha" || first == "rot1" ||
-                     first == "rvx")) {
+    if (std::all_of(role.columns.begin(), role.columns.end(),
+                    [&](const std::string& column) { return has(column); })) {
       return;
+    }
+    if (oriented && !has(first) &&
+        (first == "quat0" || first == "r11" || first == "alpha" || first == "rot1" ||
+         first == "rvx")) {
+      return;
+    }
+    std::string said;  // the stream of what --map says of this vector
+    for (const ColumnRule& rule : recipe().columns) {
+      const bool part =
+          std::find(role.columns.begin(), role.columns.end(), rule.to) != role.columns.end();
+      if (part && said.empty()) said = rule.stream;
     }
     std::vector<std::vector<ColumnRule>> found;
     for (const LogStream& stream : log_.streams) {
-      if (!may_use(stream)) continue;
+      if (!may_use(stream) || (!said.empty() && stream.name != said)) continue;
       const bool trajectory = is_trajectory(stream);
       if (trajectory && first == "tx") continue;
       auto rules = find_vector(stream, role, trajectory && first == "x");
@@ -283,6 +292,8 @@ class Proposer {
 
 }  // namespace
 
-Proposal propose(const ForeignLog& log, const ImportWishes& wishes) { return Proposer(log, wishes).run(); }
+Proposal propose(const ForeignLog& log, const ImportWishes& wishes) {
+  return Proposer(log, wishes).run();
+}
 
 }  // namespace dcnn

@@ -13,6 +13,9 @@ namespace dcnn {
 namespace {
 
 namespace fs = std::filesystem;
+constexpr const char* kPickle =
+    "is a Python pickle, which runs code of its maker when it is read; save its arrays by "
+    "numpy.savez or as CSV";
 
 /// The files of a folder that ros2 bag made; the path itself otherwise.
 std::vector<fs::path> files_of(const fs::path& path) {
@@ -37,19 +40,35 @@ std::string first_bytes(const fs::path& path) {
   return bytes;
 }
 
+/// Files of others that people try, and what makes a log of them.
+struct ForeignFormat {
+  std::string_view magic;
+  const char* words;
+};
+constexpr ForeignFormat kForeignFormats[] = {
+    {"\x1F\x8B", "is compressed; unpack it: gunzip"},
+    {"\x28\xB5\x2F\xFD", "is compressed; unpack it: unzstd"},
+    {"\xD0\xCF\x11\xE0", "is a spreadsheet; save the sheet as CSV"},
+    {"PAR1", "is a Parquet table; save it as CSV"},
+    {"\x80\x02", kPickle},
+    {"\x80\x03", kPickle},
+    {"\x80\x04", kPickle},
+    {"\x80\x05", kPickle},
+    {"\x89HDF", "is an HDF5 file that MATLAB did not write; save its arrays as .npz or CSV"}};
+
 void read_one(const fs::path& path, std::size_t number, LogBuilder& builder) {
   const std::string begin = path == "-" ? "" : first_bytes(path);
   const auto starts = [&](std::string_view magic) { return begin.starts_with(magic); };
-  require(!starts("\x1F\x8B"), Exit::kData, path.string(), ": is compressed; unpack it: gunzip");
-  require(!starts("\x28\xB5\x2F\xFD"), Exit::kData, path.string(),
-          ": is compressed; unpack it: unzstd");
+  for (const ForeignFormat& format : kForeignFormats) {
+    require(!starts(format.magic), Exit::kData, path.string(), ": ", format.words);
+  }
   const std::string name = "file" + std::to_string(number);
   if (starts("\x89MCAP0\r\n")) return read_mcap(path, builder);
   if (starts("#ROSBAG V")) return read_bag(path, builder);
   if (starts("SQLite format 3")) return read_db3(path, builder);
   if (starts("\x93NUMPY")) return read_npy(path, name, builder);
   if (starts("PK\x03\x04")) return read_npz(path, builder);
-  if (starts("MATLAB ") || starts("\x89HDF\r\n")) return read_mat(path, builder);
+  if (starts("MATLAB ")) return read_mat(path, builder);
   read_text_log(path, name, builder);
 }
 

@@ -73,16 +73,30 @@ std::string matrix_element(const Words& words, int index) {
   return "r" + std::to_string(row + 1) + std::to_string(column + 1);
 }
 
+/// What a controller wants, what was simulated or a statistic is no measurement.
+bool is_no_measurement(const Words& words) {
+  return has_word(words,
+                  {"covariance", "target", "desired", "des", "goal", "setpoint", "reference", "ref",
+                   "cmd", "command", "commanded", "bias", "std", "raw_counts", "gravity", "sim"});
+}
+
+/// Whose unit says what the axis in its name is of: "Sensor X (N)".
+std::string by_unit(const std::string& name, const std::string& axis) {
+  if (axis.size() != 1 || axis[0] < 'x' || axis[0] > 'z') return "";
+  const auto unit = find_unit(unit_of_name(name));
+  if (!unit) return "";
+  if (unit->quantity == "length") return axis;
+  if (unit->quantity == "force") return "f" + axis;
+  return unit->quantity == "torque" ? "t" + axis : "";
+}
+
 /// Quantity and component in several words: {wrench, force, x}, {actual, tcp, force, 3}.
 std::string by_words(const Words& words) {
   const std::string& last = words.back();
   const bool number = !last.empty() && last.find_first_not_of("0123456789") == std::string::npos;
   const int index = number && last.size() < 3 ? std::stoi(last) : -1;
   const int axis = axis_of(last);
-  if (has_word(words, {"covariance", "target", "desired", "setpoint", "cmd", "command", "bias",
-                       "std", "raw_counts", "gravity"})) {
-    return "";
-  }
+  if (is_no_measurement(words)) return "";
   if (has_word(words, {"tcp"}) && has_word(words, {"pose"}) && index >= 0 && index < 6) {
     return with_axis(index < 3 ? "" : "rv", index % 3);
   }
@@ -168,12 +182,15 @@ std::string role_of(const LogStream& stream, const std::string& full_name) {
   const std::string channel = copy ? full_name.substr(0, mark) : full_name;
   if (stream.type.ends_with("JointState")) return joint_state(channel);
   if (stream.type.ends_with("/Imu") || stream.type.find("Twist") != std::string::npos) return "";
-  const Words words = words_of_name(channel);
+  const bool unknown_unit = !unknown_unit_of_name(channel).empty();
+  const Words words =
+      words_of_name(unknown_unit ? channel.substr(0, channel.find_last_of("[(")) : channel);
   if (words.empty()) return "";
   if (words.size() == 2 && words[1] == "sim" && words[0].size() == 2) {
     return single_word(words[0]).empty() ? "" : single_word(words[0]) + "_sim";
   }
   if (words.size() == 1) {
+    if (const std::string role = by_unit(channel, words[0]); !role.empty()) return role;
     const std::string column = single_word(words[0]);
     if (column.empty() && is_frame_of_kuka(stream)) return kuka_angle(words[0]);
     return column.empty() ? joint_word(words[0]) : column;
@@ -182,10 +199,9 @@ std::string role_of(const LogStream& stream, const std::string& full_name) {
   const bool indexed =
       words.size() == 2 && words[1].find_first_not_of("0123456789") == std::string::npos;
   if (indexed) return joint_word(words[0] + words[1]);  // tau[3]
+  if (is_no_measurement(words)) return "";
   // "sensor.fx", "/ft/Fx", "tool_roll": the last word alone, where it is one of a vector's names.
-  const std::string last = words.back().size() > 1 ? single_word(words.back()) : "";
-  const bool other = has_word(words, {"target", "desired", "cmd", "command", "bias", "sim"});
-  return other ? "" : last;
+  return words.back().size() > 1 ? single_word(words.back()) : by_unit(channel, words.back());
 }
 
 int clock_rank(const std::string& channel) {

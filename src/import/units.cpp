@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "data/text.h"
@@ -89,6 +91,23 @@ const std::array kUnits = {UnitRow{"s", "time"},
                            UnitRow{"lsb", "counts"},
                            UnitRow{"ticks", "counts"}};
 
+/// Units written out, in any case, with or without an s behind.
+constexpr std::array<std::pair<std::string_view, const char*>, 14> kWrittenOut = {
+    {{"radian", "rad"},
+     {"meter", "m"},
+     {"metre", "m"},
+     {"millimeter", "mm"},
+     {"millimetre", "mm"},
+     {"centimeter", "cm"},
+     {"centimetre", "cm"},
+     {"newton", "N"},
+     {"millinewton", "mN"},
+     {"newtonmeter", "Nm"},
+     {"newtonmetre", "Nm"},
+     {"millisecond", "ms"},
+     {"microsecond", "us"},
+     {"nanosecond", "ns"}}};
+
 /// "N*m", "N.m", "N m", "N·m" are "Nm"; "m/s^2" and "m/s²" are "m/s2".
 std::string plain(std::string_view unit) {
   std::string out;
@@ -104,6 +123,18 @@ std::string plain(std::string_view unit) {
     }
   }
   return out;
+}
+
+std::string abbreviated(const std::string& unit) {
+  std::string word;
+  for (const char c : unit) {
+    word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  if (word.ends_with('s')) word.pop_back();
+  for (const auto& [whole, short_unit] : kWrittenOut) {
+    if (word == whole) return short_unit;
+  }
+  return unit;
 }
 
 /// Where the unit in brackets, behind '/' or behind the last '_' begins and the name ends.
@@ -139,7 +170,7 @@ Parts parts_of(std::string_view name) {
 }  // namespace
 
 std::optional<LogUnit> find_unit(std::string_view unit) {
-  const std::string wanted = plain(unit);
+  const std::string wanted = abbreviated(plain(unit));
   for (const UnitRow& row : kUnits) {
     if (wanted == row.unit) return LogUnit{row.quantity, row.factor, row.origin};
   }
@@ -147,6 +178,21 @@ std::optional<LogUnit> find_unit(std::string_view unit) {
 }
 
 std::string unit_of_name(std::string_view name) { return std::string(parts_of(name).unit); }
+
+std::string unknown_unit_of_name(std::string_view name) {
+  name = trimmed(name);
+  if (name.empty() || !parts_of(name).unit.empty()) return "";
+  for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
+    const std::size_t at = name.rfind(open);
+    if (at == std::string_view::npos || at == 0 || name.back() != close) continue;
+    if (open == '[' && name[at - 1] != ' ') continue;  // an element of an array
+    const std::string_view inside = trimmed(name.substr(at + 1, name.size() - at - 2));
+    const bool letters = std::any_of(inside.begin(), inside.end(),
+                                     [](unsigned char c) { return std::isalpha(c) != 0; });
+    if (letters) return std::string(inside);
+  }
+  return "";
+}
 
 std::string name_without_unit(std::string_view name) { return std::string(parts_of(name).name); }
 

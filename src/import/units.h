@@ -18,7 +18,10 @@ std::optional<LogUnit> find_unit(std::string_view unit);
 
 /// The unit that a name ends with: "fx [N]", "Fx (mN)", "x/mm", "angle_deg"; empty where none.
 std::string unit_of_name(std::string_view name);
-/// The name without it.
+/// What stands in brackets behind a name, "Fx (pound)", and is no unit known here; empty where
+/// none.
+std::string unknown_unit_of_name(std::string_view name);
+/// The name without its unit.
 std::string name_without_unit(std::string_view name);
 
 }  // namespace dcnn

@@ -44,6 +44,50 @@ TEST(CleanLogs, MillisecondsAreStillFound) {
   EXPECT_EQ(report.stopping({})->id, "clock_unit");
 }
 
+// A list of poses without a clock, several rows of each: nothing is held at a rate.
+TEST(CleanLogs, RowsOfOnePoseAfterAnotherAreNotHeld) {
+  constexpr Eigen::Index kPoses = 200, kRowsEach = 5;
+  Table table{{"q_1", "tau_1"}, Eigen::MatrixXd(kPoses * kRowsEach, 2)};
+  std::mt19937 random(4);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+    const double q = 0.01 * static_cast<double>(i / kRowsEach);
+    const bool again = i % kRowsEach > 1;  // the first row of a pose is logged while it settles
+    table.values.row(i) << q,
+        again ? double(table.values(i - 1, 1)) : 0.4 * std::sin(q) + noise(random);
+  }
+  const check::Report report = check::check(check::make_log("poses.csv", table, {}));
+  for (const check::Fault& fault : report.faults) EXPECT_NE(fault.id, "held") << fault.words;
+}
+
+// A press of five rows is sharp beside the sensor's noise, and no single row is off.
+TEST(CleanLogs, ShortPressesAreNoSpikes) {
+  const check::Log log = slow_log(4000, 0.01, 0.6);
+  Table table = log.table;
+  for (Eigen::Index peak = 300; peak < 3900; peak += 400) {
+    for (Eigen::Index k = -3; k <= 3; ++k) {
+      table.values(peak + k, 9) += 3.0 * (1.0 + std::cos(static_cast<double>(k)));
+    }
+  }
+  const check::Report report = check::check(check::make_log("presses.csv", table, log.declared));
+  for (const check::Fault& fault : report.faults) EXPECT_NE(fault.id, "spikes") << fault.words;
+}
+
+TEST(CleanLogs, AForceThatIsNoToolsIsSaid) {
+  check::Log log = slow_log(4000, 0.004, 0.6);
+  EXPECT_TRUE(check::check(log).notes.empty());
+  Table table = log.table;
+  for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+    const double s = static_cast<double>(i) / 4000.0;
+    for (Eigen::Index j = 7; j < 10; ++j) {
+      table.values(i, j) += 30.0 * std::sin((40.0 + 7.0 * static_cast<double>(j)) * s);
+    }
+  }
+  const check::Report report = check::check(check::make_log("pressed.csv", table, log.declared));
+  ASSERT_FALSE(report.notes.empty());
+  EXPECT_NE(report.notes[0].find("no rigid tool's"), std::string::npos) << report.notes[0];
+}
+
 // Its weight is a constant then, which an offset explains as well: no reason to say that it is
 // gone.
 TEST(CleanLogs, AToolThatHardlyTurnsIsNotCompensated) {

@@ -24,7 +24,8 @@ TEST_P(FaultyLogs, AreNamedFirst) {
   const check::Report report = check::check(log_of(GetParam(), 1));
   if (wanted.empty()) {
     EXPECT_EQ(report.stopping({}), nullptr) << check::to_text(report);
-    for (const check::Fault& fault : report.faults) EXPECT_LT(fault.probability, check::kLikely) << fault.words;
+    for (const check::Fault& fault : report.faults)
+      EXPECT_LT(fault.probability, check::kLikely) << fault.words;
     return;
   }
   ASSERT_FALSE(report.faults.empty());
@@ -36,8 +37,41 @@ TEST_P(FaultyLogs, AreNamedFirst) {
 INSTANTIATE_TEST_SUITE_P(Kinds, FaultyLogs, ::testing::ValuesIn(conceal::faulty_kinds()),
                          [](const auto& kind) { return kind.param; });
 
-// A joint that stands still most of the time: its rate's noise at rest says nothing of its unit, and
-// how long it stands nothing of a clock.
+// A mounting that nobody can name by exchanging axes is weighed beside those that one can.
+TEST(CheckedLogs, ATurnedSensorIsNoFlippedSign) {
+  const check::Report report = check::check(log_of("mounting", 99024));
+  ASSERT_FALSE(report.faults.empty());
+  EXPECT_EQ(report.faults[0].id, "mounting") << check::to_text(report);
+  EXPECT_EQ(report.stopping({}), nullptr) << check::to_text(report);
+}
+
+// A contact in a fifth of the rows moves the first fit's offset by a newton; the reweighted fit is
+// carried on until it has left the contact out.
+TEST(CheckedLogs, ALongContactIsLeftOutOfTheFitThatFindsIt) {
+  const check::Report report = check::check(log_of("contact", 99029));
+  ASSERT_FALSE(report.faults.empty());
+  EXPECT_EQ(report.faults[0].id, "contact") << check::to_text(report);
+  EXPECT_GE(report.faults[0].probability, check::kCertain) << check::to_text(report);
+}
+
+// The residual of the log as it is, smooth by the delay itself, would count as a few rows.
+TEST(CheckedLogs, ADelayIsCertainWhereItsResidualIsSmooth) {
+  const check::Report report = check::check(log_of("delay_late", 99025));
+  ASSERT_FALSE(report.faults.empty());
+  EXPECT_EQ(report.faults[0].id, "delay") << check::to_text(report);
+  EXPECT_GE(report.faults[0].probability, check::kCertain);
+}
+
+// Three rows of 18 to 20 deviations: no one of them is beyond the worst noise alone.
+TEST(CheckedLogs, SeveralSpikesTogetherAreNamed) {
+  const check::Report report = check::check(log_of("spikes", 55101));
+  ASSERT_FALSE(report.faults.empty());
+  EXPECT_EQ(report.faults[0].id, "spikes") << check::to_text(report);
+  EXPECT_GE(report.faults[0].probability, check::kLikely);
+}
+
+// A joint that stands still most of the time: its rate's noise at rest says nothing of its unit,
+// and how long it stands nothing of a clock.
 TEST(CheckedLogs, AJointThatSticksHasTheRateThatItSays) {
   constexpr Eigen::Index kRows = 4000;
   Rng rng({9});
@@ -53,11 +87,14 @@ TEST(CheckedLogs, AJointThatSticksHasTheRateThatItSays) {
         v + 0.01 * rng.normal(), (moves ? 0.4 * v / 0.3 : 0.0) + 0.02 * rng.normal();
   }
   check::Declared declared;
-  declared.system = parse_system(
-      Json{{"kind", "axes"},
-           {"axes", Json::array({{{"name", "joint"}, {"measured", "tau"}, {"unit", "N*m"},
-                                  {"position", "q"}, {"velocity", "qd"}, {"base", Json::array()}}})}},
-      "system.json");
+  declared.system = parse_system(Json{{"kind", "axes"},
+                                      {"axes", Json::array({{{"name", "joint"},
+                                                             {"measured", "tau"},
+                                                             {"unit", "N*m"},
+                                                             {"position", "q"},
+                                                             {"velocity", "qd"},
+                                                             {"base", Json::array()}}})}},
+                                 "system.json");
   const check::Report report = check::check(check::make_log("sticks.csv", table, declared));
   for (const check::Fault& fault : report.faults) {
     EXPECT_NE(fault.id, "rates") << fault.words;
@@ -66,7 +103,8 @@ TEST(CheckedLogs, AJointThatSticksHasTheRateThatItSays) {
 }
 
 TEST(CheckedLogs, WithoutASimulatorSignsAxesAndFramesAreFoundToo) {
-  for (const char* kind : {"reaction", "sign_fx", "swap_xy", "base_frame", "angle_deg", "position_mm", "quaternion_xyzw"}) {
+  for (const char* kind : {"reaction", "sign_fx", "swap_xy", "base_frame", "angle_deg",
+                           "position_mm", "quaternion_xyzw"}) {
     const check::Report report = check::check(log_of(kind, 2, false));
     ASSERT_FALSE(report.faults.empty()) << kind;
     EXPECT_EQ(report.faults[0].id, conceal::make_faulty(kind, 2).fault) << check::to_text(report);
@@ -80,13 +118,21 @@ TEST(CheckedLogs, AMountingThatNobodyDeclaredStopsNothing) {
   EXPECT_EQ(report.stopping({}), nullptr);
 }
 
+TEST(CheckedLogs, ASubtractedWeightIsFoundWithoutASimulatorAndStopsNothing) {
+  const check::Report report = check::check(log_of("compensated", 1, false));
+  ASSERT_FALSE(report.faults.empty()) << check::to_text(report);
+  EXPECT_EQ(report.faults[0].id, "compensated") << check::to_text(report);
+  EXPECT_EQ(report.stopping({}), nullptr);
+}
+
 TEST(CheckedLogs, TwoFaultsOfUnitsAreFoundTogether) {
   conceal::FaultyLog made = conceal::make_faulty("angle_deg", 3);
   made.table = conceal::with_fault("position_mm", made.table, 3);
   const check::Report report = check::check(check::make_log("both.csv", made.table, {}));
   const auto has = [&](const std::string& id) {
-    return std::any_of(report.faults.begin(), report.faults.end(),
-                       [&](const check::Fault& fault) { return fault.id == id && fault.probability > check::kLikely; });
+    return std::any_of(report.faults.begin(), report.faults.end(), [&](const check::Fault& fault) {
+      return fault.id == id && fault.probability > check::kLikely;
+    });
   };
   EXPECT_TRUE(has("angle_unit")) << check::to_text(report);
   EXPECT_TRUE(has("position_unit")) << check::to_text(report);
@@ -119,10 +165,13 @@ TEST(CheckedLogs, TheirReportIsTheDocumentedJson) {
 
 TEST(CheckedLogs, TinyOrConstantTablesAreNoTrouble) {
   for (const Eigen::Index rows : {1, 2, 3, 10, 60}) {
-    Table table{{"t", "x", "y", "z", "alpha", "beta", "gamma", "fx", "fy", "fz"}, Eigen::MatrixXd::Zero(rows, 10)};
-    table.values.col(0) = Eigen::VectorXd::LinSpaced(rows, 0.0, 0.004 * static_cast<double>(rows - 1));
+    Table table{{"t", "x", "y", "z", "alpha", "beta", "gamma", "fx", "fy", "fz"},
+                Eigen::MatrixXd::Zero(rows, 10)};
+    table.values.col(0) =
+        Eigen::VectorXd::LinSpaced(rows, 0.0, 0.004 * static_cast<double>(rows - 1));
     for (const check::Fault& fault : check::check(check::make_log("zeros.csv", table, {})).faults) {
-      EXPECT_TRUE(fault.probability >= 0.0 && fault.probability <= 1.0) << fault.id << " " << fault.probability;
+      EXPECT_TRUE(fault.probability >= 0.0 && fault.probability <= 1.0)
+          << fault.id << " " << fault.probability;
     }
   }
 }

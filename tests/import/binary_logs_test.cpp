@@ -146,5 +146,37 @@ TEST(BinaryLogs, DamagedFilesAreErrors) {
   }
 }
 
+/// A zip archive of one empty file.
+std::string archive_of(const std::string& name) {
+  const std::string length{static_cast<char>(name.size()), '\0'};
+  const std::string local =
+      "PK\x03\x04" + std::string(22, '\0') + length + std::string(2, '\0') + name;
+  const std::string central =
+      "PK\x01\x02" + std::string(24, '\0') + length + std::string(16, '\0') + name;
+  const std::string begin{static_cast<char>(local.size()), '\0', '\0', '\0'};
+  const std::string size{static_cast<char>(central.size()), '\0', '\0', '\0'};
+  const std::string one{'\1', '\0'};
+  return local + central + "PK\x05\x06" + std::string(4, '\0') + one + one + size + begin +
+         std::string(2, '\0');
+}
+
+TEST(BinaryLogs, FormatsOfOthersAreNamedWithWhatMakesALogOfThem) {
+  const std::pair<std::string, const char*> files[] = {
+      {archive_of("xl/workbook.xml"), "spreadsheet"},
+      {archive_of("photo.png"), "without NumPy arrays"},
+      {std::string("\x80\x04\x95\0\0", 5), "pickle"},
+      {"\x89HDF\r\n\x1A\n", "HDF5"},
+      {"PAR1....", "Parquet"},
+      {std::string("\x93NUMPY\1\0\x40\0", 10) +
+           "{'descr': '|O', 'fortran_order': False, 'shape': (10,), }       \n",
+       "Python objects"}};
+  const test::TemporaryFolder folder;
+  for (const auto& [bytes, words] : files) {
+    test::spill(folder / "log.bin", bytes);
+    const std::string message = test::data_error([&] { read_log({folder / "log.bin"}, {}); });
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+  }
+}
+
 }  // namespace
 }  // namespace dcnn

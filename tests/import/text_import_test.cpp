@@ -202,6 +202,53 @@ TEST(TextImport, CellsAreReadExactly) {
   EXPECT_EQ(find_unit("N.m")->quantity, "torque");
 }
 
+TEST(TextImport, WhatAControllerWantsIsNoMeasurement) {
+  const Imported imported = import_text(
+      "t,goal_pos_x,goal_pos_y,goal_pos_z,current_pos_x,current_pos_y,current_pos_z,fx,fy,fz\n"
+      "0,9,9,9,1,2,3,4,5,6\n0.1,9,9,9,1,2,3,4,5,6\n0.2,9,9,9,1,2,3,4,5,6\n");
+  EXPECT_EQ(cell(imported, "x", 1), 1.0);
+  EXPECT_EQ(cell(imported, "z", 2), 3.0);
+}
+
+// One answer for all columns of one sensor and one body.
+TEST(TextImport, ColumnsThatBeginLikeTheOneThatWasSaidFollowIt) {
+  const std::string text =
+      "t,LeftX(m),LeftY(m),LeftZ(m),RightX(m),RightY(m),RightZ(m),LeftFx,LeftFy,LeftFz,RightFx,"
+      "RightFy,RightFz\n0,1,2,3,4,5,6,7,8,9,10,11,12\n0.1,1,2,3,4,5,6,7,8,9,10,11,12\n";
+  const std::string words = data_error([&] { import_text(text); });
+  EXPECT_NE(words.find("--map fx="), std::string::npos) << words;
+  EXPECT_EQ(words.find("--map fy="), std::string::npos) << words;
+  ImportWishes wishes;
+  wishes.map = {{"fx", "RightFx"}};
+  const Imported imported = import_text(text, wishes);
+  EXPECT_EQ(cell(imported, "fx", 0), 10.0);
+  EXPECT_EQ(cell(imported, "fz", 0), 12.0);
+  EXPECT_EQ(cell(imported, "y", 0), 5.0);
+}
+
+TEST(TextImport, AUnitSaysWhatAnAxisIsOf) {
+  const Imported imported = import_text(
+      "t,HandleX(m),HandleY(m),HandleZ(m),Cell X (N),Cell Y (N),Cell Z (N)\n"
+      "0,1,2,3,4,5,6\n0.1,1,2,3,4,5,6\n0.2,1,2,3,4,5,6\n");
+  EXPECT_EQ(cell(imported, "y", 1), 2.0);
+  EXPECT_EQ(cell(imported, "fz", 2), 6.0);
+}
+
+TEST(TextImport, AUnitThatIsNotKnownIsAsked) {
+  const std::string rows = "\n0,1,2,3\n0.1,1,2,3\n0.2,1,2,3\n";
+  const std::string words =
+      data_error([&] { import_text("t,Fx (pound),Fy (pound),Fz (pound)" + rows); });
+  EXPECT_NE(words.find("--unit fx="), std::string::npos) << words;
+  ImportWishes wishes;
+  wishes.units = {{"fx", "lbf"}, {"fy", "lbf"}, {"fz", "lbf"}};
+  EXPECT_NEAR(cell(import_text("t,Fx (pound),Fy (pound),Fz (pound)" + rows, wishes), "fx", 0),
+              4.4482, 1e-4);
+  EXPECT_EQ(unknown_unit_of_name("position[elbow]"), "");
+  EXPECT_EQ(unknown_unit_of_name("fx (N)"), "");
+  EXPECT_EQ(find_unit("Radians")->quantity, "angle");
+  EXPECT_EQ(find_unit("Newton")->factor, 1.0);
+}
+
 // KUKA's frames: A, B and C are no names elsewhere.
 TEST(TextImport, AFrameOfKukaHasItsAngles) {
   const Imported imported = import_text(

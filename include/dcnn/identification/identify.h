@@ -17,15 +17,16 @@ struct IdentifyRequest {
   std::vector<std::filesystem::path> logs;
   ReadOptions read;
   std::optional<Eigen::Vector3d> mounting_rpy;  ///< (rx, ry, rz) as designed; none: estimated
-  bool laws = true;  ///< friction, a lag, cables and sensor faults are fitted beside where data show them
+  bool laws =
+      true;  ///< friction, a lag, cables and sensor faults are fitted beside where data show them
 };
 
 /// One number, SI, in S.
 struct IdentifiedNumber {
-  std::string name, unit;       ///< "com_z_m", "m"
-  double value, low, high;      ///< 95 % interval of the physically possible
-  bool shown = true;            ///< the motion tells it
-  std::string motion = {};      ///< what would, where it does not
+  std::string name, unit;   ///< "com_z_m", "m"
+  double value, low, high;  ///< 95 % interval of the physically possible
+  bool shown = true;        ///< the motion tells it
+  std::string motion = {};  ///< what would, where it does not
 };
 
 /// A law that the data show beside the rigid tool.
@@ -40,6 +41,7 @@ struct ToolIdentification {
   std::vector<BesideTool> beside;
   std::vector<std::string> recordings, targets, units, notes;
   Eigen::VectorXd residual_rms;  ///< (targets) in the motion's band
+  Eigen::VectorXd measured_rms;  ///< (targets) about the mean of each recording, in the same band
   Eigen::VectorXd cutoff_hz;     ///< (recordings) of that band; 0: poses at rest
   bool constrained = false;      ///< least squares alone gave a body that cannot exist
   double possible_share = 1.0;   ///< of the free distribution that bodies can have

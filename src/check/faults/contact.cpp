@@ -14,7 +14,7 @@ constexpr double kDuration = 0.25;  // s
 /// the deviation of such medians; the tail is Student's with five degrees of freedom.
 std::vector<Fault> find_contact(const Evidence& e) {
   const Adopted& a = e.adopted;
-  if (!a.compared || a.rows.half == 0 || a.fit.mass <= 0.0) return {};
+  if (!a.compared || a.rows.half == 0 || (a.fit.mass <= 0.0 && !a.reading.compensated)) return {};
   const double seconds = e.log.step * a.reading.clock * static_cast<double>(a.rows.half);
   const auto piece = std::max<Eigen::Index>(3, std::llround(kDuration / seconds));
   const Eigen::MatrixXd residual =

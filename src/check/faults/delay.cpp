@@ -30,9 +30,9 @@ std::vector<Fault> find_delay(const Evidence& e) {
     const FitOptions options{shift, true, friction.size() > 0 ? &friction : nullptr};
     return fit_rigid(e.log, a.rows, a.motion, a.reading, options).residual;
   };
-  const double floor = kToolError * spread, independent = independent_of(residual(0, frictions[0]));
+  const double floor = kToolError * spread;
   const auto cost = [&](Eigen::Index shift, const Eigen::MatrixXd& friction) {
-    return 0.5 * independent * log_variance(residual(shift, friction), floor);
+    return 0.5 * log_variance(residual(shift, friction), floor);
   };
   // Each hypothesis with the friction that suits it best.
   const auto least_cost = [&](Eigen::Index shift) {
@@ -49,10 +49,12 @@ std::vector<Fault> find_delay(const Evidence& e) {
     if (here < least) least = here, best = shift;
   }
   if (best == 0) return {};
-  const double as_is = least_cost(0);
-  least = least_cost(best);
-  const double odds = kFaultPrior / static_cast<double>(2 * reach) *
-                      elementary::exp(std::min(as_is - least, 600.0));
+  // A delay leaves a residual that is alike for long; how many are independent the better one
+  // tells.
+  const double independent = independent_of(residual(best, frictions[0]));
+  const double gain = independent * (least_cost(0) - least_cost(best));
+  const double odds =
+      kFaultPrior / static_cast<double>(2 * reach) * elementary::exp(std::min(gain, 600.0));
   const double seconds = e.log.step * a.reading.clock * static_cast<double>(std::abs(best));
   Fault fault = fault_of(delay_fault, odds / (1.0 + odds), "fx",
                          std::string("the force ") + (best > 0 ? "lags" : "leads") +

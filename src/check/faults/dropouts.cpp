@@ -9,7 +9,8 @@ namespace {
 constexpr double kFarFromZero = 20.0;  // deviations of the channel's noise
 
 /// Runs of one sentinel value, zero as a rule, that a channel far from it jumps to and back from.
-void find_dropouts_in(const Log& log, const std::vector<std::string>& names, std::vector<Fault>& out) {
+void find_dropouts_in(const Log& log, const std::vector<std::string>& names,
+                      std::vector<Fault>& out) {
   const Eigen::MatrixXd values = log.block(names);
   Eigen::Index rows = 0, events = 0, first = 0;
   bool before = false;
@@ -26,25 +27,29 @@ void find_dropouts_in(const Log& log, const std::vector<std::string>& names, std
       continue;
     }
     if (last < 0) continue;
-    const bool far = (values.row(last).transpose().array().abs() > kFarFromZero * noise.array()).any();
+    const bool far =
+        (values.row(last).transpose().array().abs() > kFarFromZero * noise.array()).any();
     if (!far) continue;
     if (!before && events++ == 0) first = i;
     before = true;
     ++rows;
   }
   if (events == 0) return;
-  // A continuous value meets zero exactly in one row of range/resolution, if it passes there at all.
+  // A continuous value meets zero exactly in one row of range/resolution, if it passes there at
+  // all.
   double chance = 1.0;
   for (Eigen::Index j = 0; j < values.cols(); ++j) {
     const double range = values.col(j).maxCoeff() - values.col(j).minCoeff();
     if (range > 0.0) chance *= std::min(1.0, resolution(values.col(j)) / range);
   }
   const double p = std::min(1.0, static_cast<double>(values.rows()) * chance);
-  Fault fault = fault_of(dropouts_fault, posterior_of_p(p), names[0],
-                         std::to_string(rows) + " rows of " + names[0] +
-                             (names.size() > 1 ? " and its companions" : "") +
-                             " are exactly zero, though their neighbours are not (" +
-                             std::to_string(events) + " dropouts)");
+  Fault fault = fault_of(
+      dropouts_fault, posterior_of_p(p), names[0],
+      std::to_string(rows) + (rows == 1 ? " row of " : " rows of ") + names[0] +
+          (names.size() > 1 ? " and its companions" : "") +
+          (rows == 1 ? " is exactly zero, though its" : " are exactly zero, though their") +
+          " neighbours are not (" + std::to_string(events) +
+          (events == 1 ? " dropout)" : " dropouts)"));
   set_interval(log, first, first + 1, fault);
   out.push_back(fault);
 }

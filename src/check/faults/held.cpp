@@ -28,7 +28,8 @@ double regularity_p(const std::vector<Run>& runs, double mean, Eigen::Index* len
   return tail(std::max(0.0, (static_cast<double>(*most) - expected) / std::max(spread, 1e-9)));
 }
 
-void find_held_group(const Log& log, const std::vector<std::string>& names, std::vector<Fault>& out) {
+void find_held_group(const Log& log, const std::vector<std::string>& names,
+                     std::vector<Fault>& out) {
   const std::vector<Run> runs = group_runs(log.block(names));
   if (runs.size() < 20) return;
   const double mean = static_cast<double>(log.rows()) / static_cast<double>(runs.size());
@@ -43,19 +44,23 @@ void find_held_group(const Log& log, const std::vector<std::string>& names, std:
       if (jump > 0.0) moved.push_back(jump);
     }
     if (moved.empty() || grid <= 0.0) continue;
-    fresh = std::max(fresh, median(Eigen::Map<Eigen::VectorXd>(moved.data(), static_cast<Eigen::Index>(moved.size()))) / grid);
+    fresh = std::max(fresh, median(Eigen::Map<Eigen::VectorXd>(
+                                moved.data(), static_cast<Eigen::Index>(moved.size()))) /
+                                grid);
   }
   if (fresh < kFresh) return;
   Eigen::Index length = 0;
   const double p = regularity_p(runs, mean, &length);
   out.push_back(fault_of(held_fault, posterior_of_p(p), names[0],
-                         "the values of " + names[0] + (names.size() > 1 ? " and its companions" : "") +
-                             " are new every " + std::to_string(length) + " rows only, held in between"));
+                         "the values of " + names[0] +
+                             (names.size() > 1 ? " and its companions" : "") + " are new every " +
+                             std::to_string(length) + " rows only, held in between"));
 }
 
 std::vector<Fault> find_held(const Evidence& e) {
   std::vector<Fault> out;
-  if (!e.log.smooth) return out;
+  // Without a clock there is no rate: several rows of one pose at rest are alike by right.
+  if (!e.log.smooth || e.log.step <= 0.0) return out;
   for (const auto& names : e.log.sensors()) find_held_group(e.log, names, out);
   const auto positions = e.log.positions();
   if (!positions.empty()) find_held_group(e.log, positions, out);
@@ -65,7 +70,8 @@ std::vector<Fault> find_held(const Evidence& e) {
 
 }  // namespace
 
-const FaultKind held_fault{"held", false, "log every source at the rate it has, or keep every k-th row alone", "",
+const FaultKind held_fault{"held", false,
+                           "log every source at the rate it has, or keep every k-th row alone", "",
                            find_held};
 
 }  // namespace dcnn::check

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -21,41 +23,52 @@ Eigen::Matrix3d nearest_turn_of(const RigidFit& fit) {
   return svd.matrixU() * Eigen::Vector3d(1.0, 1.0, handed).asDiagonal() * svd.matrixV().transpose();
 }
 
-std::vector<Fault> find_mounting(const Evidence& e) {
-  const Adopted& a = e.adopted;
-  if (!a.compared || a.reading.compensated) return {};
-  const Eigen::AngleAxisd turn(nearest_turn_of(a.fit));
-  if (turn.angle() < kLeastAngle) return {};
-  Reading turned = a.reading;
-  turned.force_axes = turn.toRotationMatrix().transpose() * a.reading.force_axes;
-  // Beside friction, which a turn imitates where the tool moves along one line.
-  const FitOptions beside_friction{0, true};
-  const RigidFit declared = fit_rigid(e.log, a.rows, a.motion, a.reading, beside_friction);
-  const RigidFit fit = fit_rigid(e.log, a.rows, a.motion, turned, beside_friction);
-  if (fit.mass <= 0.0) return {};
-  const double spread = (a.fit.force.rowwise() - a.fit.force.colwise().mean()).norm() /
-                        std::sqrt(static_cast<double>(3 * a.fit.force.rows()));
-  const double floor = kToolError * spread;
-  // Three more numbers: Schwarz' penalty.
-  const double gain =
-      0.5 * a.independent *
-          (log_variance(declared.residual, floor) - log_variance(fit.residual, floor)) -
-      1.5 * elementary::log(a.independent);
-  const double odds = kFaultPrior * elementary::exp(std::min(gain, 600.0));
-  if (odds < 0.05) return {};
+/// The least turn from `turn` to one that lets every axis lie along an axis.
+double angle_to_right_angles(const Eigen::Matrix3d& turn) {
+  double most = -1.0;  // trace of the turn that remains: 1 + 2 cos(angle)
+  std::array<Eigen::Index, 3> order{0, 1, 2};
+  do {
+    for (int signs = 0; signs < 8; ++signs) {
+      Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
+      double trace = 0.0;
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        const Eigen::Index j = order[static_cast<std::size_t>(i)];
+        P(i, j) = (signs >> i & 1) ? -1.0 : 1.0;
+        trace += P(i, j) * turn(i, j);
+      }
+      if (P.determinant() > 0.0) most = std::max(most, trace);
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+  return elementary::acos(std::clamp(0.5 * (most - 1.0), -1.0, 1.0));
+}
+
+/// A sensor turned by right angles is a fault of axes; one turned otherwise is this.
+void turned_mounting(const Reading& base, const RigidFit& fit, std::vector<Reading>& out) {
+  if (base.compensated) return;
+  const Eigen::Matrix3d nearest = nearest_turn_of(fit);
+  if (!nearest.allFinite() || angle_to_right_angles(nearest) < kLeastAngle) return;
+  const Eigen::AngleAxisd turn(nearest);
   const Eigen::Vector3d axis = turn.axis();
-  return {fault_of(mounting_fault, odds / (1.0 + odds), "",
-                   "the force does not follow gravity as the pose says: the sensor is turned by " +
-                       brief(turn.angle() * 180.0 / std::numbers::pi) + " degrees about (" +
-                       brief(axis[0]) + ", " + brief(axis[1]) + ", " + brief(axis[2]) +
-                       ") against the declared mounting")};
+  Reading reading = base;
+  reading.force_axes = nearest.transpose() * base.force_axes;
+  reading.estimated = 3;
+  reading.words = "the force does not follow gravity as the pose says: the sensor is turned by " +
+                  brief(turn.angle() * 180.0 / std::numbers::pi) + " degrees about (" +
+                  brief(axis[0]) + ", " + brief(axis[1]) + ", " + brief(axis[2]) +
+                  ") against the declared mounting";
+  out.push_back(std::move(reading));
 }
 
 }  // namespace
 
 const FaultKind mounting_fault{
-    "mounting", false,
-    "calibrate the mounting: dcnn-calibrate --static, then sensor.rotation_rpy in sim.json", "",
-    find_mounting};
+    "mounting",
+    false,
+    "calibrate the mounting: dcnn-calibrate --static, then sensor.rotation_rpy in sim.json",
+    "",
+    nullptr,
+    nullptr,
+    true,
+    turned_mounting};
 
 }  // namespace dcnn::check
