@@ -147,9 +147,22 @@ double HoldOut::mean_rmse(const std::vector<Member>& members, const Eigen::Vecto
 }
 
 std::vector<Floor> HoldOut::floors(const Search& search) const {
-  const JointFit& fit = search.fit();
   // What a free matrix on gravity leaves of poses at rest is no noise of theirs.
-  if (blocks_ || study_.is_static()) return search.floors();
+  if (study_.is_static()) return search.floors();
+  std::vector<Floor> floors = blocks_ ? search.floors() : own_floors(search);
+  // Nor is noise more than what is left in all, where its level changes too much to be evened.
+  const std::vector<double> errors = rmse(search.fit().members, search.fit().base);
+  for (std::size_t j = 0; j < floors.size(); ++j) {
+    const double share = std::min(1.0, errors[j] / std::max(1e-300, floors[j].deviation()));
+    for (double* part : {&floors[j].white, &floors[j].coloured, &floors[j].flicker}) {
+      *part *= share * share;
+    }
+  }
+  return floors;
+}
+
+std::vector<Floor> HoldOut::own_floors(const Search& search) const {
+  const JointFit& fit = search.fit();
   Case study = study_;
   study.motion_hz = search.study().motion_hz;
   study.rounding_step = search.study().rounding_step;
@@ -171,14 +184,6 @@ std::vector<Floor> HoldOut::floors(const Search& search) const {
   const Signals levels = noise_level(study, left);
   std::vector<Floor> floors = noise_floor(study, left, levels);
   bound_by_residual(study, left, levels, floors);
-  // Nor is noise more than what is left in all, where its level changes too much to be evened.
-  const std::vector<double> errors = rmse(fit.members, fit.base);
-  for (std::size_t j = 0; j < floors.size(); ++j) {
-    const double share = std::min(1.0, errors[j] / std::max(1e-300, floors[j].deviation()));
-    for (double* part : {&floors[j].white, &floors[j].coloured, &floors[j].flicker}) {
-      *part *= share * share;
-    }
-  }
   add_pose_noise(study, floors);
   return floors;
 }

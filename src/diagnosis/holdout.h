@@ -32,7 +32,8 @@ class HoldOut {
   };
   std::optional<Excess> excess(const Search& search, const std::vector<Floor>& floors) const;
   /// The noise of the held-out recordings, by what the model leaves of them above the motion's
-  /// band; of held-out blocks and of poses at rest that of the fitted ones.
+  /// band; of held-out blocks that of the fitted rows, but never more than the error; of poses at
+  /// rest that of the fitted ones.
   std::vector<Floor> floors(const Search& search) const;
   Signals prediction(const std::vector<Member>& members, const Eigen::VectorXd& base) const;
   /// ln of the factor by which the held-out data change the odds of one prediction against another
@@ -45,6 +46,8 @@ class HoldOut {
 
  private:
   HoldOut() = default;
+  /// Of recordings of their own.
+  std::vector<Floor> own_floors(const Search& search) const;
   /// Of a recording that was zeroed: from the rows that are not held out, or from these where all
   /// are.
   void add_own_offset(std::size_t recording, Eigen::MatrixXd& predicted) const;
