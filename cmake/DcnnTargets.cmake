@@ -16,7 +16,8 @@ function(dcnn_harden target)
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     target_compile_options(${target} PRIVATE -fcf-protection=full)
   endif()
-  if(CMAKE_CXX_COMPILER_ID MATCHES Clang AND (type STREQUAL EXECUTABLE OR target STREQUAL dcnn_tool_support))
+  get_target_property(shared_code ${target} POSITION_INDEPENDENT_CODE)
+  if(CMAKE_CXX_COMPILER_ID MATCHES Clang AND NOT shared_code)
     target_compile_options(${target} PRIVATE -fPIE)  # GCC of Debian does so by itself
   endif()
   if(type STREQUAL EXECUTABLE)
@@ -49,11 +50,17 @@ function(dcnn_flags target)
   endif()
 endfunction()
 
-# The same, and the headers that take longest precompiled.
+# The same, and the headers that take longest precompiled, or those of the target FROM, whose code must be of the same kind:
+# position-independent (dcnn), or that of programs (dcnn_program_headers).
 function(dcnn_compile_options target)
+  cmake_parse_arguments(PARSE_ARGV 1 headers "" FROM "")
   dcnn_flags(${target})
-  target_precompile_headers(${target} PRIVATE
-    <Eigen/Dense> <dcnn/core/json.h> <algorithm> <functional> <memory> <sstream> <string> <vector>)
+  if(headers_FROM)
+    target_precompile_headers(${target} REUSE_FROM ${headers_FROM})
+  else()
+    target_precompile_headers(${target} PRIVATE
+      <Eigen/Dense> <dcnn/core/json.h> <algorithm> <functional> <memory> <sstream> <string> <vector>)
+  endif()
 endfunction()
 
 # Some eight files of a module are compiled as one, which halves the time of a full build, that of the tests as that of the
@@ -82,7 +89,7 @@ function(dcnn_unite_rooms target root)  # ROOT: the folder of the modules' folde
   endforeach()
 endfunction()
 
-# The library, in float (dcnn) or double (dcnn_double, for gradient tests).
+# The library, in float (dcnn) or double (dcnn_double, for gradient tests, with the headers of programs).
 function(dcnn_add_library target)
   add_library(${target} STATIC ${ARGN})
   target_include_directories(${target} PUBLIC
@@ -111,7 +118,11 @@ function(dcnn_add_library target)
   target_compile_definitions(${target} PUBLIC EIGEN_MAX_ALIGN_BYTES=16 EIGEN_DONT_PARALLELIZE
     PRIVATE DCNN_VERSION="${PROJECT_VERSION}" "HWY_DISABLED_TARGETS=(${disabled})")
   target_compile_features(${target} PUBLIC cxx_std_20)
-  dcnn_compile_options(${target})
+  if(TARGET dcnn_program_headers)
+    dcnn_compile_options(${target} FROM dcnn_program_headers)
+  else()
+    dcnn_compile_options(${target})
+  endif()
   if(DCNN_UNITE_ROOMS)
     dcnn_unite_rooms(${target} ${PROJECT_SOURCE_DIR}/src)
   endif()

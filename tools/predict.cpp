@@ -94,6 +94,7 @@ int main(int argc, char** argv) {
 
   tool.check([&] {
     expect_kind("dcnn-predict", model, {FileKind::kModel, FileKind::kSimulator, FileKind::kSystem});
+    if (onnx) expect_kind("--onnx", model, {FileKind::kModel});
     if (data) expect_kind("--data", *data, {FileKind::kRecording});
   });
   return tool.run(argc, argv, [&] {

@@ -3,7 +3,10 @@
 #include <iostream>
 
 #include "dcnn/core/file.h"
+#include "dcnn/experiment/configuration.h"
 #include "dcnn/experiment/remainder.h"
+#include "dcnn/models/model.h"
+#include "support/file_kind.h"
 #include "support/tool.h"
 
 namespace {
@@ -41,12 +44,20 @@ int main(int argc, char** argv) {
   tool.option("--sim", request.simulator, "simulator of the tool (JSON)").required();
   tool.option("--fit", request.fit, "recordings to learn from").required();
   tool.option("--holdout", request.holdout, "recordings to judge by");
-  tool.option("--networks", networks, "models of dcnn-train that learn the remainder too");
-  tool.option("--preset", preset, "of the networks").with_default();
+  std::vector<std::string> models;
+  for (const ModelKind* kind : model_kinds()) models.emplace_back(kind->name);
+  tool.option("--networks", networks, "models of dcnn-train that learn the remainder too")
+      .one_of(models);
+  tool.option("--preset", preset, "of the networks").one_of(kPresets).with_default();
   tool.output("--out", out, "folder for <method>/report.json",
               {"stlsq*", "lasso*", "omp*", "greedy*"})
       .required();
 
+  tool.check([&] {
+    expect_kind("--sim", request.simulator, {FileKind::kSimulator});
+    for (const auto& file : request.fit) expect_kind("--fit", file, {FileKind::kRecording});
+    for (const auto& file : request.holdout) expect_kind("--holdout", file, {FileKind::kRecording});
+  });
   return tool.run(argc, argv, [&] {
     Json reports = rivals::run(request);
     for (const std::string& network : networks) {

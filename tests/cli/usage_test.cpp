@@ -1,6 +1,7 @@
 // What the programs say to a file of the wrong kind, a number out of range, and --json.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 
 #include "dcnn/core/json.h"
@@ -47,6 +48,12 @@ TEST(FileOfAnotherKind, IsCalledByItsName) {
                {"--fit needs a recording"});
   expect_words(refusal("run", {"--model", sim, "--calibration", sim, "--stdin"}, 3),
                {"--calibration needs a calibration"});
+  expect_words(refusal("predict", {sim, "--onnx", out}, 4),
+               {"is a simulator", "--onnx needs a trained model"});
+  expect_words(refusal("rivals", {"--sim", csv, "--fit", csv, "--out", out}, 3),
+               {"is a recording", "--sim needs a simulator"});
+  expect_words(refusal("rivals", {"--sim", sim, "--fit", sim, "--out", out}, 3),
+               {"--fit needs a recording"});
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
@@ -77,6 +84,20 @@ TEST(MistypedOption, IsNamedBeforeAnythingElse) {
                {"--smi is no option; did you mean --sim?"});
   expect_words(refusal("run", {"--modle", "none.dcnn", "--average", "99"}),
                {"--modle is no option; did you mean --model?"});
+}
+
+TEST(MistypedWord, IsToldFromTheWordsThatThereAre) {
+  const test::TemporaryFolder folder;
+  const std::vector<std::string> files{"--sim", kSampleFolder + "sim.json",
+                                       "--fit", kSampleFolder + "train.csv",
+                                       "--out", folder / "out"};
+  for (const auto& [option, word, meant] :
+       {std::array{"--preset", "quik", "'quick'"}, std::array{"--networks", "mpl", "'mlp'"}}) {
+    std::vector<std::string> arguments = files;
+    arguments.insert(arguments.end(), {option, word});
+    expect_words(refusal("rivals", arguments), {option, word, "is none of", "did you mean", meant});
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
 TEST(JsonAlone, IsOneDocumentOnStandardOutput) {

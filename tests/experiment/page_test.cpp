@@ -132,6 +132,10 @@ TEST_F(Pages, CutNoTable) {
   page.table(header, {row, row});
   test::expect_worked(test::browse(page.html(), test::kUse, 1000), 1000);
   test::expect_worked(test::browse(page.html(), test::kUse, 400), 400);
+  const Json printed = test::browse(page.html(), test::kPrint, test::kPaper);
+  EXPECT_TRUE(printed["errors"].empty()) << printed["errors"].dump();
+  EXPECT_EQ(printed["rules"].get<int>(), 1) << "for print";
+  EXPECT_TRUE(printed["cut"].empty()) << printed["cut"].dump();
 }
 
 TEST_F(Pages, OfAMillionSamplesStaySmallAndWork) {

@@ -43,6 +43,22 @@ constexpr const char* kUse = R"js(
   return out;
 )js";
 
+/// The page as it is printed: what is wider than the paper.
+constexpr const char* kPrint = R"js(
+  const out = {rules: 0};
+  for (const sheet of document.styleSheets) {
+    for (const rule of sheet.cssRules) {
+      if (!rule.media) continue;
+      if (rule.media.mediaText === 'print') { rule.media.mediaText = 'all'; ++out.rules; }
+      else if (rule.media.mediaText === 'screen') rule.media.mediaText = 'not all';
+    }
+  }
+  out.cut = Array.from(document.querySelectorAll('.wide')).filter(box => box.scrollWidth > box.clientWidth + 1)
+    .map(box => box.scrollWidth + ' of ' + box.clientWidth + ': ' + box.textContent.trim().slice(0, 60));
+  return out;
+)js";
+constexpr int kPaper = 718;  ///< A4 between Chromium's margins of 10 mm, in its pixels of 1/96 inch
+
 /// The answer, a picture and a table before the table of contents, all of it without a script.
 inline void expect_answer_first(const std::string& html) {
   const auto answer = html.find("<p class=\"answer\">"), picture = html.find("<figure>"),
