@@ -55,7 +55,7 @@ TEST(CompensatorLimits, NothingAndAModelThatLooksAheadAreRefused) {
                 "neither a model nor a simulator");
   Identifier ahead = steady_identifier(Vector3d::Zero());
   ahead.layout.spec.derivative = DerivativeSpec();
-  expect_unmade([&] { OnlineCompensator(&ahead, nullptr, {}, "test"); }, "look into the future");
+  expect_unmade([&] { OnlineCompensator(&ahead, nullptr, {}, "test"); }, "test: its derivatives look");
 }
 
 /// The guard waits until the windows of the derivatives are full, and no less than it was told.
