@@ -66,12 +66,12 @@ std::vector<double> Search::doubts(double little) {
     if (bends_a_spring(fit_.members[m], fit_.members)) apart = kInfinity;
     // Beside an offset that wanders a bias is its mean.
     if (loud > 1.0 && fit_.members[m].name() == "bias") apart = 0.0;
-    // Motion that nobody sees rings in a mode here and there. One that leaves something where modes
-    // are, or beside which a second one gains, is one of several.
+    // Motion that nobody sees rings in a mode here and there. One that leaves more where modes are,
+    // or of whose remainder a second one, driven by what is seen, explains most, is one of several.
     if (fit_.members[m].kind->stage == Stage::kResonance) {
-      const double unseen = kUnseen * net_gain(m);
       const double second = second_mode(*setting_, fit_, fit_.members[m]);
-      apart = swings <= unseen && second < kSecondMode + unseen ? 0.0 : kInfinity;
+      const bool several = second > std::max(kSecondMode + kLeastDoubt * net_gain(m), 0.5 * swings);
+      apart = swings <= kUnseen * net_gain(m) && !several ? 0.0 : kInfinity;
     }
   }
   return doubts;

@@ -238,7 +238,6 @@ void Search::explore() {
       const auto before = places_of(fit_.members);
       if (!grow()) break;
       tune_to_mode();
-      tune_to_lag();
       while (simplify()) {
       }
       if (places_of(fit_.members) == before) break;  // what was added does not earn its numbers
@@ -250,9 +249,11 @@ void Search::explore() {
       continue;
     if (recut || study_.is_static()) return;
     recut = true;
+    const bool lag = std::any_of(fit_.members.begin(), fit_.members.end(),
+                                 [](const Member& m) { return m.kind->stage == Stage::kDynamics; });
     const double before = study_.derivative.cutoff_hz;
-    // Names do not depend on a small error of the smoother.
-    if (!is_alarming(band_tests(*setting_, fit_.residual), explained(true))) return;
+    // A long lag fools the first choice; otherwise names do not depend on a small error of it.
+    if (!lag && !is_alarming(band_tests(*setting_, fit_.residual), explained(true))) return;
     choose_cutoff(fit_.members);
     settle(fit_.members);
     if (std::abs(study_.derivative.cutoff_hz / before - 1.0) < 0.1) return;

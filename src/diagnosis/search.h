@@ -119,7 +119,6 @@ class Search {
   std::vector<Case*> cases();  ///< study_ and the same under other filters
   void choose_cutoff(const std::vector<Member>& members);
   void tune_to_mode();
-  void tune_to_lag();
   bool choose_rounding_noise();
   void make_setting(const std::vector<Member>& members);
   bool grow();
@@ -184,8 +183,8 @@ class Search {
   std::optional<std::vector<Floor>> noise_;  // admitted in place of the floor from above the motion
   std::vector<double> flicker_;  // of each channel, admitted beside the floor from above the motion
   bool events_allowed_ = true, remains_ = false;
-  Index samples_ = 0;                          // of the recordings
-  bool tuned_ = false, tuned_to_lag_ = false;  // the smoother, to a mode, and to a lag
+  Index samples_ = 0;     // of the recordings
+  bool tuned_ = false;    // the smoother, to a mode
   bool ringing_ = false;  // what shakes the motion unseen rings in the modes that were found
 };
 

@@ -149,17 +149,6 @@ void Search::tune_to_mode() {
   settle(without_tuning);
 }
 
-/// A long lag fools the first choice of the smoother: it is chosen anew beside the lag, before
-/// anything else can be taken for what the wrong one takes off.
-void Search::tune_to_lag() {
-  const bool lags = std::any_of(fit_.members.begin(), fit_.members.end(),
-                                [](const Member& m) { return m.kind->stage == Stage::kDynamics; });
-  if (!lags || tuned_to_lag_ || study_.is_static()) return;
-  tuned_to_lag_ = true;
-  choose_cutoff(fit_.members);
-  settle(fit_.members);
-}
-
 void Search::smooth(double cutoff_hz) {
   constexpr double kOver = 3.0;  // of the noise that the Wiener gain takes off
   const double subtraction = study_.derivative.subtraction;
