@@ -104,11 +104,12 @@ struct Rest {
   double fourth = 0.0;    ///< sum of the weights' fourth powers over the square of that of squares
 };
 
-Rest rest_of(const Padded& padded, Index n, double dt, double slow_hz, const Fourier& transform) {
-  const Index length = padded.values.size(), bins = length / 2 + 1;
+/// Of `length` samples whose transform is `above`, of which n after the first `pad` are the signal.
+Rest rest_of(Eigen::VectorXcd above, Index length, Index pad, Index n, double dt, double slow_hz,
+             const Fourier& transform) {
+  const Index bins = above.size();
   Rest rest;
   rest.share.resize(bins);
-  Eigen::VectorXcd above = transform(padded.values);
   for (Index k = 0; k < bins; ++k) {
     const double hz = static_cast<double>(k) / (static_cast<double>(length) * dt);
     const double part = 1.0 - edge(hz, slow_hz);
@@ -116,8 +117,8 @@ Rest rest_of(const Padded& padded, Index n, double dt, double slow_hz, const Fou
     rest.share(k) = part * part;
   }
   Eigen::VectorXd values = transform.inverse(above);
-  values.head(padded.pad).setZero();
-  values.tail(length - padded.pad - n).setZero();
+  values.head(pad).setZero();
+  values.tail(length - pad - n).setZero();
   const double seconds = std::max(kFlankSeconds, kFlankSamples * dt);
   const double flank = std::clamp(seconds / dt, 1.0, static_cast<double>(n) / 4.0 + 1.0);
   double squares = 0.0, fourths = 0.0;
@@ -126,7 +127,7 @@ Rest rest_of(const Padded& padded, Index n, double dt, double slow_hz, const Fou
     const double part = std::min(1.0, place / flank);
     const double sine = elementary::sin(0.5 * std::numbers::pi * part), square = sine * sine;
     const double weight = square * square;
-    values(padded.pad + k) *= weight;
+    values(pad + k) *= weight;
     squares += weight * weight;
     fourths += weight * weight * weight * weight;
   }
@@ -177,7 +178,8 @@ Smoothed smooth(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, const Low
   const Fourier transform(length);
   Eigen::VectorXcd spectrum = transform(padded.values);
   if (filter.subtraction > 0.0) {
-    const Rest rest = rest_of(padded, n, dt, slow_hz(filter.cutoff_hz), transform);
+    const Rest rest =
+        rest_of(spectrum, length, padded.pad, n, dt, slow_hz(filter.cutoff_hz), transform);
     const Eigen::VectorXd gain = wiener_gains(rest, dt, length, filter.subtraction);
     spectrum -= (1.0 - gain.array()).matrix().cwiseProduct(rest.spectrum);
   }
@@ -210,7 +212,9 @@ Eigen::VectorXd gain_of(const Eigen::Ref<const Eigen::VectorXd>& x, double dt,
   const Index length = padded.values.size();
   Eigen::VectorXd gain = Eigen::VectorXd::Ones(length / 2 + 1);
   if (filter.subtraction > 0.0) {
-    const Rest rest = rest_of(padded, x.size(), dt, slow_hz(filter.cutoff_hz), Fourier(length));
+    const Fourier transform(length);
+    const Rest rest = rest_of(transform(padded.values), length, padded.pad, x.size(), dt,
+                              slow_hz(filter.cutoff_hz), transform);
     gain = wiener_gains(rest, dt, length, filter.subtraction);
   }
   for (Index k = 0; k < gain.size(); ++k) {

@@ -39,6 +39,13 @@ bool goes_before(const Alternative& other, const Member& own, double odds) {
 
 }  // namespace
 
+double supported(double before, const Search& search, const HoldOut& holdout, const Signals& with,
+                 std::size_t member) {
+  const JointFit& rest = search.without(member);
+  const Signals without = holdout.prediction(rest.members, rest.base);
+  return evidence::updated(before, holdout.log_support(with, without, search.floors()));
+}
+
 std::vector<std::optional<double>> confidences(const Search& search, const HoldOut& holdout) {
   const JointFit& fit = search.fit();
   const Signals with = holdout.prediction(fit.members, fit.base);
@@ -46,10 +53,8 @@ std::vector<std::optional<double>> confidences(const Search& search, const HoldO
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
     list.emplace_back();
     if (fit.members[m].fixed) continue;
-    const JointFit& rest = search.without(m);
-    const Signals without = holdout.prediction(rest.members, rest.base);
-    list.back() = evidence::updated(search.posterior().inclusion(fit.members[m]),
-                                    holdout.log_support(with, without, search.floors()));
+    const double before = search.posterior().inclusion(fit.members[m]);
+    list.back() = supported(before, search, holdout, with, m);
   }
   return list;
 }

@@ -5,6 +5,11 @@
 
 namespace dcnn {
 
+/// The probability of a member that was `before`, after what the held-out data say of the model
+/// with it, which predicts `with`, and without it.
+double supported(double before, const Search& search, const HoldOut& holdout, const Signals& with,
+                 std::size_t member);
+
 /// The probability of each member of a finished search: the share of the weighed structures that
 /// have it, its odds multiplied by what the held-out data say for or against it. Of a member that
 /// is fixed none: a test of its own found it.

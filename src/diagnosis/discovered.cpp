@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/confidence.h"
 #include "diagnosis/law_search.h"
 #include "discovery/priors.h"
 
@@ -213,10 +214,7 @@ Json leave_refuted_laws(Search& search, const HoldOut& holdout, double unnamed,
     std::optional<std::size_t> worst;  // of the members
     for (std::size_t m = 0; m < members.size(); ++m) {
       if (members[m].law.is_null()) continue;
-      const JointFit& rest = search.without(m);
-      const double after = evidence::updated(
-          unnamed,
-          holdout.log_support(with, holdout.prediction(rest.members, rest.base), search.floors()));
+      const double after = supported(unnamed, search, holdout, with, m);
       if (after < least) least = after, worst = m;
     }
     if (!worst) break;
