@@ -99,20 +99,25 @@ std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldO
   }
 }
 
+std::optional<std::size_t> refuted_of(const std::vector<std::optional<double>>& probabilities) {
+  double least = 0.5;
+  std::optional<std::size_t> worst;
+  for (std::size_t m = 0; m < probabilities.size(); ++m) {
+    if (probabilities[m] && *probabilities[m] < least) least = *probabilities[m], worst = m;
+  }
+  return worst;
+}
+
 Json leave_refuted(Search& search, const HoldOut& holdout) {
   Json refuted = Json::array();
   while (true) {
-    double least = 0.5;
-    std::optional<std::size_t> worst;
     const auto likely = confidences(search, holdout);
-    for (std::size_t m = 0; m < likely.size(); ++m) {
-      if (likely[m] && *likely[m] < least) least = *likely[m], worst = m;
-    }
+    const auto worst = refuted_of(likely);
     if (!worst) return refuted;
     const Member& member = search.fit().members[*worst];
     refuted.push_back({{"effect", member.name()},
                        {"axis", member.axis.empty() ? Json() : Json(member.axis)},
-                       {"confidence", least}});
+                       {"confidence", *likely[*worst]}});
     search.leave_out({*worst});
   }
 }

@@ -210,21 +210,21 @@ Json leave_refuted_laws(Search& search, const HoldOut& holdout, double unnamed,
   while (!laws.empty()) {
     const std::vector<Member> members = search.fit().members;
     const Signals with = holdout.prediction(members, search.fit().base);
-    double least = 0.5;
-    std::optional<std::size_t> worst;  // of the members
+    std::vector<std::size_t> places;  // of the laws among the members
+    std::vector<std::optional<double>> likely;
     for (std::size_t m = 0; m < members.size(); ++m) {
       if (members[m].law.is_null()) continue;
-      const double after = supported(unnamed, search, holdout, with, m);
-      if (after < least) least = after, worst = m;
+      places.push_back(m);
+      likely.emplace_back(supported(unnamed, search, holdout, with, m));
     }
+    const auto worst = refuted_of(likely);
     if (!worst) break;
-    const auto place = std::count_if(members.begin(), members.begin() + std::ptrdiff_t(*worst),
-                                     [](const Member& m) { return !m.law.is_null(); });
+    const std::size_t place = places[*worst];
     refuted.push_back({{"effect", "discovered"},
-                       {"axis", law_finding(laws[std::size_t(place)], members[*worst].law)["axis"]},
-                       {"confidence", least}});
-    laws.erase(laws.begin() + place);
-    search.hold(search.members_without(*worst));
+                       {"axis", law_finding(laws[*worst], members[place].law)["axis"]},
+                       {"confidence", *likely[*worst]}});
+    laws.erase(laws.begin() + static_cast<std::ptrdiff_t>(*worst));
+    search.hold(search.members_without(place));
   }
   return refuted;
 }

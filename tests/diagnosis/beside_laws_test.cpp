@@ -105,10 +105,11 @@ TEST(HeldOutData, TakeBackWhatTheyRefute) {
   DiagnosisRequest request = with.request();
   request.holdout = {without / "hold.csv"};
   const Json report = diagnose(request, nullptr).report;
-  EXPECT_TRUE(test::names(report).empty()) << report["findings"].dump(1);
-  ASSERT_EQ(report["refuted"].size(), 1u);
+  EXPECT_TRUE(report["findings"].empty()) << report["findings"].dump(1);
+  // The name, and a formula for the same force where one was found in its place.
+  ASSERT_FALSE(report["refuted"].empty());
   EXPECT_EQ(report["refuted"][0]["effect"], "viscous_friction");
-  EXPECT_LT(report["refuted"][0]["confidence"].get<double>(), 0.5);
+  for (const Json& law : report["refuted"]) EXPECT_LT(law["confidence"].get<double>(), 0.5);
   EXPECT_EQ(report["verdict"], "unexplained");
 }
 
