@@ -10,8 +10,6 @@ namespace dcnn {
 /// Gain of chi-square from which on a modulation refutes a law: noise makes 18 in one of a thousand
 /// (the largest of some 24 with a degree of freedom each), a second law too faint for a name 20.
 constexpr double kModulated = 25.0;
-/// The same beside noise that rises as 1/f, which may hide the rest of such a law.
-constexpr double kModulatedInFlicker = 18.0;
 /// The same of a second mode, whose frequency and damping are searched for.
 constexpr double kSecondMode = 40.0;
 

@@ -152,7 +152,7 @@ double log_likelihood(const Eigen::VectorXd& density, const Eigen::VectorXd& hz,
 }  // namespace
 
 double Floor::deviation() const {
-  if (lowpass_hz == 0.0 && flicker == 0.0 && bounds.empty()) return std::sqrt(white + coloured);
+  if (lowpass_hz == 0.0 && !is_slow() && bounds.empty()) return std::sqrt(white + coloured);
   double sum = 0.0;
   for (int i = 0; i < kFloorPoints; ++i) sum += density((i + 0.5) / kFloorPoints * 0.5 / dt);
   return std::sqrt(sum / kFloorPoints);
@@ -168,7 +168,8 @@ double Floor::whole_deviation() const {
 
 double Floor::density(double hz) const {
   const double fitted = white + (coloured > 0.0 ? coloured * ar_shape(rho, hz, dt) : 0.0) +
-                        flicker / std::max(hz, kSlowest);
+                        flicker / std::max(hz, kSlowest) +
+                        markov / (1.0 + (hz / corner_hz) * (hz / corner_hz));
   const double plain = fitted * bound_at(bounds, hz);
   if (lowpass_hz == 0.0) return plain;
   const double gain =

@@ -20,6 +20,8 @@ struct Floor {
   double white = 0.0, coloured = 0.0;  ///< variances
   double rho = 0.0;                    ///< coefficient of the coloured part
   double flicker = 0.0;                ///< density [per sample] times frequency [Hz]
+  /// Slow first-order Gauss-Markov part: its density at 0 Hz and its corner [Hz].
+  double markov = 0.0, corner_hz = 1.0;
   /// Spectral density of what the pose's noise adds through accelerations and gravity:
   /// (static_part + moving_part·w^4)·|H|, per sample, with |H| the gain of the pose's filter in
   /// even steps up to half the rate. Behind a Wiener filter that is the variance of its error.
@@ -34,7 +36,8 @@ struct Floor {
   /// above the motion: no noise exceeds what the model leaves.
   std::vector<std::pair<double, double>> bounds = {};
 
-  double deviation() const;  ///< of the sensor alone
+  double deviation() const;                                       ///< of the sensor alone
+  bool is_slow() const { return flicker > 0.0 || markov > 0.0; }  ///< louder the lower
   /// Density at `hz`, scaled so that white noise of variance s^2 has density s^2.
   double density(double hz) const;
   /// Standard deviation with what the pose's noise adds.

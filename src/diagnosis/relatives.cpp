@@ -50,7 +50,7 @@ std::vector<double> Search::doubts(double little) {
   const auto tests = constancy(*setting_, fit_);
   const double loud = rest_loudness();
   const auto strengths = modulations(*setting_, fit_);
-  const double modulated = loud * (flicker_.empty() ? kModulated : kModulatedInFlicker);
+  const double modulated = loud * kModulated;
   double swings = 0.0;
   for (const BandTest& band : bands_) {
     if (band.stands_out() && band.from_hz >= kSlowestMode) swings += band.excess;

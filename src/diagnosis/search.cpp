@@ -141,6 +141,7 @@ bool Search::grow() {
   if (best->gain < share * explained(false)) return false;
   const bool mode = best->member.kind->stage == Stage::kResonance;
   if (mode && best->gain < kLeastOfMotion * explained(true)) return false;
+  if (may_be_slow_noise(best->member) && admit_slow_noise()) return true;
   std::vector<Member> members = fit_.members;
   members.push_back(best->member);
   settle(members);

@@ -9,6 +9,7 @@
 #include "diagnosis/evidence/posterior.h"
 #include "diagnosis/judgement.h"
 #include "diagnosis/scan.h"
+#include "diagnosis/slow_part.h"
 
 namespace dcnn {
 
@@ -143,9 +144,11 @@ class Search {
   bool are_constant() const;
   bool loosen();
   bool noise_suffices();
-  bool admit_flicker();
+  bool is_independent();
+  double unlikely() const;
+  bool may_be_slow_noise(const Member& member) const;
+  bool admit_slow_noise();
   bool admit_colour();
-  void prefer_flicker();
   void judge();
   void drop_minor();
   void prefer_fewer_numbers();
@@ -181,7 +184,9 @@ class Search {
   std::vector<BandTest> bands_;
   evidence::Posterior posterior_;
   std::optional<std::vector<Floor>> noise_;  // admitted in place of the floor from above the motion
-  std::vector<double> flicker_;  // of each channel, admitted beside the floor from above the motion
+  bool in_slow_noise_ = false;  // slow_ is estimated beside the members that are fitted
+  bool tried_slow_noise_ = false;
+  std::vector<SlowPart> slow_;  // of each channel, beside the floor from above the motion
   bool events_allowed_ = true, remains_ = false;
   Index samples_ = 0;     // of the recordings
   bool tuned_ = false;    // the smoother, to a mode

@@ -2,15 +2,12 @@
 #include <algorithm>
 
 #include "diagnosis/axis_case.h"
-#include "diagnosis/flicker.h"
-#include "diagnosis/formula.h"
 #include "diagnosis/search.h"
 
 namespace dcnn {
 namespace {
 
-constexpr double kLooser = 1.2;       // of the smoother's cut-off
-constexpr double kDependence = 40.0;  // of chi-square: a term of pose, rates, force or time
+constexpr double kLooser = 1.2;  // of the smoother's cut-off
 
 }  // namespace
 
@@ -57,29 +54,7 @@ bool Search::are_constant() const {
 
 /// Whether beside the noise that was admitted no law gains and nothing is left, in no band and of
 /// no product of what moves.
-bool Search::noise_suffices() {
-  return !grow() && !is_alarming_now() && most_of_a_term(*setting_, fit_) < kDependence;
-}
-
-/// Whether slow noise, rising as 1/f towards low frequencies, is all that is left. The floor is
-/// read above the motion, where the noise's flat part hides it.
-bool Search::admit_flicker() {
-  if (study_.is_static() || study_.axis || study_.without.coloured_floor) return false;
-  const auto flicker = flicker_below(study_, left_, floors_);
-  if (!flicker) return false;
-  const std::vector<Member> members = fit_.members;
-  flicker_ = *flicker;
-  settle(apart_);
-  if (noise_suffices()) return true;
-  settle(members);  // names that the slow noise leaves as they are
-  if (members.size() > apart_.size() && are_constant() && !simplify() && noise_suffices()) {
-    return true;
-  }
-  flicker_.clear();
-  settle(members);
-  is_alarming_now();
-  return false;
-}
+bool Search::noise_suffices() { return !grow() && is_independent(); }
 
 /// Whether noise of one colour, which the band above the motion bears out, is all that is left: far
 /// below that band its colour is hardly known from there.
@@ -96,38 +71,6 @@ bool Search::admit_colour() {
     is_alarming_now();
   }
   return false;
-}
-
-/// Takes faint names, and a crowd of drifts and steps, back where slow noise alone is likelier,
-/// each number at its price, and leaves nothing.
-void Search::prefer_flicker() {
-  constexpr double kFaint = 40.0;  // prices, of what all names explain
-  constexpr std::size_t kCrowd = 3;
-  if (study_.is_static() || study_.axis || study_.without.coloured_floor) return;
-  const std::size_t names = fit_.members.size() - apart_.size();
-  if (names == 0) return;
-  const bool wanders =
-      names >= kCrowd && std::all_of(fit_.members.begin(), fit_.members.end(), [](const Member& m) {
-        return m.fixed || m.kind->stage == Stage::kOffset;
-      });
-  if (!wanders && explained(true) > kFaint * setting_->price) return;
-  const double price = setting_->price;  // a slope of 1/f noise would make it dearer
-  const auto unlikely = [&] {
-    double numbers = 0.0;
-    for (const Member& m : fit_.members) numbers += m.fixed ? 0.0 : m.parameters();
-    return fit_.chi2 + setting_->whitener.log_determinant() + price * numbers;
-  };
-  const std::vector<Member> members = fit_.members;
-  const double with_names = unlikely();
-  settle(apart_);
-  if (const auto flicker = flicker_below(study_, left_, floors_)) {
-    flicker_ = *flicker;
-    settle(apart_);
-    const double levels = price * static_cast<double>(flicker_.size());
-    if (unlikely() + levels < with_names && noise_suffices()) return;
-    flicker_.clear();
-  }
-  settle(members);
 }
 
 /// Beside a slow remainder a law must gain by the numbers that a simpler relative lacks what it

@@ -43,9 +43,11 @@ void Search::make_setting(const std::vector<Member>& members) {
   }
   bound_by_residual(study_, raw, levels, floors_);
   add_pose_noise(study_, floors_);
-  for (std::size_t j = 0; j < flicker_.size(); ++j) {
-    floors_[j].flicker += flicker_[j];
-    floors_[j].source += "; below, noise that rises as 1/f and depends on nothing";
+  slow_.clear();
+  if (in_slow_noise_) slow_ = slow_parts(study_, left_, floors_).value_or(slow_);
+  for (std::size_t j = 0; j < slow_.size(); ++j) {
+    slow_[j].add_to(floors_[j]);
+    floors_[j].source += "; below, slow noise that depends on nothing";
   }
   for (const Member& m : members) {
     if (!ringing_ || m.kind->stage != Stage::kResonance) continue;
@@ -161,7 +163,7 @@ void Search::settle(const std::vector<Member>& members) {
   constexpr double kSlowNoisePrice = 20.0;
   if (study_.axis) setting_->price = std::max(kNumberPrice, kMachineShare * fit_.chi2);
   // Of noise that rises as 1/f the next recording would show another slope.
-  if (!flicker_.empty()) setting_->price = kSlowNoisePrice;
+  if (!slow_.empty()) setting_->price = kSlowNoisePrice;
   forget_places();
 }
 

@@ -118,9 +118,8 @@ void Search::judge() {
   drop_coincidences();
   drop_unconfirmed();
   if (study_.axis) keep_what_carries_over();
-  prefer_flicker();
   remains_ = is_alarming_now();
-  if (remains_ && (loosen() || admit_flicker() || admit_colour())) remains_ = false;
+  if (remains_ && (loosen() || admit_slow_noise() || admit_colour())) remains_ = false;
   if (keep_bystanders()) {
     remains_ = true;
     bands_ = band_tests(*setting_, fit_.residual);

@@ -12,7 +12,7 @@ namespace {
 constexpr double kBlockPeriods = 0.4;  // periods of the fastest motion: 20 ms for 20 Hz
 constexpr double kEnd = 5.0;           // of a segment, left out at either end, likewise
 constexpr int kOrder = 8;
-constexpr int kLongOrder = 48;  // flicker noise remembers long
+constexpr int kLongOrder = 48;  // slow noise remembers long
 constexpr int kFrequencies = 4096;
 
 /// Autocovariance at lags 0 … order of means over blocks of `block` samples of a noise.
@@ -43,7 +43,7 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors, const Si
   Eigen::VectorXd pose_share = Eigen::VectorXd::Zero(channels_);  // of a block's variance
   for (Index j = 0; j < channels_; ++j) {
     const Floor& floor = floors[static_cast<std::size_t>(j)];
-    const int longest = !moving ? 0 : floor.flicker > 0.0 ? kLongOrder : kOrder;
+    const int longest = !moving ? 0 : floor.is_slow() ? kLongOrder : kOrder;
     Eigen::VectorXd c = Eigen::VectorXd::Zero(longest + 1);
     if (moving) {
       const Eigen::VectorXd pose =
@@ -131,7 +131,7 @@ double Whitener::log_determinant() const {
 
 double Whitener::expected_density(Index channel, double hz) const {
   const Floor& floor = floors_[static_cast<std::size_t>(channel)];
-  if (floor.flicker == 0.0) return 1.0;
+  if (!floor.is_slow()) return 1.0;
   const Filter& filter = filters_[static_cast<std::size_t>(channel)];
   std::complex<double> gain = 1.0;
   for (std::size_t i = 0; i < filter.coefficients.back().size(); ++i) {

@@ -31,7 +31,7 @@ class Whitener {
   const std::vector<Row>& row_info() const { return info_; }
   double block_seconds() const { return block_seconds_; }
   /// Density of a channel's whitened noise at `hz`: 1 where its filter remembers long enough, more
-  /// at the lowest frequencies of flicker noise.
+  /// at the lowest frequencies of slow noise.
   double expected_density(Index channel, double hz) const;
   /// Logarithm of the determinant of the noise's covariance: with the sum of squares, minus twice
   /// the log-likelihood, by which floors are compared.
@@ -48,7 +48,7 @@ class Whitener {
     /// `first` in a recording of which every stride-th sample is seen.
     Index thin_begin(Index stride) const;
   };
-  /// Predictors of orders 0 … 8 (48 for flicker noise) and their innovation deviations.
+  /// Predictors of orders 0 … 8 (48 for slow noise) and their innovation deviations.
   struct Filter {
     std::vector<std::vector<double>> coefficients;
     std::vector<double> deviation;

@@ -8,9 +8,11 @@ constexpr double kName = 0.04;      ///< probability of each listed effect, shar
 /// more.
 constexpr double kSpecial = 0.1;
 constexpr double kUnknown = 0.12;   ///< of physics that no effect of the catalogue describes
-constexpr double kSlowNoise = 0.1;  ///< of noise that rises as 1/f below the floor's band
-/// Power of a sensor's slow noise over its floor at most, in any octave.
-constexpr double kMostSlowNoise = 3.0;
+constexpr double kSlowNoise = 0.1;  ///< of noise that grows below the floor's band
+/// Density of a sensor's slow noise over its floor at most, in any octave.
+constexpr double kMostSlowNoise = 100.0;
+/// Corner [Hz] below which slow noise shows: log-uniform between these.
+constexpr double kLeastCorner = 0.01, kMostCorner = 2.0;
 /// Decades over which the size of an effect, in deviations of the noise over all rows, is
 /// log-uniform.
 constexpr double kDecades = 4.0;

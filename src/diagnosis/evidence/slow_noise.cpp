@@ -12,7 +12,7 @@ namespace dcnn::evidence {
 namespace {
 
 constexpr double kHighest = 3.0;  // Hz, of the transform
-constexpr int kCorners = 12;
+constexpr int kCorners = 12, kLevels = 8;
 
 struct Term {
   double hz, square;
@@ -44,18 +44,33 @@ SlowNoise slow_noise(const Grid& grid, const Eigen::VectorXd& residual) {
   SlowNoise noise;
   noise.log_factor = elementary::log(prior::kSlowNoise / (1.0 - prior::kSlowNoise));
   if (grid.study().is_static()) return noise;
-  for (const auto& [channel, terms] : transformed(grid, residual)) {
-    std::vector<double> corners;
-    for (int k = 0; k < kCorners; ++k) {
-      const double corner = 0.01 * elementary::pow(200.0, k / (kCorners - 1.0));
+  for (const auto& entry : transformed(grid, residual)) {
+    const std::vector<Term>& terms = entry.second;
+    std::vector<double> factors;
+    const auto weigh = [&](const auto& density_at) {
       double factor = 0.0;
       for (const Term& term : terms) {
-        const double density = 1.0 + corner / term.hz;
+        const double density = density_at(term.hz);
         factor -= 0.5 * (elementary::log(density) + term.square * (1.0 / density - 1.0));
       }
-      corners.push_back(factor - elementary::log(double(kCorners)));
+      return factor;
+    };
+    // 1/f noise and a first-order Gauss-Markov process, either as likely as the other.
+    const double one_over_f = elementary::log(2.0 * kCorners);
+    const double markov = elementary::log(2.0 * kCorners * kLevels);
+    for (int k = 0; k < kCorners; ++k) {
+      const double corner =
+          prior::kLeastCorner *
+          elementary::pow(prior::kMostCorner / prior::kLeastCorner, k / (kCorners - 1.0));
+      factors.push_back(weigh([&](double hz) { return 1.0 + corner / hz; }) - one_over_f);
+      for (int l = 0; l < kLevels; ++l) {
+        const double level = elementary::pow(prior::kMostSlowNoise, (l + 0.5) / kLevels);
+        factors.push_back(
+            weigh([&](double hz) { return 1.0 + level / (1.0 + (hz / corner) * (hz / corner)); }) -
+            markov);
+      }
     }
-    noise.log_factor += log_sum(corners);
+    noise.log_factor += log_sum(factors);
     for (double from = kHighest / 64.0; from < kHighest; from *= 2.0) {
       double sum = 0.0, count = 0.0;
       for (const Term& term : terms) {

@@ -1,0 +1,66 @@
+// Slow noise, louder towards low frequencies, against names that would stand for it.
+#include <algorithm>
+
+#include "diagnosis/axis_case.h"
+#include "diagnosis/formula.h"
+#include "diagnosis/search.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kDependence = 40.0;  // of chi-square: a term of pose, rates, force or time
+
+}  // namespace
+
+/// Nothing is left, in no band and of no product of what moves.
+bool Search::is_independent() {
+  return !is_alarming_now() && most_of_a_term(*setting_, fit_) < kDependence;
+}
+
+/// -2 ln of the likelihood, and the price of all numbers.
+double Search::unlikely() const {
+  double numbers = 0.0;
+  for (const Member& m : fit_.members) numbers += m.fixed ? 0.0 : m.parameters();
+  for (const SlowPart& part : slow_) numbers += part.numbers();
+  return fit_.chi2 + setting_->whitener.log_determinant() + kNumberPrice * numbers;
+}
+
+/// An event, or a drift: what slow noise looks like.
+bool Search::may_be_slow_noise(const Member& member) const {
+  return member.interval_s || (member.kind->stage == Stage::kOffset && member.parameters() > 0);
+}
+
+/// Searches from nothing in slow noise, which is estimated again beside whatever is found, and
+/// keeps what that finds where it leaves nothing and is likelier than all names that gain without
+/// such noise.
+bool Search::admit_slow_noise() {
+  if (tried_slow_noise_ || study_.is_static() || study_.axis || study_.without.coloured_floor) {
+    return false;
+  }
+  tried_slow_noise_ = true;
+  if (!slow_parts(study_, left_, floors_)) return false;
+  say("searching in slow noise");
+  const std::vector<Member> members = fit_.members;
+  const Case study = study_;
+  const auto smoothed = smoothed_;
+  const auto other_filter = other_filter_;
+  const bool tuned = tuned_, ringing = ringing_;
+  while (grow()) {
+  }
+  const double plain = unlikely();
+  in_slow_noise_ = true;
+  events_allowed_ = false;  // beside noise that wanders nothing tells one
+  settle(apart_);
+  explore();
+  if (unlikely() < plain && are_constant() && is_independent()) return true;
+  in_slow_noise_ = false;
+  events_allowed_ = true;
+  slow_.clear();
+  study_ = study, smoothed_ = smoothed, other_filter_ = other_filter;
+  tuned_ = tuned, ringing_ = ringing;
+  settle(members);
+  is_alarming_now();
+  return false;
+}
+
+}  // namespace dcnn
