@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "data/held_rows.h"
+
 namespace dcnn {
 namespace {
 
@@ -20,6 +22,7 @@ std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
   if (request.simulator) read.payload.rpy = study.simulator.model.sensor_rotation_rpy;
   for (const auto& path : paths) {
     recordings.push_back(read_recording(path, read, System()));
+    keep_new_rows(recordings.back(), find_targets(recordings.back(), System()).names);
     const auto& zeroed = request.zeroed;
     if (std::find(zeroed.begin(), zeroed.end(), path) != zeroed.end()) {
       recordings.back().zeroed = true;

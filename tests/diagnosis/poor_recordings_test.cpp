@@ -38,5 +38,17 @@ TEST(PoorRecordings, ALimitOfTorqueIsNoLimitOfForce) {
   }
 }
 
+/// A controller of 125 Hz behind a log of 500 Hz: the pose has moved on where a force is repeated.
+TEST(PoorRecordings, AForceThatIsHeldIsReadWhereItIsNew) {
+  const Json report = report_of(test::configuration(Json::array()), [](Recording& log) {
+    for (const char* axis : {"fx", "fy", "fz"}) {
+      Eigen::VectorXd x = log.column(axis);
+      for (Index i = 0; i < x.size(); ++i) x(i) = x(i - i % 4);
+      log.set(axis, x);
+    }
+  });
+  EXPECT_EQ(report["verdict"], "consistent") << report["findings"].dump(1);
+}
+
 }  // namespace
 }  // namespace dcnn

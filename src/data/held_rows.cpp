@@ -1,0 +1,88 @@
+#include "data/held_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace dcnn {
+namespace {
+
+constexpr Index kLongest = 64;   // rows
+constexpr Index kFewest = 20;    // changes
+constexpr double kShare = 0.95;  // of the distances; rows that were lost and bridged break some
+
+/// Places of all rows on the clock, in steps: rows may be lost in between.
+std::vector<Index> places_of(const Recording& recording) {
+  const Eigen::VectorXd t = recording.column("t");
+  std::vector<Index> places{0};
+  for (Index i = 1; i < t.size(); ++i) {
+    const auto steps = static_cast<Index>(std::llround((t(i) - t(i - 1)) / recording.dt));
+    places.push_back(places.back() + std::max<Index>(1, steps));
+  }
+  return places;
+}
+
+/// Places in a segment at which a value differs from the row before.
+std::vector<Index> changes_in(const Eigen::MatrixXd& values, const Segment& segment,
+                              const std::vector<Index>& places) {
+  std::vector<Index> changes;
+  for (Index i = segment.begin + 1; i < segment.end; ++i) {
+    if (values.row(i) != values.row(i - 1)) changes.push_back(places[static_cast<std::size_t>(i)]);
+  }
+  return changes;
+}
+
+}  // namespace
+
+Index held_rows(const Recording& recording, const std::vector<std::string>& columns) {
+  if (recording.dt <= 0.0 || columns.empty()) return 1;
+  const Eigen::MatrixXd values = recording.block(columns);
+  const std::vector<Index> places = places_of(recording);
+  std::map<Index, Index> distances;
+  Index all = 0;
+  for (const Segment& segment : recording.segments) {
+    const auto changes = changes_in(values, segment, places);
+    for (std::size_t k = 1; k < changes.size(); ++k, ++all)
+      ++distances[changes[k] - changes[k - 1]];
+  }
+  if (all < kFewest) return 1;
+  for (Index held = kLongest; held > 1; --held) {
+    Index multiples = 0;
+    for (const auto& [distance, count] : distances) multiples += distance % held == 0 ? count : 0;
+    if (static_cast<double>(multiples) >= kShare * static_cast<double>(all)) return held;
+  }
+  return 1;
+}
+
+void keep_new_rows(Recording& recording, const std::vector<std::string>& columns) {
+  const Index held = held_rows(recording, columns);
+  if (held == 1) return;
+  const Eigen::MatrixXd values = recording.block(columns);
+  const std::vector<Index> places = places_of(recording);
+  std::vector<Index> kept;
+  std::vector<Segment> segments;
+  for (const Segment& segment : recording.segments) {
+    std::map<Index, Index> phases;
+    for (const Index place : changes_in(values, segment, places)) ++phases[place % held];
+    if (phases.empty()) continue;
+    const auto phase =
+        std::max_element(phases.begin(), phases.end(),
+                         [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto begin = static_cast<Index>(kept.size());
+    for (Index row = segment.begin; row < segment.end; ++row) {
+      if (places[static_cast<std::size_t>(row)] % held == phase->first) kept.push_back(row);
+    }
+    if (static_cast<Index>(kept.size()) > begin) {
+      segments.push_back({begin, static_cast<Index>(kept.size())});
+    }
+  }
+  const Eigen::MatrixXd rows = recording.table.values(kept, Eigen::all);
+  recording.table.values = rows;
+  recording.segments = segments;
+  recording.dt *= static_cast<double>(held);
+  recording.notes.push_back(
+      columns.front() + (columns.size() > 1 ? " and its companions are" : " is") + " new every " +
+      std::to_string(held) + " rows only: the rows in between are left out");
+}
+
+}  // namespace dcnn

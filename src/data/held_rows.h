@@ -1,0 +1,20 @@
+// Values that a slower source holds from one row of a log to the next.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dcnn/data/recording.h"
+
+namespace dcnn {
+
+/// Rows for which the values of these columns together are held: k, where 95 % of the distances
+/// from one change to the next are multiples of k; 1 where every row may bring a new one, or fewer
+/// than 20 changes tell.
+Index held_rows(const Recording& recording, const std::vector<std::string>& columns);
+
+/// Leaves the rows in which a value of these columns may be new, if it is held in between, and
+/// notes so: the others repeat a reading beside a pose that has moved on.
+void keep_new_rows(Recording& recording, const std::vector<std::string>& columns);
+
+}  // namespace dcnn

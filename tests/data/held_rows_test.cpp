@@ -1,0 +1,61 @@
+#include "data/held_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "dcnn/core/random.h"
+
+namespace dcnn {
+namespace {
+
+/// A force read every `held` rows of 2 ms, noise rounded to `step`, every 250th row lost.
+Recording slow_force(Index held, double step) {
+  Rng rng({7});
+  std::vector<double> times, values;
+  double now = 0.0;
+  for (Index i = 0; i < 5000; ++i) {
+    if (i % held == 0) now = step > 0.0 ? step * std::round(rng.normal() / step) : rng.normal();
+    if (i % 250 == 249) continue;
+    times.push_back(0.002 * static_cast<double>(i));
+    values.push_back(now);
+  }
+  Recording recording;
+  const auto rows = static_cast<Index>(times.size());
+  recording.table.columns = {"t", "fx"};
+  recording.table.values.resize(rows, 2);
+  for (Index i = 0; i < rows; ++i) {
+    recording.table.values(i, 0) = times[static_cast<std::size_t>(i)];
+    recording.table.values(i, 1) = values[static_cast<std::size_t>(i)];
+  }
+  recording.dt = 0.002;
+  recording.segments = {{0, rows}};
+  return recording;
+}
+
+TEST(HeldRows, AreCountedOnTheClock) {
+  for (const Index held : {1, 2, 3, 8}) {
+    EXPECT_EQ(held_rows(slow_force(held, 0.0), {"fx"}), held);
+    EXPECT_EQ(held_rows(slow_force(held, 1.0), {"fx"}), held) << "rounded";
+  }
+}
+
+TEST(HeldRows, AreLeftOut) {
+  Recording recording = slow_force(4, 0.0);
+  const Recording all = recording;
+  keep_new_rows(recording, {"fx"});
+  EXPECT_DOUBLE_EQ(recording.dt, 0.008);
+  EXPECT_EQ(recording.notes.size(), 1u);
+  ASSERT_GT(recording.samples(), 1240);
+  EXPECT_EQ(recording.segments.front().end, recording.samples());
+  for (Index i = 0; i < recording.samples(); ++i) {  // the instants at which the force was read
+    const double reads = recording.table.values(i, 0) / 0.008;
+    EXPECT_NEAR(reads, std::round(reads), 1e-9);
+  }
+  Recording fresh = slow_force(1, 0.0);
+  keep_new_rows(fresh, {"fx"});
+  EXPECT_EQ(fresh.table.values, slow_force(1, 0.0).table.values);
+}
+
+}  // namespace
+}  // namespace dcnn
