@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace dcnn {
 namespace {
@@ -54,9 +55,11 @@ Index held_rows(const Recording& recording, const std::vector<std::string>& colu
   return 1;
 }
 
-void keep_new_rows(Recording& recording, const std::vector<std::string>& columns) {
-  const Index held = held_rows(recording, columns);
-  if (held == 1) return;
+namespace {
+
+/// Leaves every `every`-th row, at those places at which values held for `held` rows are new.
+void keep_every(Recording& recording, const std::vector<std::string>& columns, Index held,
+                Index every) {
   const Eigen::MatrixXd values = recording.block(columns);
   const std::vector<Index> places = places_of(recording);
   std::vector<Index> kept;
@@ -64,13 +67,13 @@ void keep_new_rows(Recording& recording, const std::vector<std::string>& columns
   for (const Segment& segment : recording.segments) {
     std::map<Index, Index> phases;
     for (const Index place : changes_in(values, segment, places)) ++phases[place % held];
-    if (phases.empty()) continue;
-    const auto phase =
+    const auto most =
         std::max_element(phases.begin(), phases.end(),
                          [](const auto& a, const auto& b) { return a.second < b.second; });
+    const Index phase = most == phases.end() ? 0 : most->first;
     const auto begin = static_cast<Index>(kept.size());
     for (Index row = segment.begin; row < segment.end; ++row) {
-      if (places[static_cast<std::size_t>(row)] % held == phase->first) kept.push_back(row);
+      if (places[static_cast<std::size_t>(row)] % every == phase) kept.push_back(row);
     }
     if (static_cast<Index>(kept.size()) > begin) {
       segments.push_back({begin, static_cast<Index>(kept.size())});
@@ -79,10 +82,29 @@ void keep_new_rows(Recording& recording, const std::vector<std::string>& columns
   const Eigen::MatrixXd rows = recording.table.values(kept, Eigen::all);
   recording.table.values = rows;
   recording.segments = segments;
-  recording.dt *= static_cast<double>(held);
+  recording.dt *= static_cast<double>(every);
   recording.notes.push_back(
-      columns.front() + (columns.size() > 1 ? " and its companions are" : " is") + " new every " +
-      std::to_string(held) + " rows only: the rows in between are left out");
+      "values of " + columns.front() + (columns.size() > 1 ? " and its companions" : "") +
+      " are held from row to row: one row in " + std::to_string(every) + " is used");
+}
+
+}  // namespace
+
+void keep_new_rows(const std::vector<Recording*>& recordings,
+                   const std::vector<std::string>& columns) {
+  std::vector<Index> held;
+  Index every = 1;
+  for (const Recording* recording : recordings) {
+    held.push_back(held_rows(*recording, columns));
+    every = std::lcm(every, held.back());
+  }
+  const bool enough = std::all_of(recordings.begin(), recordings.end(), [&](const Recording* r) {
+    return r->samples() >= kFewest * every;
+  });
+  if (every == 1 || every > kLongest || !enough) return;
+  for (std::size_t k = 0; k < recordings.size(); ++k) {
+    keep_every(*recordings[k], columns, held[k], every);
+  }
 }
 
 }  // namespace dcnn

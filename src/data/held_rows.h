@@ -13,8 +13,9 @@ namespace dcnn {
 /// than 20 changes tell.
 Index held_rows(const Recording& recording, const std::vector<std::string>& columns);
 
-/// Leaves the rows in which a value of these columns may be new, if it is held in between, and
-/// notes so: the others repeat a reading beside a pose that has moved on.
-void keep_new_rows(Recording& recording, const std::vector<std::string>& columns);
+/// Leaves the rows in which values of these columns are new in all recordings, so that they keep
+/// one rate, and notes so: the others repeat a reading beside a pose that has moved on.
+void keep_new_rows(const std::vector<Recording*>& recordings,
+                   const std::vector<std::string>& columns);
 
 }  // namespace dcnn

@@ -127,6 +127,17 @@ Json outlying_json(const Search& search) {
   return list;
 }
 
+/// What reading made of each recording.
+Json notes_of(const std::vector<const Case*>& studies) {
+  Json list = Json::array();
+  for (const Case* study : studies) {
+    for (const Log& log : study->logs) {
+      for (const auto& note : log.recording.notes) list.push_back(log.recording.name + ": " + note);
+    }
+  }
+  return list;
+}
+
 Json deviations(const std::vector<Floor>& floors) {
   Json list = Json::array();
   for (const Floor& floor : floors) list.push_back(floor.deviation());
@@ -169,6 +180,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
             {"fit_recordings", names_of(study)},
             {"holdout_recordings", names_of(loaded.holdout)}};
   if (!zeroed.empty()) report["zeroed"] = zeroed;
+  report["notes"] = notes_of({&study, &loaded.holdout});
   const std::vector<std::string> without = study.without.names();
   if (!without.empty()) report["without"] = without;
   report["findings"] = findings_json(search, holdout, alternatives);

@@ -12,10 +12,10 @@ constexpr double kDependence = 40.0;  // of chi-square: a term of pose, rates, f
 
 }  // namespace
 
+bool Search::depends_on_motion() const { return most_of_a_term(*setting_, fit_) > kDependence; }
+
 /// Nothing is left, in no band and of no product of what moves.
-bool Search::is_independent() {
-  return !is_alarming_now() && most_of_a_term(*setting_, fit_) < kDependence;
-}
+bool Search::is_independent() { return !is_alarming_now() && !depends_on_motion(); }
 
 /// -2 ln of the likelihood, and the price of all numbers.
 double Search::unlikely() const {

@@ -22,7 +22,6 @@ std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
   if (request.simulator) read.payload.rpy = study.simulator.model.sensor_rotation_rpy;
   for (const auto& path : paths) {
     recordings.push_back(read_recording(path, read, System()));
-    keep_new_rows(recordings.back(), find_targets(recordings.back(), System()).names);
     const auto& zeroed = request.zeroed;
     if (std::find(zeroed.begin(), zeroed.end(), path) != zeroed.end()) {
       recordings.back().zeroed = true;
@@ -122,6 +121,11 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   }
   auto fit = read_all(request.fit, request, study),
        holdout = read_all(request.holdout, request, study);
+  std::vector<Recording*> both;
+  for (auto* list : {&fit, &holdout}) {
+    for (Recording& recording : *list) both.push_back(&recording);
+  }
+  keep_new_rows(both, find_targets(*both.front(), System()).names);
   std::vector<Recording> all = fit;
   all.insert(all.end(), holdout.begin(), holdout.end());
   check_rates(all);

@@ -144,6 +144,8 @@ class Search {
   bool are_constant() const;
   bool loosen();
   bool noise_suffices();
+  /// A product of pose, rates, force or time gains in what is left.
+  bool depends_on_motion() const;
   bool is_independent();
   double unlikely() const;
   bool may_be_slow_noise(const Member& member) const;

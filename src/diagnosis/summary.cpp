@@ -158,6 +158,9 @@ std::string to_text(const Diagnosis& diagnosis) {
     }
     out << "\n";
   }
+  for (const Json& note : report.value("notes", Json::array())) {
+    out << "note        " << note.get<std::string>() << "\n";
+  }
   for (const Json& stretch : report.value("left_out", Json::array())) {
     out << "left out    " << brief(stretch["interval_s"][0].get<double>()) << " to "
         << brief(stretch["interval_s"][1].get<double>()) << " s of "

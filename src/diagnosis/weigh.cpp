@@ -60,7 +60,14 @@ void Search::weigh() {
     best = weigh_once();
     smaller = true;
   }
-  if (smaller || study_.is_static()) judge_rest();  // poses at rest have no spectrum
+  if (smaller || study_.is_static()) {  // poses at rest have no spectrum
+    judge_rest();
+    return;
+  }
+  // A spectrum above the floor alone is noise, and a field alone the error of a law: what remains
+  // depends on what moves.
+  const bool unknown = posterior_.named_and_unknown + posterior_.unknown > 0.5;
+  remains_ = (remains_ || unknown) && depends_on_motion();
 }
 
 void Search::judge_rest() {

@@ -133,6 +133,9 @@ void add_findings(const Json& report, HtmlReport& page) {
     page.paragraph(
         "The search ended at its limit of computation: not every exchange of effects was tried.");
   }
+  for (const Json& note : report.value("notes", Json::array())) {
+    page.paragraph(note.get<std::string>());
+  }
   if (rows.empty()) {
     page.paragraph("No effect is named.");
     return;

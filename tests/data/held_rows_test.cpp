@@ -43,7 +43,7 @@ TEST(HeldRows, AreCountedOnTheClock) {
 TEST(HeldRows, AreLeftOut) {
   Recording recording = slow_force(4, 0.0);
   const Recording all = recording;
-  keep_new_rows(recording, {"fx"});
+  keep_new_rows({&recording}, {"fx"});
   EXPECT_DOUBLE_EQ(recording.dt, 0.008);
   EXPECT_EQ(recording.notes.size(), 1u);
   ASSERT_GT(recording.samples(), 1240);
@@ -53,8 +53,15 @@ TEST(HeldRows, AreLeftOut) {
     EXPECT_NEAR(reads, std::round(reads), 1e-9);
   }
   Recording fresh = slow_force(1, 0.0);
-  keep_new_rows(fresh, {"fx"});
+  keep_new_rows({&fresh}, {"fx"});
   EXPECT_EQ(fresh.table.values, slow_force(1, 0.0).table.values);
+}
+
+TEST(HeldRows, KeepOneRateOfAllRecordings) {
+  Recording two = slow_force(2, 0.0), three = slow_force(3, 0.0);
+  keep_new_rows({&two, &three}, {"fx"});
+  EXPECT_DOUBLE_EQ(two.dt, 0.012);
+  EXPECT_DOUBLE_EQ(three.dt, 0.012);
 }
 
 }  // namespace

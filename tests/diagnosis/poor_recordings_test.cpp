@@ -48,6 +48,7 @@ TEST(PoorRecordings, AForceThatIsHeldIsReadWhereItIsNew) {
     }
   });
   EXPECT_EQ(report["verdict"], "consistent") << report["findings"].dump(1);
+  EXPECT_EQ(report["notes"].size(), 2u) << report["notes"].dump(1);
 }
 
 }  // namespace
