@@ -53,10 +53,11 @@ int main(int argc, char** argv) {
   PeersRequest peers_request;
   std::filesystem::path out;
   bool with_peers = false;
-  tool.option("models", request.models, "model files");
+  tool.option("models", request.models, "model files").holds({FileKind::kModel});
   const Option data =
       tool.option("--data", request.data,
-                  "recording to predict (default: 32045 rows drawn from the model's statistics)");
+                  "recording to predict (default: 32045 rows drawn from the model's statistics)")
+          .holds({FileKind::kRecording});
   const Option lengths = tool.option("--lengths", request.lengths,
                                      "samples per call (with --peers: 1,10,100,1000,10000,32045)")
                              .separated_by_commas()

@@ -5,8 +5,8 @@
 #include "dcnn/calibration/calibration.h"
 #include "dcnn/core/file.h"
 #include "dcnn/data/rotation.h"
-#include "support/doctor.h"
 #include "dcnn/experiment/calibration_report.h"
+#include "support/doctor.h"
 #include "support/tool.h"
 
 namespace {
@@ -56,13 +56,15 @@ ForcePairs load(const Input& input, const ReadOptions& read, bool with_bias) {
 }
 
 /// Signs, axes and the mounting are what a calibration finds itself.
-void check_recordings(const Tool& tool, const Doctor& doctor, const Input& input, const ReadOptions& read) {
+void check_recordings(const Tool& tool, const Doctor& doctor, const Input& input,
+                      const ReadOptions& read) {
   CheckRequest logs{{}, read, "", ""};
   for (const auto& path : {input.loaded, input.unloaded, input.poses}) {
     if (!path.empty()) logs.logs.push_back(path);
   }
-  doctor.examine(tool, logs, {"reaction", "force_sign", "force_axes", "mounting", "base_frame", "inverse_pose",
-                              "angle_sign", "euler_order", "compensated", "force_unit"});
+  doctor.examine(tool, logs,
+                 {"reaction", "force_sign", "force_axes", "mounting", "base_frame", "inverse_pose",
+                  "angle_sign", "euler_order", "compensated", "force_unit"});
 }
 
 /// Whether a file holds an earlier answer: it is replaced, for it is made again in no time.
@@ -99,13 +101,18 @@ int main(int argc, char** argv) {
   std::filesystem::path out, page;
   CalibrationOptions options;
   std::vector<double> nominal;
-  tool.option("--pairs", input.pairs, "CSV of pairs: sx,sy,sz,rx,ry,rz [N], optionally w");
-  tool.option("--loaded", input.loaded, "static poses with a mass hung at the tip");
-  tool.option("--unloaded", input.unloaded, "the same poses without it");
-  tool.option("--static", input.poses, "static poses; gravity on the tool is the reference");
+  tool.option("--pairs", input.pairs, "CSV of pairs: sx,sy,sz,rx,ry,rz [N], optionally w")
+      .holds({FileKind::kRecording});
+  tool.option("--loaded", input.loaded, "static poses with a mass hung at the tip")
+      .holds({FileKind::kRecording});
+  tool.option("--unloaded", input.unloaded, "the same poses without it")
+      .holds({FileKind::kRecording});
+  tool.option("--static", input.poses, "static poses; gravity on the tool is the reference")
+      .holds({FileKind::kRecording});
   tool.option("--mass-kg", input.mass_kg, "hung mass, or the tool's (else it is estimated)");
   tool.flag("--with-bias", options.with_bias, "the sensor has a constant offset: find it");
-  tool.option("--nominal", nominal, "mounting as designed: rx ry rz [rad]").values(3);
+  tool.option("--nominal", nominal, "mounting as designed: rx ry rz [rad]")
+      .values(3, "numbers rx ry rz [rad]");
   tool.output("--out", out, "calibration.json to write").required().replaces(is_calibration);
   tool.output("--report", page, "page to write (HTML): what each pair leaves");
   const ReadFlags read(tool);

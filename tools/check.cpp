@@ -14,7 +14,8 @@ constexpr const char* kExamples =
     "  dcnn-check a.csv b.csv --system arm.json --json\n"
     "\n"
     "A log is read in every way that people write logs by mistake (units, signs, axes, frames,\n"
-    "orders), and a rigid tool is fitted to each; clocks, channels and rows have statistics of their\n"
+    "orders), and a rigid tool is fitted to each; clocks, channels and rows have statistics of "
+    "their\n"
     "own. Probabilities are posteriors with the priors of docs/use/check.md.\n\n";
 
 std::string examples() {
@@ -36,12 +37,15 @@ int main(int argc, char** argv) {
             examples());
   CheckRequest request;
   std::filesystem::path out;
-  tool.option("logs", request.logs, "recordings (CSV)").required();
-  const Option sim =
-      tool.option("--sim", request.simulator, "simulator of the tool (JSON): nominal mass, mounting");
-  tool.option("--system", request.system, "system description of another machine (JSON)").excludes(sim);
-  const Output folder =
-      tool.output("--out", out, "folder for check.json and check.html", {"check.json", "check.html"});
+  tool.option("logs", request.logs, "recordings (CSV)").required().holds({FileKind::kRecording});
+  const Option sim = tool.option("--sim", request.simulator,
+                                 "simulator of the tool (JSON): nominal mass, mounting")
+                         .holds({FileKind::kSimulator});
+  tool.option("--system", request.system, "system description of another machine (JSON)")
+      .excludes(sim)
+      .holds({FileKind::kSystem, FileKind::kMachine});
+  const Output folder = tool.output("--out", out, "folder for check.json and check.html",
+                                    {"check.json", "check.html"});
   const ReadFlags read(tool);
 
   return tool.run(argc, argv, [&] {

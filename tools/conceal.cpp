@@ -117,7 +117,8 @@ int main(int argc, char** argv) {
   tool.option("--on", on,
               "motions (t, x,y,z, alpha,beta,gamma) on which every scenario is recorded once more, "
               "after its own "
-              "recordings: same tool, effects and sensor");
+              "recordings: same tool, effects and sensor")
+      .holds({FileKind::kRecording});
   const Option opening =
       tool.flag("--score", score, "score OUT/reports/*/report.json against the seal")
           .excludes(many);
@@ -129,18 +130,21 @@ int main(int argc, char** argv) {
 
   auto what = tool.option("--inject", injection.what,
                           "effect, effect@axis or a JSON file of effects to hide in --motion");
-  const Option motion = tool.option("--motion", injection.motion, "recordings of a tool");
+  const Option motion = tool.option("--motion", injection.motion, "recordings of a tool")
+                            .holds({FileKind::kRecording});
   what.excludes(many).needs(motion);
   tool.option("--fault", fault,
               "a log with this fault (for dcnn-check), in --motion or in one of its own")
       .one_of(conceal::faulty_kinds())
       .excludes(many)
       .excludes(what);
-  const auto sim =
-      tool.option("--sim", injection.simulator, "their simulator (sim.json)").needs(what);
+  const auto sim = tool.option("--sim", injection.simulator, "their simulator (sim.json)")
+                       .needs(what)
+                       .holds({FileKind::kSimulator});
   tool.option("--system", injection.system, "of a machine of one axis, instead of --sim")
       .needs(what)
-      .excludes(sim);
+      .excludes(sim)
+      .holds({FileKind::kSystem});
   tool.option("--amplitude", injection.amplitude, "of --inject, in units of --noise")
       .with_default()
       .positive()

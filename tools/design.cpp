@@ -37,7 +37,9 @@ int main(int argc, char** argv) {
   DesignRequest request;
   Path report, limits, out;
   tool.option("--report", report, "folder of dcnn-diagnose").called("DIR").required();
-  tool.option("--limits", limits, "what the robot may do (JSON)").required();
+  tool.option("--limits", limits, "what the robot may do (JSON)")
+      .required()
+      .holds({FileKind::kLimits});
   tool.option("--seconds", request.seconds, "length of the motion").with_default().positive();
   tool.option("--evaluations", request.evaluations,
               "motions that are judged: time against a better one")

@@ -5,7 +5,6 @@
 #include "dcnn/experiment/least_sizes.h"
 #include "dcnn/identification/urdf.h"
 #include "support/doctor.h"
-#include "support/file_kind.h"
 #include "support/progress.h"
 #include "support/tool.h"
 
@@ -54,13 +53,15 @@ int main(int argc, char** argv) {
   std::string clock = "auto";
   const auto sim =
       tool.option("--sim", request.simulator,
-                  "simulator of the tool (JSON); without it the recordings need columns *_sim");
+                  "simulator of the tool (JSON); without it the recordings need columns *_sim")
+          .holds({FileKind::kSimulator});
   const auto system =
       tool.option(
               "--system", request.system,
               "another machine instead of --sim: its description (JSON, \"kind\": \"axes\"), or "
               "model.json of an earlier diagnosis as the simulator")
-          .excludes(sim);
+          .excludes(sim)
+          .holds({FileKind::kSystem, FileKind::kMachine});
   std::filesystem::path urdf;
   std::string tip;
   const auto arm =
@@ -71,9 +72,12 @@ int main(int argc, char** argv) {
   tool.option("--tip", tip, "last link of the arm in the URDF (else its end)")
       .needs(arm)
       .group("Arms");
-  tool.option("--fit", request.fit, "recordings to learn from").required();
+  tool.option("--fit", request.fit, "recordings to learn from")
+      .required()
+      .holds({FileKind::kRecording});
   tool.option("--holdout", request.holdout,
-              "recordings to judge by (default: every fifth block of 5 s of the others)");
+              "recordings to judge by (default: every fifth block of 5 s of the others)")
+      .holds({FileKind::kRecording});
   tool.option("--clock", clock, "whether the recordings share one clock: auto, shared, own")
       .one_of({"auto", "shared", "own"})
       .with_default();
@@ -93,12 +97,6 @@ int main(int argc, char** argv) {
   const ReadFlags read(tool);
   const Doctor doctor(tool);
 
-  tool.check([&] {
-    expect_kind("--sim", request.simulator.value_or(""), {FileKind::kSimulator});
-    expect_kind("--system", request.system.value_or(""), {FileKind::kSystem});
-    for (const auto& file : request.fit) expect_kind("--fit", file, {FileKind::kRecording});
-    for (const auto& file : request.holdout) expect_kind("--holdout", file, {FileKind::kRecording});
-  });
   return tool.run(argc, argv, [&] {
     request.read = read.options();
     if (!urdf.empty()) request.arm = to_json(read_urdf_chain(urdf, tip));

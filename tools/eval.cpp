@@ -3,7 +3,6 @@
 
 #include "dcnn/core/file.h"
 #include "dcnn/experiment/evaluate.h"
-#include "support/file_kind.h"
 #include "support/progress.h"
 #include "support/tool.h"
 
@@ -52,8 +51,10 @@ int main(int argc, char** argv) {
   EvaluationRequest request;
   std::string levels = "clean,40,30,20,10", noise_mode = "feature", noise_on = "features";
   std::filesystem::path out, trace;
-  tool.option("models", request.models, "model files").required();
-  tool.option("--data", request.data, "recordings to score on").required();
+  tool.option("models", request.models, "model files").required().holds({FileKind::kModel});
+  tool.option("--data", request.data, "recordings to score on")
+      .required()
+      .holds({FileKind::kRecording});
   tool.option("--snr", levels, "signal-to-noise ratios of the input [dB], or clean").with_default();
   tool.option("--runs", request.runs, "noise draws per level").between(1, 100000).with_default();
   tool.option("--noise-mode", noise_mode,
@@ -75,10 +76,6 @@ int main(int argc, char** argv) {
   const PrecisionFlag precision(tool);
   const ReadFlags read(tool);
 
-  tool.check([&] {
-    for (const auto& file : request.models) expect_kind("dcnn-eval", file, {FileKind::kModel});
-    for (const auto& file : request.data) expect_kind("--data", file, {FileKind::kRecording});
-  });
   return tool.run(argc, argv, [&] {
     request.levels = parse_levels(levels);
     request.matlab_noise = noise_mode == "matlab";

@@ -3,7 +3,6 @@
 #include "dcnn/core/file.h"
 #include "dcnn/core/number.h"
 #include "dcnn/identification/forward_fit.h"
-#include "support/file_kind.h"
 #include "support/tool.h"
 
 namespace {
@@ -53,10 +52,6 @@ Json numbers_json(const ForwardFit& fit) {
 }
 
 Exit forward(const Command& command, const ReadOptions& read, const Tool& tool) {
-  require(command.data || !command.fit.empty(), Exit::kUsage,
-          "give --data to simulate, --fit to refine, or both");
-  require(!command.save || !command.fit.empty(), Exit::kUsage,
-          "--save is for the model that --fit refines");
   AxisMachine machine = parse_axis_machine(read_json(command.model, Exit::kModel),
                                            command.model.string(), Exit::kModel);
   const std::size_t axis = axis_of(machine, command.axis);
@@ -116,16 +111,21 @@ int main(int argc, char** argv) {
   Tool tool("dcnn-forward", "Simulates the motion that a machine's drive makes.", kExamples);
   Command command;
   tool.option("model", command.model, "model.json of a machine, by dcnn-diagnose --system")
-      .required();
-  tool.option("--data", command.data, "recording whose drive is simulated");
+      .required()
+      .holds({FileKind::kMachine});
+  tool.option("--data", command.data, "recording whose drive is simulated")
+      .holds({FileKind::kRecording});
   tool.option("--axis", command.axis, "name of the axis, where there are several");
   tool.output("--out", command.out, "CSV to write: the input columns and <position>_hat");
-  tool.option("--fit", command.fit, "recordings that the simulated position is to follow");
+  tool.option("--fit", command.fit, "recordings that the simulated position is to follow")
+      .holds({FileKind::kRecording});
   tool.output("--save", command.save, "the model with the refined numbers");
   const ReadFlags read(tool);
   tool.check([&] {
-    expect_kind("dcnn-forward", command.model, {FileKind::kSimulator, FileKind::kSystem});
-    if (command.data) expect_kind("--data", *command.data, {FileKind::kRecording});
+    require(command.data || !command.fit.empty(), Exit::kUsage,
+            "give --data to simulate, --fit to refine, or both");
+    require(!command.save || !command.fit.empty(), Exit::kUsage,
+            "--save is for the model that --fit refines");
   });
   return tool.run(argc, argv, [&] { return forward(command, read.options(), tool); });
 }

@@ -124,9 +124,11 @@ void add_arm_options(Tool& tool, Command& command, const Option& system) {
       .needs(system)
       .group("Arms");
   tool.option("--loaded", command.arm.loaded, "recordings with a payload at the flange")
+      .holds({FileKind::kRecording})
       .needs(system)
       .group("Arms");
   tool.option("--holdout", command.arm.holdout, "recordings that decide nothing: the error on them")
+      .holds({FileKind::kRecording})
       .needs(system)
       .group("Arms");
   tool.flag("--drive-gains", command.arm.drive_gains,
@@ -144,18 +146,19 @@ int main(int argc, char** argv) {
             kExamples);
   Command command;
   bool rigid_alone = false;
-  const auto logs =
-      tool.option("logs", command.request.logs,
-                  "recordings: poses with fx,fy,fz (and tx,ty,tz), moving or at rest");
-  const auto from = tool.option("--from", command.from,
-                                "export the tool of this sim.json; nothing is identified");
+  const auto logs = tool.option("logs", command.request.logs,
+                                "recordings: poses with fx,fy,fz (and tx,ty,tz), moving or at rest")
+                        .holds({FileKind::kRecording});
+  const auto from =
+      tool.option("--from", command.from, "export the tool of this sim.json; nothing is identified")
+          .holds({FileKind::kSimulator});
   const auto out =
       tool.output("--out", command.out, "sim.json to write (of an arm: its description)");
   tool.output("--report", command.report, "folder for all numbers with their intervals",
               {"identify.json", "identify.txt"});
   tool.option("--mounting", command.mounting,
               "how the sensor is turned against the pose frame: rx ry rz [rad] (else estimated)")
-      .values(3);
+      .values(3, "numbers rx ry rz [rad]");
   tool.flag("--rigid-alone", rigid_alone,
             "fit no friction, lag, cable or sensor fault beside the tool");
   tool.option("--export", command.formats, "write the payload for others")
@@ -166,6 +169,7 @@ int main(int argc, char** argv) {
   const auto system = tool.option("--system", command.arm.system,
                                   "a whole arm: joints' columns and DH table (JSON, \"kind\": "
                                   "\"axes\")")
+                          .holds({FileKind::kSystem})
                           .group("Arms");
   add_arm_options(tool, command, system);
   const ReadFlags read(tool);

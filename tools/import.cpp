@@ -193,7 +193,8 @@ int main(int argc, char** argv) {
   Request request;
   tool.option("logs", request.logs, "logs: " + known_formats());
   tool.flag("--dry-run", request.dry_run, "print what is found and write nothing");
-  tool.option("--recipe", request.recipe, "import.json of an earlier log of the same robot");
+  tool.option("--recipe", request.recipe, "import.json of an earlier log of the same robot")
+      .holds({FileKind::kRecipe});
   tool.flag("--join", request.join, "all logs are parts of one recording");
   tool.flag("--assume", request.assume, "take units and clocks as guessed by size");
   request.resample = tool.option("--resample", request.resample_hz,

@@ -41,7 +41,8 @@ int main(int argc, char** argv) {
   double seconds = 0.0;
   Ends identifier{"5302", "5301"}, sensor{"5303", "5304"};
   tool.option("--role", role, "sensor or controller").required().one_of({"sensor", "controller"});
-  tool.option("--config", config_path, "configuration as for dcnn-teleop");
+  tool.option("--config", config_path, "configuration as for dcnn-teleop")
+      .holds({FileKind::kTeleop});
   tool.option("--seconds", seconds, "shorter than the configuration's duration").positive();
   tool.option("--key-file", key_file, "the key of this run, the same for all").required();
   tool.option("--identifier-listen", identifier.listen, "own address towards dcnn-run")

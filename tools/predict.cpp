@@ -80,8 +80,10 @@ int main(int argc, char** argv) {
   Tool tool("dcnn-predict", "Predicts the tool's force for every row of a recording.", kExamples);
   std::filesystem::path model;
   std::optional<std::filesystem::path> data, out, onnx;
-  tool.option("model", model, "model file (.dcnn), or a simulator (.json)").required();
-  tool.option("--data", data, "recording");
+  tool.option("model", model, "model file (.dcnn), or a simulator (.json)")
+      .required()
+      .holds({FileKind::kModel, FileKind::kSimulator, FileKind::kMachine, FileKind::kSystem});
+  tool.option("--data", data, "recording").holds({FileKind::kRecording});
   tool.output(
           "--out", out,
           "CSV to write: the input columns, <target>_hat, and novelty from models that measure it")
@@ -93,9 +95,7 @@ int main(int argc, char** argv) {
   const ReadFlags read(tool);
 
   tool.check([&] {
-    expect_kind("dcnn-predict", model, {FileKind::kModel, FileKind::kSimulator, FileKind::kSystem});
     if (onnx) expect_kind("--onnx", model, {FileKind::kModel});
-    if (data) expect_kind("--data", *data, {FileKind::kRecording});
   });
   return tool.run(argc, argv, [&] {
     require(data.has_value() == out.has_value() && (data || onnx), Exit::kUsage,

@@ -109,9 +109,11 @@ int main(int argc, char** argv) {
   request.scene = "configs/sim/embedded.json";
   auto scene =
       tool.option("--scene", request.scene, "simulation of recordings named train and test (JSON)")
+          .holds({FileKind::kScene})
           .with_default();
   tool.option("--data", request.data, "own recordings instead: one to train on, one to test on")
-      .values(2)
+      .values(2, "recordings, one to train on and one to test on")
+      .holds({FileKind::kRecording})
       .excludes(scene);
   tool.option("--models", request.models, "which models (default: all of the preset)");
   tool.option("--augment-only", request.augment_only,

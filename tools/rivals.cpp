@@ -6,7 +6,6 @@
 #include "dcnn/experiment/configuration.h"
 #include "dcnn/experiment/remainder.h"
 #include "dcnn/models/model.h"
-#include "support/file_kind.h"
 #include "support/tool.h"
 
 namespace {
@@ -41,9 +40,13 @@ int main(int argc, char** argv) {
   std::filesystem::path out;
   std::vector<std::string> networks;
   std::string preset = "quick";
-  tool.option("--sim", request.simulator, "simulator of the tool (JSON)").required();
-  tool.option("--fit", request.fit, "recordings to learn from").required();
-  tool.option("--holdout", request.holdout, "recordings to judge by");
+  tool.option("--sim", request.simulator, "simulator of the tool (JSON)")
+      .required()
+      .holds({FileKind::kSimulator});
+  tool.option("--fit", request.fit, "recordings to learn from")
+      .required()
+      .holds({FileKind::kRecording});
+  tool.option("--holdout", request.holdout, "recordings to judge by").holds({FileKind::kRecording});
   std::vector<std::string> models;
   for (const ModelKind* kind : model_kinds()) models.emplace_back(kind->name);
   tool.option("--networks", networks, "models of dcnn-train that learn the remainder too")
@@ -53,11 +56,6 @@ int main(int argc, char** argv) {
               {"stlsq*", "lasso*", "omp*", "greedy*"})
       .required();
 
-  tool.check([&] {
-    expect_kind("--sim", request.simulator, {FileKind::kSimulator});
-    for (const auto& file : request.fit) expect_kind("--fit", file, {FileKind::kRecording});
-    for (const auto& file : request.holdout) expect_kind("--holdout", file, {FileKind::kRecording});
-  });
   return tool.run(argc, argv, [&] {
     Json reports = rivals::run(request);
     for (const std::string& network : networks) {

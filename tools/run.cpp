@@ -6,7 +6,6 @@
 #include "dcnn/runtime/open.h"
 #include "dcnn/runtime/realtime.h"
 #include "dcnn/runtime/serve.h"
-#include "support/file_kind.h"
 #include "support/interrupt.h"
 #include "support/tool.h"
 
@@ -45,9 +44,12 @@ int main(int argc, char** argv) {
   bool lines = false;
   double contact = 0.0, hours = 0.025;
   int priority = 0;
-  tool.option("--model", files.model, "trained with --online (.dcnn), or a simulator (.json)");
-  tool.option("--fallback", files.fallback, "simulator that steps in for the model (model.json)");
-  tool.option("--calibration", files.calibration, "sensor frame to robot frame (dcnn-calibrate)");
+  tool.option("--model", files.model, "trained with --online (.dcnn), or a simulator (.json)")
+      .holds({FileKind::kModel, FileKind::kSimulator});
+  tool.option("--fallback", files.fallback, "simulator that steps in for the model (model.json)")
+      .holds({FileKind::kSimulator});
+  tool.option("--calibration", files.calibration, "sensor frame to robot frame (dcnn-calibrate)")
+      .holds({FileKind::kCalibration});
   auto in = tool.flag("--stdin", lines, "rows on standard input, answers on standard output");
   auto listen = tool.option("--listen", serve.listen, "own address, HOST:PORT or PORT (loopback)");
   auto peer = tool.option("--peer", serve.peer, "the robot's address; nobody else is heard");
@@ -81,7 +83,8 @@ int main(int argc, char** argv) {
       .between(1, 99);
   auto rehearse_option = tool.option("--rehearse", rehearsal,
                                      "play a recording to itself as "
-                                     "fast as it goes; times, states, memory");
+                                     "fast as it goes; times, states, memory")
+                             .holds({FileKind::kRecording});
   tool.option("--hours", hours, "simulated hours of the rehearsal")
       .positive()
       .needs(rehearse_option)
@@ -97,11 +100,6 @@ int main(int argc, char** argv) {
   in.excludes(listen).excludes(rehearse_option);
   listen.excludes(rehearse_option);
 
-  tool.check([&] {
-    expect_kind("--model", files.model, {FileKind::kModel, FileKind::kSimulator});
-    expect_kind("--fallback", files.fallback, {FileKind::kSimulator});
-    expect_kind("--calibration", files.calibration, {FileKind::kCalibration});
-  });
   return tool.run(argc, argv, [&] {
     if (!make_key.empty()) {
       make_packet_key(make_key);

@@ -3,7 +3,6 @@
 #include "dcnn/physics/axis_machine.h"
 #include "dcnn/physics/scenario.h"
 #include "dcnn/physics/simulator.h"
-#include "support/file_kind.h"
 #include "support/tool.h"
 
 namespace {
@@ -66,12 +65,15 @@ int main(int argc, char** argv) {
             "torques of arms.",
             kExamples);
   std::filesystem::path config, sim, motion, out;
-  auto from_config = tool.option("--config", config, "what to simulate (JSON)");
+  auto from_config =
+      tool.option("--config", config, "what to simulate (JSON)").holds({FileKind::kScene});
   auto from_sim =
       tool.option("--sim", sim,
                   "simulator: sim.json, a corrected model.json, or an arm's description with the "
-                  "bodies of its links");
-  auto with_motion = tool.option("--motion", motion, "recording whose motion is simulated");
+                  "bodies of its links")
+          .holds({FileKind::kSimulator, FileKind::kMachine, FileKind::kSystem});
+  auto with_motion = tool.option("--motion", motion, "recording whose motion is simulated")
+                         .holds({FileKind::kRecording});
   from_sim.needs(with_motion).excludes(from_config);
   with_motion.needs(from_sim);
   tool.output("--out", out, "folder (with --config) or CSV file (with --motion) to write",
@@ -80,11 +82,6 @@ int main(int argc, char** argv) {
       .file_with(with_motion);
   const ReadFlags read(tool);
 
-  tool.check([&] {
-    expect_kind("--config", config, {FileKind::kScene});
-    expect_kind("--sim", sim, {FileKind::kSimulator, FileKind::kSystem});
-    expect_kind("--motion", motion, {FileKind::kRecording});
-  });
   return tool.run(argc, argv, [&] {
     require(!config.empty() || !sim.empty(), Exit::kUsage, "give --config, or --sim with --motion");
     const Json summary = sim.empty() ? simulate_folder(config, out, tool.common().seed)

@@ -37,10 +37,13 @@ int main(int argc, char** argv) {
             kExamples);
   std::filesystem::path config_path, corrected, calibration, out;
   std::vector<std::filesystem::path> models;
-  tool.option("--config", config_path, "configuration (default: that of configs/teleop.json)");
-  tool.option("--model", models, "trained models (.dcnn)");
-  tool.option("--corrected", corrected, "simulator that compensates (model.json of dcnn-diagnose)");
-  tool.option("--calibration", calibration, "sensor frame to robot frame (dcnn-calibrate)");
+  tool.option("--config", config_path, "configuration (default: that of configs/teleop.json)")
+      .holds({FileKind::kTeleop});
+  tool.option("--model", models, "trained models (.dcnn)").holds({FileKind::kModel});
+  tool.option("--corrected", corrected, "simulator that compensates (model.json of dcnn-diagnose)")
+      .holds({FileKind::kSimulator});
+  tool.option("--calibration", calibration, "sensor frame to robot frame (dcnn-calibrate)")
+      .holds({FileKind::kCalibration});
   tool.output("--out", out, "folder for report.html, teleop.json, SVG and CSV",
               {"report.html", "teleop.json", "*.svg", "*.csv"})
       .required();

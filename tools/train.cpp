@@ -138,18 +138,23 @@ int main(int argc, char** argv) {
   std::string list;
   for (const ModelKind* kind : model_kinds())
     list += std::string("\n  ") + kind->name + ": " + kind->summary;
-  tool.option("--train", request.training, "recordings to learn from").required();
+  tool.option("--train", request.training, "recordings to learn from")
+      .required()
+      .holds({FileKind::kRecording});
   tool.option("--valid", request.validation,
-              "recordings for validation (default: the last 15 % of each training recording)");
-  tool.option("--config", flags.file, "configuration (JSON)");
+              "recordings for validation (default: the last 15 % of each training recording)")
+      .holds({FileKind::kRecording});
+  tool.option("--config", flags.file, "configuration (JSON)").holds({FileKind::kTraining});
   tool.option("--preset", flags.preset, "fills what the configuration leaves out").one_of(kPresets);
   tool.option("--model", flags.model,
               "which identifier:" + list +
                   "\n  auto: the best of rigid, mlp and dcnn on rows that none was fitted to");
-  tool.option("--system", flags.system, "description of another machine (JSON)");
+  tool.option("--system", flags.system, "description of another machine (JSON)")
+      .holds({FileKind::kSystem});
   tool.option("--epochs", flags.epochs, "number of epochs").positive();
   tool.option("--base", request.base,
-              "simulator (sim.json or model.json) whose remainder is learned");
+              "simulator (sim.json or model.json) whose remainder is learned")
+      .holds({FileKind::kSimulator, FileKind::kMachine});
   tool.flag("--online", flags.online, "causal derivatives: required by dcnn-run and dcnn-teleop");
   const Option resume = tool.flag("--resume", request.resume, "go on from the last checkpoint");
   tool.output("--out", request.out, "model file to write; its run directory is beside it")

@@ -145,6 +145,7 @@ std::string read_file(const fs::path& path, std::size_t max_bytes, Exit exit) {
   struct stat info {};
   const bool known = ::fstat(fd.get(), &info) == 0;
   check(known, exit, path, "cannot read");
+  require(!S_ISDIR(info.st_mode), exit, path.string(), ": is a folder; name a file");
   require(S_ISREG(info.st_mode), exit, path.string(), ": is not a regular file");
   const auto size = static_cast<std::size_t>(info.st_size);
   require(size <= max_bytes, exit, path.string(), ": larger than ", max_bytes, " bytes");

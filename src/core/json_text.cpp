@@ -131,6 +131,8 @@ std::ostream& operator<<(std::ostream& out, const Json& json) { return out << js
 Json parse_json(std::string_view text, const std::string& where, Exit exit) {
   // The library takes a NUL for the end of the text and would ignore what follows.
   require(text.find('\0') == text.npos, exit, where, ": has a NUL byte; it is not a JSON text");
+  require(text.find_first_not_of(" \t\r\n") != text.npos, exit, where,
+          ": is empty; a JSON document is needed");
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {

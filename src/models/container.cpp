@@ -72,7 +72,8 @@ TensorEntry describe(const StoredTensor& tensor, std::uint64_t begin) {
                                                                     tensor.shape.end(), Index{1},
                                                                     std::multiplies<>()));
         require(all_finite(values), Exit::kFailure, "model not written: tensor ",
-                quoted(tensor.name), " is not finite: the recordings' numbers are beyond what can be learned, or the "
+                quoted(tensor.name),
+                " is not finite: the recordings' numbers are beyond what can be learned, or the "
                 "training diverged (lower training.lr)");
         entry.dtype = dtype_of(values);
         entry.end = begin + values.size() * sizeof(values[0]);
@@ -108,8 +109,7 @@ std::string_view header_of(std::string_view bytes, const std::string& where) {
   if (bytes.size() < kLengthBytes) reject_model(where, "too short for a model file");
   const auto length = load_little<std::uint64_t>(bytes.data());
   if (length > kMaxHeaderBytes || length > bytes.size() - kLengthBytes) {
-    reject_model(where,
-                 "not a model file, or cut off: its header length is " + std::to_string(length));
+    reject_model(where, "not a model file, or cut off");
   }
   return bytes.substr(kLengthBytes, length);
 }

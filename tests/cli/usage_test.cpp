@@ -57,6 +57,63 @@ TEST(FileOfAnotherKind, IsCalledByItsName) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+TEST(FileOfAnotherKind, IsCalledByItsNameByEveryProgram) {
+  const test::TemporaryFolder folder;
+  const std::string sim = kSampleFolder + "sim.json", csv = kSampleFolder + "test.csv",
+                    out = folder / "out";
+  expect_words(refusal("forward", {sim, "--data", csv}, 4),
+               {"sim.json: is a simulator of a tool on a wrist sensor", "dcnn-predict",
+                "dcnn-forward needs a corrected simulator of a machine", "dcnn-diagnose --system"});
+  expect_words(refusal("forward", {kConfigs + "systems/panda.json", "--data", csv}, 4),
+               {"is a description of a machine", "dcnn-forward needs a corrected simulator"});
+  expect_words(refusal("bench", {sim}, 4), {"is a simulator", "dcnn-train writes it"});
+  expect_words(refusal("teleop", {"--model", csv, "--out", out}, 4), {"--model needs a trained"});
+  expect_words(refusal("teleop", {"--config", sim, "--out", out}), {"configs/teleop.json"});
+  expect_words(refusal("train", {"--config", sim, "--train", csv, "--out", out}),
+               {"--config needs a configuration of a training"});
+  expect_words(refusal("train", {"--train", sim, "--out", out}, 3), {"--train needs a recording"});
+  expect_words(refusal("check", {csv, "--sim", csv}, 3), {"--sim needs a simulator"});
+  expect_words(refusal("identify", {sim, "--out", out}, 3), {"dcnn-identify needs a recording"});
+  expect_words(refusal("identify", {"--from", csv, "--export", "ur", "--export-to", out}, 3),
+               {"--from needs a simulator"});
+  expect_words(refusal("reproduce", {"--scene", sim, "--plan"}), {"--scene needs a scene"});
+  expect_words(refusal("calibrate", {"--static", sim, "--out", out}, 3), {"--static needs a rec"});
+  expect_words(refusal("design", {"--report", out, "--limits", sim, "--out", out}),
+               {"--limits needs the limits of a robot", "configs/limits/wrist.json"});
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(FileThatIsNone, IsRefusedWithWhatIsWanted) {
+  const test::TemporaryFolder folder;
+  const std::string csv = kSampleFolder + "test.csv", out = folder / "out",
+                    empty = folder / "empty.json", list = folder / "list.json";
+  std::ofstream{empty};
+  std::ofstream(list) << "[1, 2\n";
+  expect_words(refusal("diagnose", {"--sim", folder / "none.json", "--fit", csv, "--out", out}, 3),
+               {"does not exist; --sim needs a simulator", "dcnn-identify"});
+  expect_words(refusal("eval", {folder.path().string(), "--data", csv}, 4),
+               {"is a folder; dcnn-eval needs a trained model"});
+  expect_words(refusal("check", {csv, "--sim", empty}, 3), {"empty.json: is empty"});
+  expect_words(refusal("check", {list}, 3), {"list.json: is JSON", "needs a recording"});
+  expect_words(refusal("bench", {empty}, 4), {"empty.json: too short for a model file"});
+}
+
+TEST(WrongCountOfValues, IsToldInWords) {
+  expect_words(refusal("reproduce", {"--data", "a.csv"}),
+               {"--data takes 2 recordings, one to train on and one to test on, and got 1"});
+  expect_words(refusal("reproduce", {"--data", "a.csv", "b.csv", "c.csv"}), {"and got 3"});
+  expect_words(refusal("identify", {"a.csv", "--out", "o", "--mounting", "1", "2"}),
+               {"--mounting takes 3 numbers rx ry rz [rad], and got 2"});
+  expect_words(refusal("sim", {"--out", "o", "--config"}),
+               {"--config needs a value: --config FILE"});
+  expect_words(refusal("sim", {"--config", "a", "--config", "b", "--out", "o"}),
+               {"--config is given 2 times, and takes one value"});
+  expect_words(refusal("train", {"--train", "a", "--out", "o", "--seed", "1.5"}),
+               {"--seed: '1.5' is not a whole number"});
+  expect_words(refusal("sim", {"--config", "a", "--sim", "b", "--motion", "c", "--out", "o"}),
+               {"--config and --sim exclude one another"});
+}
+
 TEST(NumberOutOfRange, IsRefusedWithItsBounds) {
   const test::TemporaryFolder folder;
   const std::string sim = kSampleFolder + "sim.json", key = folder / "key";

@@ -108,10 +108,10 @@ void ImportFlags::add_frames(Tool& tool) {
       .with_default()
       .group(kFrames);
   tool.option("--wrench-turn", turn_, "logged frame in the sensor's: rx ry rz [rad]")
-      .values(3)
+      .values(3, "numbers rx ry rz [rad]")
       .group(kFrames);
   tool.option("--wrench-origin", origin_, "logged origin in the sensor's frame: x y z [m]")
-      .values(3)
+      .values(3, "numbers x y z [m]")
       .group(kFrames);
   tool.flag("--zeroed", zeroed_, "the sensor was set to zero when each recording began")
       .group(kFrames);

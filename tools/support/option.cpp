@@ -8,7 +8,9 @@
 namespace dcnn {
 namespace {
 
-bool is_number(const std::string& text, double* value) { return CLI::detail::lexical_cast(text, *value); }
+bool is_number(const std::string& text, double* value) {
+  return CLI::detail::lexical_cast(text, *value);
+}
 
 /// A check of a number that explains itself: "5000 is not between 1 and 1024".
 CLI::Validator number_check(const std::string& wanted, std::function<bool(double)> ok) {
@@ -46,7 +48,8 @@ Option Option::with_default() const {
 
 Option Option::between(int low, int high) const {
   const std::string bounds = std::to_string(low) + " and " + std::to_string(high);
-  option_->check(number_check("between " + bounds, [=](double v) { return v >= low && v <= high; }));
+  option_->check(
+      number_check("between " + bounds, [=](double v) { return v >= low && v <= high; }));
   row_->bounds = std::to_string(low) + " to " + std::to_string(high);
   return *this;
 }
@@ -78,9 +81,10 @@ Option Option::one_of(const std::vector<std::string>& words) const {
 Option Option::one_of(std::initializer_list<double> numbers) const {
   std::vector<std::string> words;
   for (const double number : numbers) words.push_back(CLI::detail::to_string(number));
-  option_->check(number_check("one of " + joined(words), [set = std::vector<double>(numbers)](double v) {
-    return std::find(set.begin(), set.end(), v) != set.end();
-  }));
+  option_->check(
+      number_check("one of " + joined(words), [set = std::vector<double>(numbers)](double v) {
+        return std::find(set.begin(), set.end(), v) != set.end();
+      }));
   row_->choices = words;
   return *this;
 }
@@ -91,8 +95,15 @@ Option Option::value_optional() const {
   return *this;
 }
 
-Option Option::values(int count) const {
+Option Option::values(int count, const std::string& counted) const {
   option_->expected(count);
+  row_->count = count;
+  row_->counted = counted;
+  return *this;
+}
+
+Option Option::holds(const std::vector<FileKind>& kinds) const {
+  row_->kinds = kinds;
   return *this;
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "support/file_kind.h"
+
 namespace CLI {
 class App;
 class Option;
@@ -27,8 +29,10 @@ class Option {
   Option not_negative() const;
   Option one_of(const std::vector<std::string>& words) const;
   Option one_of(std::initializer_list<double> numbers) const;
-  /// Takes exactly so many values.
-  Option values(int count) const;
+  /// Takes exactly so many values; `counted` says what they are: "numbers rx ry rz [rad]".
+  Option values(int count, const std::string& counted) const;
+  /// Its files are of one of these kinds; another one, where it is recognised, is refused by name.
+  Option holds(const std::vector<FileKind>& kinds) const;
   /// Stands without a value too.
   Option value_optional() const;
   Option separated_by_commas() const;

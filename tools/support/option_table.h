@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "support/file_kind.h"
+
 namespace dcnn {
 
 struct OptionRow {
@@ -16,6 +18,9 @@ struct OptionRow {
   std::string standard = {};  ///< what holds where it is not given
   std::string group = "Options";
   bool required = false, many = false, optional_value = false;
+  int count = 0;                     ///< exactly so many values; 0: one, or any number
+  std::string counted = {};          ///< what these are, "numbers rx ry rz"
+  std::vector<FileKind> kinds = {};  ///< what its files must be, where that is recognised
 
   bool is_argument() const { return names.front().front() != '-'; }
   bool is_path() const { return value == "FILE" || value == "DIR"; }

@@ -33,6 +33,7 @@ ReadFlags::ReadFlags(Tool& tool) {
           .group(kReading);
   tool.option("--recipe", recipe_,
               "import.json of dcnn-import: recordings are logs of any format that it reads")
+      .holds({FileKind::kRecipe})
       .group(kReading);
 }
 

@@ -11,6 +11,7 @@
 #include "dcnn/core/options.h"
 #include "dcnn/core/parallel.h"
 #include "dcnn/experiment/provenance.h"
+#include "support/usage_fault.h"
 
 namespace dcnn {
 
@@ -175,11 +176,22 @@ int Tool::parse(int argc, char** argv) {
   try {
     app_->parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    fault = error.what();
+    fault = usage_fault(error, rows_);
   }
   if (const std::string unknown = unknown_word(); !unknown.empty()) fault = unknown;
   if (fault.empty()) return -1;
   return fail_line(fault + "; see " + name_ + " --help", Exit::kUsage);
+}
+
+/// Calls `check` for every file of known kind that the command line names.
+void Tool::check_inputs(const FileCheck& check) const {
+  for (const OptionRow& row : rows_) {
+    if (row.kinds.empty()) continue;
+    const std::string& name = row.names.back();
+    for (const std::string& file : app_->get_option(name)->results()) {
+      check(row.is_argument() ? name_ : name, file, row.kinds);
+    }
+  }
 }
 
 namespace {
@@ -200,7 +212,9 @@ int Tool::run(int argc, char** argv, const std::function<Exit()>& body) {
   fix_blocking();
   try {
     for (const auto& check : checks_) check();
+    check_inputs(expect_kind);
     outputs_.claim(common_.force);
+    check_inputs(expect_file);
     set_provenance({command_line(argc, argv), name_ + " " DCNN_VERSION, outputs_.inputs()});
     const Exit exit = body();
     std::cout.flush();

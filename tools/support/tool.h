@@ -47,7 +47,8 @@ class Tool {
 
   const CommonFlags& common() const { return common_; }
 
-  /// Parses, claims the outputs, then calls `body`. Returns the exit code; every failure has become one line on stderr.
+  /// Parses, claims the outputs, then calls `body`. Returns the exit code; every failure has become
+  /// one line on stderr.
   int run(int argc, char** argv, const std::function<Exit()>& body);
 
   /// A line on stderr, unless --quiet.
@@ -62,6 +63,9 @@ class Tool {
   std::optional<int> answer(int argc, char** argv) const;
   int parse(int argc, char** argv);
   std::string unknown_word() const;
+  using FileCheck = void (*)(const std::string& place, const std::filesystem::path& file,
+                             const std::vector<FileKind>& wanted);
+  void check_inputs(const FileCheck& check) const;
   int fail_line(const std::string& message, Exit exit) const;
 
   std::string name_, summary_, examples_;
