@@ -19,6 +19,20 @@ constexpr const char* kExamples =
     "  dcnn-diagnose --sim sim.json --fit first.csv second.csv --out decided   # with what was "
     "recorded on it\n";
 
+/// A file of the folder that dcnn-diagnose wrote.
+Path file_of(const Path& folder, const char* name) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const char* is = !fs::exists(folder, error)          ? ": does not exist"
+                   : !fs::is_directory(folder, error)  ? ": is a file"
+                   : !fs::exists(folder / name, error) ? ": is a folder without "
+                                                       : nullptr;
+  if (is == nullptr) return folder / name;
+  fail(Exit::kData, folder.string(), is, fs::is_directory(folder, error) ? name : "",
+       "; --report takes the folder with report.json and model.json that dcnn-diagnose --sim "
+       "sim.json --fit log.csv --out FOLDER writes");
+}
+
 /// The design beside what the report has.
 void write_next_motion(const Path& folder, Json report, const Json& next, const Path& motion) {
   if (next.is_null()) return;
@@ -48,10 +62,10 @@ int main(int argc, char** argv) {
   tool.output("--out", out, "motion.csv to write: t, joints where the limits are of joints, pose")
       .required();
   return tool.run(argc, argv, [&] {
-    const Path file = report / "report.json";
+    const Path file = file_of(report, "report.json");
     request.where = file.string();
     request.report = read_json(file, Exit::kData);
-    request.model = read_json(report / "model.json", Exit::kData);
+    request.model = read_json(file_of(report, "model.json"), Exit::kData);
     request.limits = design::read_limits(limits);
     request.seed = tool.common().seed.value_or(1);
     Progress bar(tool.common().quiet);

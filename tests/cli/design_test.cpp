@@ -60,5 +60,21 @@ TEST_F(DesignTool, SaysInOneLineWhatIsWrong) {
   EXPECT_EQ(design().exit_code, 3);
 }
 
+TEST_F(DesignTool, SaysWhichFolderHoldsAReport) {
+  const auto refused = [&](const std::string& report, const std::string& words) {
+    const auto result = run("design", {"--report", report, "--limits", path("limits.json"), "--out",
+                                       path("motion.csv")});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_EQ(result.err.rfind("dcnn-design: " + report + ": " + words + "; --report takes", 0), 0U)
+        << result.err;
+    EXPECT_NE(result.err.find("dcnn-diagnose --sim"), std::string::npos) << result.err;
+  };
+  refused(path("nowhere"), "does not exist");
+  refused(path("limits.json"), "is a file");
+  refused(folder_.path().string(), "is a folder without report.json");
+  std::filesystem::remove(folder_ / "report" / "model.json");
+  refused(path("report"), "is a folder without model.json");
+}
+
 }  // namespace
 }  // namespace dcnn
