@@ -70,7 +70,7 @@ class Observer {
 
 /// RMSE per target of one row of the comparison.
 void print_row(const std::string& name, const Json& rmse) {
-  if (rmse.is_null()) return;
+  if (rmse.size() == 0) return;  // null, or no noise among poses at rest
   std::cout << std::left << std::setw(24) << name << std::setprecision(4);
   for (const double value : rmse.get<std::vector<double>>()) std::cout << std::setw(12) << value;
   std::cout << "\n";

@@ -182,7 +182,8 @@ void check_regular(Recording& recording, const std::string& file) {
   if (static_cast<double>(lost) > kMostLost * static_cast<double>(steps)) off += lost;
   require(static_cast<double>(off) <= kTolerated * static_cast<double>(steps), Exit::kData,
           place(file, first), ": irregular clock: ", off, " of ", steps,
-          " steps are off by more than 20 % of the median ", recording.dt, " s; use --resample");
+          " steps are off by more than 20 % of the median ", recording.dt, " s; use --resample",
+          recording.dt < kPoses ? "" : ", or leave column 't' out of a list of poses at rest");
   if (lost == 0) return;
   std::ostringstream note;
   note << lost << " rows are lost, at most " << kGap - 1.0

@@ -204,9 +204,9 @@ Recording make_recording(SourceTable source, const std::filesystem::path& path,
   recording.table = std::move(source.table);
   recording.notes = std::move(source.notes);
   recording.zeroed = source.zeroed;
-  require(
-      recording.has("t") || options.static_list, Exit::kData, file,
-      ":1: column 't' is missing; log the time in seconds (only lists of static poses have none)");
+  require(recording.has("t") || options.static_list, Exit::kData, file,
+          ":1: column 't' is missing; log the time in seconds: a list of poses at rest, which has "
+          "none, is not enough here");
   const bool wrist = system.kind == System::Kind::kWrist;
   if (wrist) check_wrist_columns(recording, options.motion_only, file);
   if (!wrist) check_axis_columns(recording, system, options.motion_only, file);

@@ -1,5 +1,6 @@
 #include "dcnn/experiment/train.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -18,6 +19,19 @@
 namespace dcnn {
 namespace {
 
+bool has_time(const Table& table) {
+  return std::find(table.columns.begin(), table.columns.end(), "t") != table.columns.end();
+}
+
+/// Names of models that learn from lists of poses at rest.
+std::string kinds_for_lists() {
+  std::string list;
+  for (const ModelKind* kind : model_kinds()) {
+    if (kind->takes_static_lists) list += (list.empty() ? "" : ", ") + std::string(kind->name);
+  }
+  return list;
+}
+
 std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
                                 const TrainingRequest& request, const Configuration& configuration,
                                 const TrainingObserver& observer) {
@@ -25,7 +39,12 @@ std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
   read.static_list = configuration.kind->takes_static_lists;
   std::vector<Recording> recordings;
   for (const auto& path : paths) {
-    recordings.push_back(read_recording(path, read, configuration.system));
+    SourceTable source = read_table(path);
+    require(read.static_list || has_time(source.table), Exit::kData, path.string(),
+            ":1: column 't' is missing, so that this is a list of poses at rest, and ",
+            configuration.kind->name,
+            " learns from motion; log the time in seconds, or take --model ", kinds_for_lists());
+    recordings.push_back(make_recording(std::move(source), path, read, configuration.system));
     for (const auto& note : recordings.back().notes) {
       if (observer.note) observer.note(recordings.back().name + ": " + note);
     }

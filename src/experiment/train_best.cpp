@@ -42,7 +42,8 @@ Json choice(const std::vector<Tried>& tried, const Tried& best) {
                     {"relative_error", one.error},
                     {"validation_rmse", one.summary["validation_rmse"]}});
     if (one.model != best.model) {
-      words += (words.empty() ? "" : ", ") + one.model + " " + significant(100.0 * one.error, 3) + " %";
+      words +=
+          (words.empty() ? "" : ", ") + one.model + " " + significant(100.0 * one.error, 3) + " %";
     }
   }
   return {{"model", best.model},
@@ -67,12 +68,23 @@ std::optional<Tried> rigid_tool(const TrainingRequest& request, const Tried& lik
   return tool;
 }
 
+/// Without times: poses at rest, from which not every model learns.
+bool is_list(const fs::path& recording) {
+  const auto columns = read_table(recording).table.columns;
+  return std::find(columns.begin(), columns.end(), "t") == columns.end();
+}
+
 }  // namespace
 
 TrainingOutcome train_best(const TrainingRequest& request, const TrainingObserver& observer) {
   const fs::path folder = run_directory(request.out);
   std::vector<Tried> tried;
+  const bool list = is_list(request.training.front());
   for (const char* model : kTried) {
+    if (list && !model_kind(model, Exit::kUsage).takes_static_lists) {
+      if (observer.note) observer.note(std::string(model) + " is left out: it learns from motion");
+      continue;
+    }
     TrainingRequest one = request;
     one.configuration.model = model;
     if (std::string(model) == "rigid") one.configuration.epochs.reset();  // has none

@@ -55,6 +55,9 @@ extern const ModelKind mlp_model;
 const ModelKind mlp_model{"mlp",
                           "one layer of 64 units on the standardised features, Adam (not the "
                           "paper's: preset paper is fair)",
-                          mlp_preset, make_mlp, load_network};
+                          mlp_preset,
+                          make_mlp,
+                          load_network,
+                          true};
 
 }  // namespace dcnn

@@ -39,10 +39,12 @@ std::unique_ptr<Model> load_shallow(const Container& file, const std::string& wh
 }  // namespace
 
 extern const ModelKind ffnn_s_model, ffnn_m_model, cfnn_s_model, cfnn_m_model;
-const ModelKind ffnn_s_model{"ffnn-s", "feed-forward, 20 tanh units, Levenberg-Marquardt",
-                             small_preset, make_ffnn_s, load_shallow};
-const ModelKind ffnn_m_model{"ffnn-m", "feed-forward, 9 and 6 tanh units, Levenberg-Marquardt",
-                             medium_preset, make_ffnn_m, load_shallow};
+const ModelKind ffnn_s_model{"ffnn-s",     "feed-forward, 20 tanh units, Levenberg-Marquardt",
+                             small_preset, make_ffnn_s,
+                             load_shallow, true};
+const ModelKind ffnn_m_model{"ffnn-m",      "feed-forward, 9 and 6 tanh units, Levenberg-Marquardt",
+                             medium_preset, make_ffnn_m,
+                             load_shallow,  true};
 const ModelKind cfnn_s_model{"cfnn-s", "cascade-forward, 20 tanh units, Levenberg-Marquardt",
                              small_preset, make_cfnn_s, load_shallow};
 const ModelKind cfnn_m_model{"cfnn-m", "cascade-forward, 9 and 6 tanh units, Levenberg-Marquardt",

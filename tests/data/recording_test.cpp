@@ -223,6 +223,26 @@ TEST(Recording, OfPosesWithTheirTimesHasNoClockBetweenThem) {
   expect_error(motion, {"write t in seconds"}, options);
 }
 
+/// seconds make a clock, but a remedy for clocks is none for them.
+TEST(Recording, OfJointsAtRestHasNoTimes) {
+  const System system = parse_system(
+      Json::parse(
+          R"({"kind":"axes","axes":[{"name":"a","measured":"tau","unit":"N*m","position":"q"}]})"),
+      "s.json");
+  ReadOptions lists;
+  lists.static_list = true;
+  const std::string text = "q,tau\n0,1\n1,2\n-1,3\n";
+  EXPECT_EQ(read(text, lists, system).dt, 0.0);
+  const auto refused = [&](const std::string& log, const ReadOptions& options) {
+    return error_of([&] { read(log, options, system); }, Exit::kData);
+  };
+  const std::string untimed = refused(text, {});
+  EXPECT_TRUE(contains(untimed, "log the time in seconds")) << untimed;
+  EXPECT_FALSE(contains(untimed, "only lists")) << untimed;
+  const std::string timed = refused("t,q,tau\n0,0,1\n9,1,2\n21,-1,3\n60,2,1\n", lists);
+  EXPECT_TRUE(contains(timed, "leave column 't' out of a list of poses at rest")) << timed;
+}
+
 TEST(Recording, RenormalisesQuaternionsAndRejectsBadOnes) {
   const std::string head = "qw,qx,qy,qz,fx,fy,fz\n0.5,0.5,0.5,0.5,1,2,3\n";
   ReadOptions options;
