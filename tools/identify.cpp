@@ -6,6 +6,7 @@
 #include "dcnn/identification/arm.h"
 #include "dcnn/identification/payload.h"
 #include "dcnn/physics/simulator.h"
+#include "support/doctor.h"
 #include "support/tool.h"
 
 namespace {
@@ -74,7 +75,17 @@ void write_report(const Command& command, const Identification& result) {
   write_file(command.report / "identify.txt", to_text(result));
 }
 
-Exit identify(Command& command, const Tool& tool) {
+/// Stops where the log is certainly misread, so that no number would be the tool's. Signs and axes
+/// of the force, the mounting, a lag, an offset and a missing weight are what is identified, or
+/// told beside it.
+void examine(const Command& command, const Doctor& doctor, const Tool& tool) {
+  doctor.examine(
+      tool, {command.request.logs, command.request.read, "", ""},
+      {"reaction", "force_sign", "force_axes", "mounting", "compensated", "delay", "zeroed"});
+}
+
+Exit identify(Command& command, const Doctor& doctor, const Tool& tool) {
+  examine(command, doctor, tool);
   if (!command.mounting.empty()) {
     command.request.mounting_rpy =
         Eigen::Vector3d(command.mounting[0], command.mounting[1], command.mounting[2]);
@@ -173,6 +184,7 @@ int main(int argc, char** argv) {
                           .group("Arms");
   add_arm_options(tool, command, system);
   const ReadFlags read(tool);
+  const Doctor doctor(tool);
 
   return tool.run(argc, argv, [&] {
     require(command.formats.empty() == command.export_to.empty(), Exit::kUsage,
@@ -189,6 +201,6 @@ int main(int argc, char** argv) {
     if (system.given()) return identify_joints(command, tool);
     command.request.read = read.options();
     command.request.laws = !rigid_alone;
-    return identify(command, tool);
+    return identify(command, doctor, tool);
   });
 }

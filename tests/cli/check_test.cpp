@@ -55,6 +55,24 @@ TEST(CheckTool, ACertainFaultStopsATrainingUnlessItIsAccepted) {
   EXPECT_EQ(with({"--position-unit", "mm"}).exit_code, 0);
 }
 
+TEST(CheckTool, ForcesInTheBaseFrameAreNotIdentifiedInSilence) {
+  const test::TemporaryFolder folder;
+  make_log(folder, "base_frame");
+  const std::string log = (folder / "log.csv").string(), out = (folder / "found.json").string();
+  const auto stopped = run("identify", {log, "--out", out});
+  EXPECT_EQ(stopped.exit_code, 3);
+  EXPECT_TRUE(contains(stopped.err, "base frame") &&
+              contains(stopped.err, "dcnn-import LOG --wrench-frame base --out FOLDER") &&
+              contains(stopped.err, "--accept base_frame"))
+      << stopped.err;
+  EXPECT_FALSE(std::filesystem::exists(out));
+  EXPECT_EQ(run("identify", {log, "--out", out, "--accept", "base_frame"}).exit_code, 0);
+  const auto turned = run("import", {log, "--wrench-frame", "base", "--out", folder / "turned"});
+  ASSERT_EQ(turned.exit_code, 0) << turned.err;
+  const auto mended = run("identify", {folder / "turned/log.csv", "--out", out, "--force"});
+  EXPECT_EQ(mended.exit_code, 0) << mended.err;
+}
+
 TEST(CheckTool, ALikelyFaultIsTheFirstLineOfADiagnosis) {
   const test::TemporaryFolder folder;
   make_log(folder, "gaps");

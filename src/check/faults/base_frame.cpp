@@ -14,7 +14,14 @@ void base_frames(const Log& log, const Reading& base, std::vector<Reading>& out)
 
 }  // namespace
 
-const FaultKind base_frame_fault{"base_frame", true, "log the force as the sensor reads it, or turn it by the pose",
-                                 "", nullptr, base_frames, true};
+const FaultKind base_frame_fault{
+    "base_frame",
+    true,
+    "log the force as the sensor reads it, or turn it by the pose: dcnn-import LOG "
+    "--wrench-frame base --out FOLDER",
+    "",
+    nullptr,
+    base_frames,
+    true};
 
 }  // namespace dcnn::check
