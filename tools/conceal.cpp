@@ -154,6 +154,13 @@ int main(int argc, char** argv) {
       .needs(what);
   const ReadFlags read(tool);
 
+  tool.check([&] {
+    if (!score || out.empty() || seal.empty()) return;
+    require(std::filesystem::exists(out / "seal.sha256"), Exit::kData, out.string(),
+            ": holds no seal.sha256; --score takes the folder that dcnn-conceal --out wrote");
+    require(std::filesystem::exists(seal), Exit::kData, seal.string(),
+            ": does not exist; --seal names the file of answers that dcnn-conceal --seal wrote");
+  });
   return tool.run(argc, argv, [&] {
     if (list) {
       for (const std::string& kind : conceal::faulty_kinds()) std::cout << kind << "\n";

@@ -110,6 +110,9 @@ class Importer {
     if (!tool_.common().json) std::cout << describe(log, proposal_.recipe) << std::flush;
     for (const auto& note : log.notes) tool_.note("  note: " + note);
     for (const auto& note : proposal_.notes) tool_.note("  note: " + note);
+    if (!wishes.arm.urdf.empty() && proposal_.recipe.orientation.kind != "joints") {
+      tool_.note("  note: --urdf is not used: the log has an orientation of its own");
+    }
     if (!request_.dry_run) {
       demand_answers(proposal_, request_.assume, log.file);
       return show_offset(log);

@@ -66,7 +66,10 @@ void farthest(const urdf::LinkConstSharedPtr& link, int joints, int& most, std::
 
 JointChain read_urdf_chain(const std::filesystem::path& path, const std::string& wanted) {
   const std::string file = path.string();
-  const auto model = urdf::parseURDF(read_file(path, kMostUrdfBytes, Exit::kData));
+  const std::string text = read_file(path, kMostUrdfBytes, Exit::kData);
+  require(text.find("<robot") != text.npos, Exit::kData, file,
+          ": is no URDF, for it has no <robot>; give the robot's description in XML");
+  const auto model = urdf::parseURDF(text);
   require(model != nullptr, Exit::kData, file, ": is no URDF that liburdfdom can read");
   std::string tip = wanted;
   int most = 0;

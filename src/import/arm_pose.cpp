@@ -53,7 +53,10 @@ ChainJoint chain_joint(const urdf::Joint& joint, const std::string& file) {
 
 /// Joints from the base (the root where none is named) to the link.
 std::vector<ChainJoint> read_chain(const ArmRule& rule) {
-  const auto model = urdf::parseURDF(read_file(rule.urdf, kMostUrdfBytes, Exit::kData));
+  const std::string text = read_file(rule.urdf, kMostUrdfBytes, Exit::kData);
+  require(text.find("<robot") != text.npos, Exit::kData, rule.urdf,
+          ": is no URDF, for it has no <robot>; give the robot's description in XML");
+  const auto model = urdf::parseURDF(text);
   require(model != nullptr, Exit::kData, rule.urdf, ": is no URDF that liburdfdom can read");
   auto link = model->getLink(rule.link);
   std::string all;

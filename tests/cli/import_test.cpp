@@ -89,6 +89,17 @@ TEST(ImportTool, SaysInOneLineWhatItMustKnow) {
   EXPECT_EQ(run("import", {(folder / "none.bag").string(), "--dry-run"}).exit_code, 3);
 }
 
+TEST(ImportTool, SaysThatARobotDescriptionIsNotUsed) {
+  const test::TemporaryFolder folder;
+  test::spill(folder / "log.csv",
+              "t,alpha,beta,gamma,fx,fy,fz\n0,0,0,0.1,1,2,3\n0.1,0,0,0.2,1,2,3\n"
+              "0.2,0,0,0.3,1,2,3\n");
+  const auto result =
+      run("import", {folder / "log.csv", "--dry-run", "--urdf", "robot.urdf", "--link", "tool"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("--urdf is not used"), std::string::npos) << result.err;
+}
+
 /// The commands of the page, in the order in which a reader comes to them.
 TEST(ImportTool, CommandsOfThePageRunAsTheyStandThere) {
   const test::TemporaryFolder folder;

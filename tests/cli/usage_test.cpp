@@ -96,6 +96,19 @@ TEST(FileThatIsNone, IsRefusedWithWhatIsWanted) {
   expect_words(refusal("check", {csv, "--sim", empty}, 3), {"empty.json: is empty"});
   expect_words(refusal("check", {list}, 3), {"list.json: is JSON", "needs a recording"});
   expect_words(refusal("bench", {empty}, 4), {"empty.json: too short for a model file"});
+  const std::string urdf = refusal(
+      "identify",
+      {csv, "--system", kConfigs + "systems/panda.json", "--urdf", csv, "--out", folder / "o.json"},
+      3);
+  if (urdf.find("reads no URDF") == urdf.npos) expect_words(urdf, {"test.csv: is no URDF"});
+}
+
+TEST(SealOfNothing, IsNotMadeWhereItShouldBeRead) {
+  const test::TemporaryFolder folder;
+  const std::string set = folder / "set";
+  expect_words(refusal("conceal", {"--score", "--out", set, "--seal", folder / "seal.json"}, 3),
+               {"holds no seal.sha256; --score takes the folder that dcnn-conceal --out wrote"});
+  EXPECT_FALSE(std::filesystem::exists(set));
 }
 
 TEST(WrongCountOfValues, IsToldInWords) {
