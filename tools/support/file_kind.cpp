@@ -128,6 +128,14 @@ Exit exit_without(FileKind wanted) {
   }
 }
 
+/// Of the kinds that an option takes the one that an absent file was meant to be, by its name.
+FileKind meant(const std::vector<FileKind>& wanted, const std::filesystem::path& file) {
+  if (file.extension() != ".json") return wanted.front();
+  const auto document = std::find_if(wanted.begin(), wanted.end(),
+                                     [](FileKind kind) { return kind != FileKind::kModel; });
+  return document == wanted.end() ? wanted.front() : *document;
+}
+
 bool has(const std::vector<FileKind>& kinds, FileKind kind) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
@@ -152,7 +160,7 @@ void expect_file(const std::string& place, const std::filesystem::path& file,
                    : std::filesystem::is_directory(file, error) ? ": is a folder; "
                                                                 : nullptr;
   if (is != nullptr) {
-    fail(exit_without(wanted.front()), file.string(), is, place, " needs ", list_of(wanted));
+    fail(exit_without(meant(wanted, file)), file.string(), is, place, " needs ", list_of(wanted));
   }
 }
 
