@@ -10,7 +10,7 @@ namespace {
 
 constexpr Index kLongest = 64;   // rows
 constexpr Index kFewest = 20;    // changes
-constexpr double kShare = 0.95;  // of the distances; rows that were lost and bridged break some
+constexpr double kShare = 0.95;  // of the distances; lost rows break some
 
 /// Places of all rows on the clock, in steps: rows may be lost in between.
 std::vector<Index> places_of(const Recording& recording) {

@@ -1,4 +1,4 @@
-// Slow noise, louder towards low frequencies, against names that would stand for it.
+// Noise whose density grows towards low frequencies, against names that would be fitted to it.
 #include <algorithm>
 
 #include "diagnosis/axis_case.h"
@@ -49,13 +49,12 @@ bool Search::admit_slow_noise() {
   }
   const double plain = unlikely();
   in_slow_noise_ = true;
-  events_allowed_ = false;  // beside noise that wanders nothing tells one
+  events_allowed_ = false;  // an event has the spectrum of such noise
   settle(apart_);
   explore();
   if (unlikely() < plain && are_constant() && is_independent()) return true;
   in_slow_noise_ = false;
   events_allowed_ = true;
-  slow_.clear();
   study_ = study, smoothed_ = smoothed, other_filter_ = other_filter;
   tuned_ = tuned, ringing_ = ringing;
   settle(members);
