@@ -1,6 +1,5 @@
 #include "dcnn/experiment/train.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -18,10 +17,6 @@
 
 namespace dcnn {
 namespace {
-
-bool has_time(const Table& table) {
-  return std::find(table.columns.begin(), table.columns.end(), "t") != table.columns.end();
-}
 
 /// Names of models that learn from lists of poses at rest.
 std::string kinds_for_lists() {

@@ -6,6 +6,7 @@
 #include "dcnn/experiment/train.h"
 #include "experiment/markup.h"
 #include "experiment/references.h"
+#include "experiment/training_checks.h"
 
 namespace dcnn {
 namespace {
@@ -68,18 +69,12 @@ std::optional<Tried> rigid_tool(const TrainingRequest& request, const Tried& lik
   return tool;
 }
 
-/// Without times: poses at rest, from which not every model learns.
-bool is_list(const fs::path& recording) {
-  const auto columns = read_table(recording).table.columns;
-  return std::find(columns.begin(), columns.end(), "t") == columns.end();
-}
-
 }  // namespace
 
 TrainingOutcome train_best(const TrainingRequest& request, const TrainingObserver& observer) {
   const fs::path folder = run_directory(request.out);
   std::vector<Tried> tried;
-  const bool list = is_list(request.training.front());
+  const bool list = !has_time(read_table(request.training.front()).table);
   for (const char* model : kTried) {
     if (list && !model_kind(model, Exit::kUsage).takes_static_lists) {
       if (observer.note) observer.note(std::string(model) + " is left out: it learns from motion");

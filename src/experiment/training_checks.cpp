@@ -112,4 +112,8 @@ void check_training(const std::vector<Recording>& recordings, const Targets& tar
   }
 }
 
+bool has_time(const Table& table) {
+  return std::find(table.columns.begin(), table.columns.end(), "t") != table.columns.end();
+}
+
 }  // namespace dcnn
