@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "data/bridge.h"
 #include "data/limits.h"
 #include "data/spectral.h"
 #include "data/spline.h"
@@ -95,32 +96,6 @@ void by_spline(const Input& t, const Input& x, Output first, Output second) {
   for (Index i = 0; i < x.size(); ++i) first[i] = spline.slope(i);
 }
 
-/// Where the rows of a segment stand on a clock that ticks every dt: 0, 1, … but for lost rows.
-std::vector<Index> clock_places(const Eigen::VectorXd& t, const Segment& s, double dt) {
-  std::vector<Index> places{0};
-  for (Index i = s.begin + 1; i < s.end; ++i) {
-    const Index ticks = std::llround((t[i] - t[i - 1]) / dt);
-    places.push_back(places.back() + std::max<Index>(1, ticks));
-  }
-  return places;
-}
-
-/// The signal on every tick of the clock, lost rows by a cubic spline through the others.
-Eigen::VectorXd bridged(const Input& x, const std::vector<Index>& places) {
-  if (places.back() + 1 == x.size()) return x;
-  Eigen::VectorXd t(x.size()), all(places.back() + 1);
-  for (Index i = 0; i < x.size(); ++i) t[i] = static_cast<double>(places[std::size_t(i)]);
-  const Spline spline(t, x);
-  for (Index i = 0; i < x.size(); ++i) {
-    all[places[std::size_t(i)]] = x[i];
-    const Index next = i + 1 < x.size() ? places[std::size_t(i + 1)] : all.size();
-    for (Index k = places[std::size_t(i)] + 1; k < next; ++k) {
-      all[k] = spline.value(static_cast<double>(k), i);
-    }
-  }
-  return all;
-}
-
 void by_spectrum(const LowPass& filter, double dt, Output x, Output first, Output second) {
   const Smoothed smoothed = smooth(x, dt, filter);
   first = smoothed.first;
@@ -167,6 +142,7 @@ DerivativeSpec parse_derivative(Options options) {
   spec.window_s = options.number("window_s", spec.window_s, 0.0, 100.0);
   spec.cutoff_hz = options.number("cutoff_hz", spec.cutoff_hz, 1e-3, 1e6);
   spec.subtraction = options.number("subtraction", spec.subtraction, 0.0, 100.0);
+  spec.most_noise = options.number("most_noise", spec.most_noise, 0.0, 1e300);
   spec.order = options.get("order", spec.kind == Kind::kCausalSavitzkyGolay ? 2 : 3);
   if (spec.order < 2 || spec.order > 7) options.reject("order", "must be between 2 and 7");
   options.finish();
@@ -177,6 +153,7 @@ Json to_json(const DerivativeSpec& spec) {
   if (spec.kind == Kind::kSpectral) {
     Json json{{"kind", "spectral"}, {"cutoff_hz", spec.cutoff_hz}};
     if (spec.subtraction > 0.0) json["subtraction"] = spec.subtraction;
+    if (spec.most_noise > 0.0) json["most_noise"] = spec.most_noise;
     return json;
   }
   return {{"kind", kKinds[static_cast<std::size_t>(spec.kind)]},
@@ -212,10 +189,7 @@ Derivatives differentiate(Eigen::MatrixXd signals, const Recording& recording,
   check_lengths(recording, spec);
   const double dt = recording.dt;
   const int window = spec.window(dt);
-  const Index samples = signals.rows();
-  const Eigen::VectorXd t =
-      recording.has("t") ? recording.column("t")
-                         : Eigen::VectorXd::LinSpaced(samples, 0.0, dt * double(samples - 1));
+  const Eigen::VectorXd t = times_of(recording, signals.rows());
   std::vector<std::vector<Index>> places;
   for (const Segment& s : recording.segments) places.push_back(clock_places(t, s, dt));
   Derivatives out{Eigen::MatrixXd(signals.rows(), signals.cols()),
@@ -229,7 +203,8 @@ Derivatives differentiate(Eigen::MatrixXd signals, const Recording& recording,
       case Kind::kSpline:
         return by_spline(t_here, x, first, second);
       case Kind::kSpectral:
-        return by_spectrum({spec.cutoff_hz, spec.subtraction}, dt, x, first, second);
+        return by_spectrum({spec.cutoff_hz, spec.subtraction, spec.most_noise}, dt, x, first,
+                           second);
       case Kind::kCentral:
         gradient(x, dt, first);
         return gradient(first, dt, second);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 
 #include "core/elementary.h"
@@ -145,87 +146,148 @@ double wiener_gain(double power, double chance) {
   return signal / (signal + 1.0);
 }
 
-/// The Wiener gain in every bin: 1 for the slow motion.
-Eigen::VectorXd wiener_gains(const Rest& rest, double dt, Index length, double subtraction) {
+/// Power in every bin over that of the noise, averaged over half a hertz.
+constexpr double kSlow = std::numeric_limits<double>::infinity();  // where the motion is slow
+struct Relative {
+  Eigen::VectorXd power;
+  double chance = 0.0;  ///< relative deviation of such a mean, of noise alone
+};
+
+Relative relative_of(const Rest& rest, double dt, Index length) {
   constexpr double kHalfBand = 0.25;   // Hz
   constexpr double kLeastShare = 0.5;  // of a bin's power, that tells what the rest is
   const Index bins = rest.spectrum.size();
   const Index half = std::max<Index>(4, std::llround(kHalfBand * dt * static_cast<double>(length)));
   const Eigen::VectorXd power = running_mean(rest.spectrum.cwiseAbs2(), half);
-  // Relative deviation of a mean over so many bins, of noise alone.
-  const double chance = std::sqrt(rest.fourth * double(length) / (2.0 * double(half) + 1.0));
   std::vector<double> upper(power.begin() + bins / 2, power.end());
   std::nth_element(upper.begin(), upper.begin() + std::ptrdiff_t(upper.size() / 2), upper.end());
-  const double noise = subtraction * upper[upper.size() / 2];
-  Eigen::VectorXd gain = Eigen::VectorXd::Ones(bins);
+  const double noise = upper[upper.size() / 2];
+  Relative relative{Eigen::VectorXd::Constant(bins, kSlow),
+                    std::sqrt(rest.fourth * double(length) / (2.0 * double(half) + 1.0))};
   for (Index k = 0; k < bins && noise > 0.0; ++k) {
-    if (rest.share(k) < kLeastShare) continue;
-    gain(k) = wiener_gain(power(k) / (noise * rest.share(k)), chance);
+    if (rest.share(k) >= kLeastShare) relative.power(k) = power(k) / (noise * rest.share(k));
   }
-  return gain;
+  return relative;
+}
+
+/// What a mean of noise power with this relative deviation exceeds in one of a million cases: the
+/// quantile of a gamma distribution (Wilson and Hilferty 1931).
+double least_motion(double chance) {
+  constexpr double kDeviations = 4.75;  // of a normal variable
+  const double ninth = chance * chance / 9.0, root = 1.0 - ninth + kDeviations * chance / 3.0;
+  return root * root * root;
 }
 
 /// The frequency up to which motion is slow: little noise passes two derivatives there.
 double slow_hz(double cutoff_hz) { return std::min(3.0, cutoff_hz / 3.0); }
 
+/// The transform of a signal, its ends and reflections taken care of.
+struct Transformed {
+  Index n;
+  double dt;
+  Ends ends;
+  Padded padded;
+  Fourier transform;
+  Eigen::VectorXcd spectrum;
+
+  Transformed(const Eigen::Ref<const Eigen::VectorXd>& x, double step, double cutoff_hz)
+      : n(x.size()),
+        dt(step),
+        ends(x, dt, cutoff_hz),
+        padded(pad_oddly(x - ends.derivative(0), dt)),
+        transform(length()),
+        spectrum(transform(padded.values)) {}
+  Index length() const { return padded.values.size(); }
+  double hz(Index bin) const {
+    return static_cast<double>(bin) / (static_cast<double>(length()) * dt);
+  }
+  Rest above(double from_hz) const {
+    return rest_of(spectrum, length(), padded.pad, n, dt, from_hz, transform);
+  }
+};
+
+/// A signal's spectrum behind the filter, and the filter's gain in every bin.
+struct Filtered {
+  Eigen::VectorXcd spectrum;
+  Eigen::VectorXd gain;
+};
+
+Filtered filtered(const Transformed& x, const LowPass& filter) {
+  constexpr double kFastestMotion = 25.0;  // Hz: a hand trembles at up to 14
+  const Index bins = x.spectrum.size();
+  Filtered out{x.spectrum, Eigen::VectorXd::Ones(bins)};
+  if (filter.subtraction > 0.0) {
+    const Rest rest = x.above(slow_hz(filter.cutoff_hz));
+    const Relative relative = relative_of(rest, x.dt, x.length());
+    for (Index k = 0; k < bins; ++k) {
+      if (relative.power(k) == kSlow) continue;
+      out.gain(k) = wiener_gain(relative.power(k) / filter.subtraction, relative.chance);
+      out.spectrum(k) -= (1.0 - out.gain(k)) * rest.spectrum(k);
+    }
+  }
+  for (Index k = 0; k < bins; ++k) {
+    const double passed = edge(x.hz(k), filter.cutoff_hz);
+    out.spectrum(k) *= passed;
+    out.gain(k) *= passed;
+  }
+  if (filter.most_noise == 0.0) return out;
+  // Read and taken above the cut-off: of slow motion the taper would leave more there than moves.
+  const Rest rest = x.above(filter.cutoff_hz);
+  const Relative relative = relative_of(rest, x.dt, x.length());
+  const double least = filter.most_noise * least_motion(relative.chance);
+  for (Index k = 0; k < bins && x.hz(k) < kFastestMotion; ++k) {
+    if (relative.power(k) == kSlow || relative.power(k) < least) continue;
+    const double more = wiener_gain(relative.power(k), relative.chance) - out.gain(k);
+    if (more <= 0.0) continue;
+    out.spectrum(k) += more / std::sqrt(rest.share(k)) * rest.spectrum(k);
+    out.gain(k) += more;
+  }
+  return out;
+}
+
 }  // namespace
 
-Smoothed smooth(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, const LowPass& filter) {
-  const Index n = x.size();
-  const Ends ends(x, dt, filter.cutoff_hz);
-  const Padded padded = pad_oddly(x - ends.derivative(0), dt);
-  const Index length = padded.values.size();
-  const Fourier transform(length);
-  Eigen::VectorXcd spectrum = transform(padded.values);
-  if (filter.subtraction > 0.0) {
-    const Rest rest =
-        rest_of(spectrum, length, padded.pad, n, dt, slow_hz(filter.cutoff_hz), transform);
-    const Eigen::VectorXd gain = wiener_gains(rest, dt, length, filter.subtraction);
-    spectrum -= (1.0 - gain.array()).matrix().cwiseProduct(rest.spectrum);
-  }
-  Eigen::VectorXcd value(spectrum.size()), first(spectrum.size()), second(spectrum.size());
-  for (Index k = 0; k < spectrum.size(); ++k) {
-    const double hz = static_cast<double>(k) / (static_cast<double>(length) * dt);
-    const std::complex<double> s(0.0, 2.0 * std::numbers::pi * hz);
-    value(k) = edge(hz, filter.cutoff_hz) * spectrum(k);
+Smoothed smooth(const Eigen::Ref<const Eigen::VectorXd>& signal, double dt, const LowPass& filter) {
+  const Transformed x(signal, dt, filter.cutoff_hz);
+  const Eigen::VectorXcd value = filtered(x, filter).spectrum;
+  Eigen::VectorXcd first(value.size()), second(value.size());
+  for (Index k = 0; k < value.size(); ++k) {
+    const std::complex<double> s(0.0, 2.0 * std::numbers::pi * x.hz(k));
     first(k) = s * value(k);
     second(k) = s * first(k);
   }
-  if (length % 2 == 0) first(first.size() - 1) = 0.0;  // the Nyquist term has no derivative
-  Smoothed out{transform.inverse(value).segment(padded.pad, n),
-               transform.inverse(first).segment(padded.pad, n),
-               transform.inverse(second).segment(padded.pad, n)};
-  out.value += ends.derivative(0);
-  for (Index k = 0; k < n; ++k) {
-    out.value(k) += padded.level + padded.slope * static_cast<double>(k);
+  if (x.length() % 2 == 0) first(first.size() - 1) = 0.0;  // the Nyquist term has no derivative
+  Smoothed out{x.transform.inverse(value).segment(x.padded.pad, x.n),
+               x.transform.inverse(first).segment(x.padded.pad, x.n),
+               x.transform.inverse(second).segment(x.padded.pad, x.n)};
+  out.value += x.ends.derivative(0);
+  for (Index k = 0; k < x.n; ++k) {
+    out.value(k) += x.padded.level + x.padded.slope * static_cast<double>(k);
   }
-  out.first += ends.derivative(1);
-  out.first.array() += padded.slope / dt;
-  out.second += ends.derivative(2);
+  out.first += x.ends.derivative(1);
+  out.first.array() += x.padded.slope / dt;
+  out.second += x.ends.derivative(2);
   return out;
 }
 
 Eigen::VectorXd gain_of(const Eigen::Ref<const Eigen::VectorXd>& x, double dt,
                         const LowPass& filter, Index steps) {
-  const Ends ends(x, dt, filter.cutoff_hz);
-  const Padded padded = pad_oddly(x - ends.derivative(0), dt);
-  const Index length = padded.values.size();
-  Eigen::VectorXd gain = Eigen::VectorXd::Ones(length / 2 + 1);
-  if (filter.subtraction > 0.0) {
-    const Fourier transform(length);
-    const Rest rest = rest_of(transform(padded.values), length, padded.pad, x.size(), dt,
-                              slow_hz(filter.cutoff_hz), transform);
-    gain = wiener_gains(rest, dt, length, filter.subtraction);
-  }
-  for (Index k = 0; k < gain.size(); ++k) {
-    gain(k) *= edge(static_cast<double>(k) / (static_cast<double>(length) * dt), filter.cutoff_hz);
-  }
+  const Eigen::VectorXd gain = filtered(Transformed(x, dt, filter.cutoff_hz), filter).gain;
   Eigen::VectorXd out(steps);
   for (Index k = 0; k < steps; ++k) {
     const Index first = k * (gain.size() - 1) / steps, end = (k + 1) * (gain.size() - 1) / steps;
     out(k) = gain.segment(first, std::max<Index>(1, end - first)).mean();
   }
   return out;
+}
+
+double most_noise(const Eigen::Ref<const Eigen::VectorXd>& signal, double dt, double cutoff_hz) {
+  const Transformed x(signal, dt, cutoff_hz);
+  double most = 0.0;
+  for (const double power : relative_of(x.above(cutoff_hz), dt, x.length()).power) {
+    if (power < kSlow) most = std::max(most, power);
+  }
+  return most;
 }
 
 }  // namespace dcnn

@@ -213,5 +213,29 @@ TEST(Smooth, LeavesTheAccelerationOfWhatMovesUpToTheEnds) {
   }
 }
 
+/// A cut-off chosen on a slow recording serves one that trembles, and lets no noise of either pass.
+TEST(Smooth, PassesMotionBeyondTheCutoffOfARecordingWithoutIt) {
+  Rng rng({3});
+  const auto slow = [&] {
+    Eigen::VectorXd x(16'000);
+    for (Index i = 0; i < x.size(); ++i) {
+      const double turn = 2.0 * std::numbers::pi * 0.0025 * double(i);
+      x(i) = 0.1 * std::sin(0.31 * turn) + 1e-5 * rng.normal();
+    }
+    return x;
+  };
+  LowPass filter{5.0, 0.0, most_noise(slow(), 0.0025, 5.0)};
+  EXPECT_GT(filter.most_noise, 1.0);
+  const auto mean = [&](const Eigen::VectorXd& x, double from, double to) {
+    const auto first = static_cast<Index>(2.0 * from), end = static_cast<Index>(2.0 * to);
+    return gain_of(x, 0.0025, filter, 400).segment(first, end - first).mean();
+  };
+  for (int draw = 0; draw < 20; ++draw) EXPECT_LT(mean(slow(), 12.0, 200.0), 1e-3);
+  EXPECT_GT(mean(trembling(1e-5), 9.0, 10.0), 0.9);
+  EXPECT_LT(mean(trembling(1e-5), 12.0, 200.0), 1e-3);
+  filter.most_noise = 0.0;
+  EXPECT_LT(mean(trembling(1e-5), 9.0, 10.0), 0.02);
+}
+
 }  // namespace
 }  // namespace dcnn

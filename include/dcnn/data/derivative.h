@@ -20,6 +20,9 @@ struct DerivativeSpec {
   /// spectral: 0 for W = 1; else W is the Wiener gain of every column's own spectrum, its noise
   /// taken this many times.
   double subtraction = 0.0;
+  /// spectral: how many times its noise a column holds beyond the cut-off at most; more is motion
+  /// and passes. 0: nothing passes.
+  double most_noise = 0.0;
 
   /// Number of samples in the window: 2·round(window_s/(2·dt)) + 1, at least order + 4 (odd).
   int window(double dt) const;
@@ -33,7 +36,8 @@ inline DerivativeSpec causal_derivative() {
   return spec;
 }
 
-/// Keys: kind (sg|sg_causal|central|spline|spectral), window_s, order, cutoff_hz, subtraction.
+/// Keys: kind (sg|sg_causal|central|spline|spectral), window_s, order, cutoff_hz, subtraction,
+/// most_noise.
 DerivativeSpec parse_derivative(Options options);
 Json to_json(const DerivativeSpec& spec);
 
@@ -49,7 +53,8 @@ struct Derivatives {
 };
 
 /// Derivatives of every column, segment by segment. Rows that a segment lacks (steps of two to five
-/// dt) are bridged by a cubic spline first. A segment shorter than the window is an Error(kData) that names the recording, the rows and the remedy.
+/// dt) are bridged by a cubic spline first. A segment shorter than the window is an Error(kData)
+/// that names the recording, the rows and the remedy.
 Derivatives differentiate(Eigen::MatrixXd signals, const Recording& recording,
                           const DerivativeSpec& spec);
 
