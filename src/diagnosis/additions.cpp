@@ -1,5 +1,6 @@
 // The effects that would gain most next to a model.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -16,8 +17,11 @@ constexpr double kPromising = 0.4;    // of the gain needed, after a first refin
 constexpr double kNear = 0.8;         // of the gain needed, after a second one
 constexpr double kNearRounded = 0.4;  // the same where rounding bends every tangent
 
-bool same_place(const Member& a, const Member& b) {
-  return a.kind == b.kind && a.axis == b.axis && !a.interval_s && !b.interval_s;
+/// An effect acts along an axis once, a hum at a frequency that recordings so long tell from
+/// others.
+bool same_place(const Member& a, const Member& b, double seconds) {
+  if (a.kind != b.kind || a.axis != b.axis || a.interval_s || b.interval_s) return false;
+  return a.name() != "hum" || std::abs(a.shapes(0) - b.shapes(0)) < 2.0 / seconds;
 }
 
 /// Both act along one line; that of alpha:base_x is base_x.
@@ -86,10 +90,11 @@ std::vector<Trial> Search::additions(const JointFit& fit, bool events,
   std::vector<Member> list = candidates(scan, left, floors_);
   keep_apart(list, fit.members);
   std::vector<Trial> trials(list.size());
+  const double seconds = longest_seconds(study_);
   for_each_piece(static_cast<Index>(list.size()), [&](Index k) {
     const Member& member = list[static_cast<std::size_t>(k)];
     const bool taken = std::any_of(fit.members.begin(), fit.members.end(), [&](const Member& m) {
-      return same_place(m, member) || (study_.axis && both_dry(m, member));
+      return same_place(m, member, seconds) || (study_.axis && both_dry(m, member));
     });
     if (!taken) trials[static_cast<std::size_t>(k)] = scan.evaluate(member, Detail::kCoarse);
   });

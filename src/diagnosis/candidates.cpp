@@ -142,7 +142,7 @@ void add_resonances(const Scan& scan, const Signals& left, const std::vector<Flo
 
 /// How far a line must stand out where the tool itself moves: there it may be a small error of the
 /// motion's own.
-double least_excess_in_motion(int terms) { return 60.0 + 3.0 * terms; }
+double least_excess_in_motion(double terms) { return 60.0 + 3.0 * terms; }
 
 void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& floors,
              std::vector<Member>& list) {

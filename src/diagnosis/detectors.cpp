@@ -66,6 +66,9 @@ std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
 
   const Index channels = study.channel_count();
   Eigen::MatrixXd sine(1, channels), cosine(1, channels);
+  // Noise that channels share is as many times as likely to make a line.
+  const auto terms = static_cast<double>(left.size()) * static_cast<double>(channels);
+  const double independent = std::min(1.0, lines.front().terms / terms);
   double samples = 0.0;
   for (const auto& r : left) samples += static_cast<double>(r.rows());
   // Gain in chi-square of the line at hz, with its amplitudes.
@@ -84,7 +87,7 @@ std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
       const double density = floors[static_cast<std::size_t>(j)].density(hz);
       gain += 0.5 * samples * (sine(0, j) * sine(0, j) + cosine(0, j) * cosine(0, j)) / density;
     }
-    return gain;
+    return independent * gain;
   };
   const double longest = longest_seconds(study);
   // Recordings one after the other have side lobes, the nearer the further they are apart.

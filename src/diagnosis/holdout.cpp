@@ -155,7 +155,7 @@ std::vector<Floor> HoldOut::floors(const Search& search) const {
   for (std::size_t j = 0; j < floors.size(); ++j) {
     const double share = std::min(1.0, errors[j] / std::max(1e-300, floors[j].deviation()));
     for (double* part : {&floors[j].white, &floors[j].coloured, &floors[j].flicker,
-                         &floors[j].markov}) {
+                         &floors[j].markov, &floors[j].lines}) {
       *part *= share * share;
     }
   }

@@ -152,10 +152,10 @@ double log_likelihood(const Eigen::VectorXd& density, const Eigen::VectorXd& hz,
 }  // namespace
 
 double Floor::deviation() const {
-  if (lowpass_hz == 0.0 && !is_slow() && bounds.empty()) return std::sqrt(white + coloured);
+  if (lowpass_hz == 0.0 && !is_slow() && bounds.empty()) return std::sqrt(white + coloured + lines);
   double sum = 0.0;
   for (int i = 0; i < kFloorPoints; ++i) sum += density((i + 0.5) / kFloorPoints * 0.5 / dt);
-  return std::sqrt(sum / kFloorPoints);
+  return std::sqrt(sum / kFloorPoints + lines);
 }
 
 double Floor::whole_deviation() const {
@@ -208,10 +208,11 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const
     const std::vector<Index> quiet = bins_between(p, from, to);
     Floor floor;
     if (static_cast<Index>(quiet.size()) >= kFewestBins && p.power.cols() > 0) {
-      floor =
-          fit_floor(without_lines(density(quiet), static_cast<double>(p.power.cols())), p.hz(quiet),
-                    dt, static_cast<double>(p.power.cols()), study.without.coloured_floor,
-                    [&](const Floor& shape) { return exceeds(shape, p, density, slow); });
+      const auto windows = static_cast<double>(p.power.cols());
+      const Eigen::VectorXd all = density(quiet), smooth = without_lines(all, windows);
+      floor = fit_floor(smooth, p.hz(quiet), dt, windows, study.without.coloured_floor,
+                        [&](const Floor& shape) { return exceeds(shape, p, density, slow); });
+      floor.lines = (all - smooth).sum() / static_cast<double>(density.size());
       floor.source = "spectrum of the residual above " +
                      std::to_string(static_cast<int>(std::lround(from))) + " Hz";
     }

@@ -22,6 +22,7 @@ struct Floor {
   double flicker = 0.0;                ///< density [per sample] times frequency [Hz]
   /// Slow first-order Gauss-Markov part: its density at 0 Hz and its corner [Hz].
   double markov = 0.0, corner_hz = 1.0;
+  double lines = 0.0;  ///< variance of lines above the motion's band, part of no density
   /// Spectral density of what the pose's noise adds through accelerations and gravity:
   /// (static_part + moving_part·w^4)·|H|, per sample, with |H| the gain of the pose's filter in
   /// even steps up to half the rate. Behind a Wiener filter that is the variance of its error.

@@ -1,7 +1,9 @@
 // What the pose's own noise puts into the prediction.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "data/bridge.h"
 #include "data/spectral.h"
 #include "dcnn/data/rotation.h"
 #include "diagnosis/median.h"
@@ -14,18 +16,20 @@ namespace {
 /// Of the pose's filter, over all coordinates and recordings; none where rates are logged or
 /// another estimator differentiates.
 std::vector<double> mean_gain(const Case& study) {
-  constexpr Index kSteps = 400;
+  constexpr Index kSteps = 400, kFewestInSegment = 8;  // rows of a segment that has a spectrum
   if (study.derivative.kind != DerivativeSpec::Kind::kSpectral) return {};
-  const LowPass filter{study.derivative.cutoff_hz, study.derivative.subtraction};
+  const LowPass filter{study.derivative.cutoff_hz, study.derivative.subtraction,
+                       study.derivative.most_noise};
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(kSteps);
   double columns = 0.0;
   for (const Log& log : study.logs) {
-    Eigen::MatrixXd pose = quaternions(log.recording);
     const std::vector<std::string> position{"x", "y", "z"};
-    if (log.recording.has_all(position)) pose = log.recording.block(position);
-    for (const Segment& s : log.motion.segments) {
-      for (Index j = 0; j < pose.cols() && s.size() > 8; ++j, ++columns) {
-        sum += gain_of(pose.col(j).segment(s.begin, s.size()), study.dt(), filter, kSteps);
+    const Eigen::MatrixXd pose = log.recording.has_all(position) ? log.recording.block(position)
+                                                                 : quaternions(log.recording);
+    const Bridged even = bridged(pose, log.recording);
+    for (const Segment& s : even.segments) {
+      for (Index j = 0; j < pose.cols() && s.size() > kFewestInSegment; ++j, ++columns) {
+        sum += gain_of(even.columns.col(j).segment(s.begin, s.size()), study.dt(), filter, kSteps);
       }
     }
   }
@@ -40,14 +44,19 @@ void add_pose_noise(const Case& study, std::vector<Floor>& floors) {
   const auto quiet_density = [&](const std::vector<std::string>& names) {
     double most = 0.0;
     for (const auto& name : names) {
+      Case even;  // of which only the clock matters
       Signals pose;
       for (const Log& log : study.logs) {
         if (!log.recording.has(name)) return 0.0;
         Eigen::VectorXd x = log.recording.column(name);
         if (names.size() == 3 && name != "x" && name != "y" && name != "z") unwrap(x);
-        pose.emplace_back(x);
+        Bridged clocked = bridged(x, log.recording);
+        pose.push_back(std::move(clocked.columns));
+        even.logs.emplace_back();
+        even.logs.back().motion.dt = study.dt();
+        even.logs.back().motion.segments = std::move(clocked.segments);
       }
-      const Periodograms p = periodograms(study, pose, 0);
+      const Periodograms p = periodograms(even, pose, 0);
       const Eigen::VectorXd density = density_of(p);
       std::vector<double> quiet;
       for (Index i = 0; i < p.hz.size(); ++i) {

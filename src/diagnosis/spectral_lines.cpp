@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/elementary.h"
+#include "data/bridge.h"
 #include "dcnn/data/fourier.h"
 
 namespace dcnn {
@@ -22,10 +23,48 @@ Eigen::VectorXd hann_power(const Eigen::VectorXd& x, Index length) {
 namespace {
 
 constexpr Index kFewestBeside = 12;  // bins, on each side
+constexpr double kBesideHz = 3.0;  // on each side: so many bins that the level is known to a tenth
 
-/// The mean level beside bin k of a sum of `terms` periodograms, from its median; none of a
-/// spectrum with nothing beside it.
-std::optional<double> level_beside(const Eigen::VectorXd& power, Index k, Index around, int terms) {
+/// A segment on the even grid of its clock, less its mean: 0 where the log lost a row.
+Eigen::VectorXd evenly(const Motion& motion, const Segment& s, const Eigen::VectorXd& signal) {
+  const std::vector<Index> places = clock_places(motion.t, s, motion.dt);
+  const double mean = signal.segment(s.begin, s.size()).mean();
+  Eigen::VectorXd even = Eigen::VectorXd::Zero(places.back() + 1);
+  for (Index i = 0; i < s.size(); ++i) {
+    even(places[static_cast<std::size_t>(i)]) = signal(s.begin + i) - mean;
+  }
+  return even;
+}
+
+/// A channel's segments, evenly, that are at least half as long as the longest of all: shorter ones
+/// tell a frequency less exactly.
+std::vector<Eigen::VectorXd> pieces_of(const Case& study, const Signals& signals, Index channel) {
+  Index longest = 0;
+  for (const Log& log : study.logs) {
+    for (const Segment& s : log.motion.segments) longest = std::max(longest, s.size());
+  }
+  std::vector<Eigen::VectorXd> pieces;
+  for (std::size_t k = 0; k < study.logs.size(); ++k) {
+    const Motion& motion = study.logs[k].motion;
+    for (const Segment& s : motion.segments) {
+      if (2 * s.size() < longest) continue;
+      pieces.push_back(evenly(motion, s, signals[k].col(channel)));
+    }
+  }
+  return pieces;
+}
+
+/// A length at which all of them are transformed.
+Index length_of(const std::vector<Eigen::VectorXd>& pieces) {
+  Index longest = 0;
+  for (const Eigen::VectorXd& piece : pieces) longest = std::max(longest, piece.size());
+  return fast_length(longest);
+}
+
+/// The mean level beside bin k of a sum of so many independent periodograms, from its median; none
+/// of a spectrum with nothing beside it.
+std::optional<double> level_beside(const Eigen::VectorXd& power, Index k, Index around,
+                                   double terms) {
   std::vector<double> beside;
   for (Index i = std::max<Index>(1, k - around); i < std::min(power.size(), k + around); ++i) {
     if (std::abs(i - k) > 3) beside.push_back(power(i));
@@ -34,8 +73,30 @@ std::optional<double> level_beside(const Eigen::VectorXd& power, Index k, Index 
   const auto middle = beside.begin() + static_cast<std::ptrdiff_t>(beside.size() / 2);
   std::nth_element(beside.begin(), middle, beside.end());
   // Of an exponential distribution, and nearly of a gamma distribution.
-  const double median = terms == 1 ? elementary::log(2.0) : 1.0 - 1.0 / (3.0 * terms);
+  const double median = terms == 1.0 ? elementary::log(2.0) : 1.0 - 1.0 / (3.0 * terms);
   return *middle / median;
+}
+
+/// Of how many independent periodograms those of all channels are the sum. Noise that channels
+/// share makes them fewer: the squares of two Fourier coefficients of correlation r have
+/// correlation r^2, and r is that of the second differences, which hold little else than noise.
+double independent_channels(const Signals& left) {
+  const Index channels = left.front().cols();
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(channels, channels);
+  for (const Eigen::MatrixXd& x : left) {
+    const Index n = x.rows() - 2;
+    if (n < 1) continue;
+    const Eigen::MatrixXd d = x.topRows(n) - 2.0 * x.middleRows(1, n) + x.bottomRows(n);
+    gram += d.transpose() * d;
+  }
+  double sum = 0.0;
+  for (Index i = 0; i < channels; ++i) {
+    for (Index j = 0; j < channels; ++j) {
+      const double scale = gram(i, i) * gram(j, j);
+      sum += i == j ? 1.0 : scale > 0.0 ? gram(i, j) * gram(i, j) / scale : 0.0;
+    }
+  }
+  return static_cast<double>(channels * channels) / sum;
 }
 
 /// The bins of local maxima between two frequencies, the greatest first, none near a greater one.
@@ -73,12 +134,14 @@ Eigen::VectorXd densities(const Floor& floor, Index bins, double bin_hz) {
 std::vector<Peak> spectral_lines(const Case& study, const Signals& left,
                                  const std::vector<Floor>& floors, double from_hz, double to_hz,
                                  Index channel, int most) {
-  // The longest recording tells frequencies best.
-  const auto longest = std::max_element(
-      left.begin(), left.end(), [](const auto& a, const auto& b) { return a.rows() < b.rows(); });
-  const Index length = fast_length(longest->rows());
+  const auto pieces = pieces_of(study, left, channel);
+  // The longest tells frequencies best.
+  const auto longest =
+      std::max_element(pieces.begin(), pieces.end(),
+                       [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  const Index length = length_of(pieces);
   const double bin_hz = 1.0 / (static_cast<double>(length) * study.dt());
-  const Eigen::VectorXd power = hann_power(longest->col(channel), length);
+  const Eigen::VectorXd power = hann_power(*longest, length);
   const Eigen::VectorXd ratio = power.cwiseQuotient(
       densities(floors[static_cast<std::size_t>(channel)], power.size(), bin_hz));
   std::vector<Peak> peaks;
@@ -93,28 +156,25 @@ bool CommonLine::stands_out() const { return excess > 13.5 + 5.0 * std::sqrt(ter
 std::vector<CommonLine> common_lines(const Case& study, const Signals& left,
                                      const std::vector<Floor>& floors, double from_hz, double to_hz,
                                      int most) {
-  Index longest = 0;
-  for (const auto& recording : left) longest = std::max(longest, recording.rows());
-  const Index length = fast_length(longest);
+  std::vector<std::vector<Eigen::VectorXd>> channels;
+  for (Index j = 0; j < study.channel_count(); ++j) channels.push_back(pieces_of(study, left, j));
+  const Index length = length_of(channels.front());
   const double bin_hz = 1.0 / (static_cast<double>(length) * study.dt());
-  const auto around = std::max(kFewestBeside, static_cast<Index>(1.5 / bin_hz));
-  const auto terms = static_cast<int>(floors.size() * left.size());
-  Eigen::VectorXd sum;
-  for (std::size_t j = 0; j < floors.size(); ++j) {
-    Eigen::VectorXd density;
-    for (const auto& recording : left) {
-      const Eigen::VectorXd power = hann_power(recording.col(static_cast<Index>(j)), length);
-      if (density.size() == 0) density = densities(floors[j], power.size(), bin_hz);
-      if (sum.size() == 0) sum = Eigen::VectorXd::Zero(power.size());
-      sum += power.cwiseQuotient(density);
+  const auto around = std::max(kFewestBeside, static_cast<Index>(kBesideHz / bin_hz));
+  const double terms = independent_channels(left) * static_cast<double>(channels.front().size());
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(length / 2 + 1);
+  for (std::size_t j = 0; j < channels.size(); ++j) {
+    const Eigen::VectorXd density = densities(floors[j], sum.size(), bin_hz);
+    for (const Eigen::VectorXd& piece : channels[j]) {
+      sum += hann_power(piece, length).cwiseQuotient(density);
     }
   }
   std::vector<CommonLine> lines;
   for (const Index k : maxima(sum, sum, bin_hz, from_hz, to_hz, most)) {
     const auto level = level_beside(sum, k, around, terms);
     if (!level) continue;
-    const double unit = std::max(1e-300, *level / terms);
-    lines.push_back({static_cast<double>(k) * bin_hz, sum(k), sum(k) / unit - terms, terms});
+    const double excess = (sum(k) / std::max(1e-300, *level) - 1.0) * terms;
+    lines.push_back({static_cast<double>(k) * bin_hz, sum(k), excess, terms});
   }
   return lines;
 }

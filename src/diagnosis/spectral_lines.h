@@ -22,12 +22,12 @@ std::vector<Peak> spectral_lines(const Case& study, const Signals& left,
                                  const std::vector<Floor>& floors, double from_hz, double to_hz,
                                  Index channel, int most);
 
-/// A line of all channels and recordings together, a sum of so many `terms`.
+/// A line of all channels and recordings together, a sum of so many independent `terms`.
 struct CommonLine {
   double hz;
   double ratio;   ///< of its power to the floor's
   double excess;  ///< of its power, in units of the mean level beside it, over `terms`
-  int terms;
+  double terms;
   /// More than one of 1e8 bins of noise: a line stands out of what is beside it, whatever the floor
   /// may be there.
   bool stands_out() const;

@@ -75,6 +75,33 @@ TEST(NoiseFloor, OfAllThatIsLeftHasTheDensityOfTheNoise) {
   }
 }
 
+/// A line at 55 Hz is noise: part of the deviation, and of no band of the motion.
+TEST(NoiseFloor, HoldsLinesAboveTheMotion) {
+  const Case study = recordings_of(2);
+  constexpr double kHz = 55.0, kWidth = 0.2;
+  const double r = std::exp(-std::numbers::pi * kWidth * kDt);
+  const double turn = 2.0 * r * std::cos(2.0 * std::numbers::pi * kHz * kDt);
+  double deviation = 0.0, density = 0.0, without = 0.0;
+  constexpr int kTrials = 20;
+  for (int seed = 0; seed < kTrials; ++seed) {
+    Rng rng(static_cast<std::uint64_t>(900 + seed));
+    Signals noise = noise_of(2, 0.0, rng);
+    without += noise_floor(study, noise, ones(2)).front().deviation() / kTrials;
+    for (auto& x : noise) {
+      Eigen::VectorXd ring = Eigen::VectorXd::Zero(kRows);
+      for (Index i = 2; i < kRows; ++i)
+        ring(i) = turn * ring(i - 1) - r * r * ring(i - 2) + rng.normal();
+      x.col(0) += 0.8 * std::sqrt(double(kRows)) / ring.norm() * ring;
+    }
+    const Floor floor = noise_floor(study, noise, ones(2)).front();
+    deviation += floor.deviation() / kTrials;
+    density += floor.density(5.0) / kTrials;
+  }
+  EXPECT_NEAR(without, 1.0, 0.02);
+  EXPECT_NEAR(deviation, std::sqrt(1.0 + 0.8 * 0.8), 0.06);
+  EXPECT_NEAR(density, 1.0, 0.1);
+}
+
 TEST(NoiseFloor, ExceedsWhatIsLeftOnlyWhereItDoes) {
   const Case study = recordings_of(4);
   int falsely = 0, rightly = 0;
