@@ -23,9 +23,9 @@ void add_support(const Search& search, const HoldOut& holdout,
   }
 }
 
-/// Whether another effect is named rather than a member: the likelier by far, unless the held-out
-/// data speak against it; or of two that make the same force the one that the catalogue has first,
-/// so that rounding decides nothing.
+/// Whether another effect is named rather than a member: the likelier by far, held-out data
+/// included; or of two that make the same force the one that the catalogue has first, so that
+/// rounding decides nothing.
 bool goes_before(const Alternative& other, const Member& own, double odds) {
   constexpr double kLikelier = 2.0;  // odds
   constexpr double kSame = 1e-3;     // of odds of 1: rounding, and where a fit ends
@@ -33,7 +33,7 @@ bool goes_before(const Alternative& other, const Member& own, double odds) {
     const auto& kinds = effect_kinds();
     return std::find(kinds.begin(), kinds.end(), find_effect(name)) - kinds.begin();
   };
-  return (odds > kLikelier && other.log_support >= 0.0) ||
+  return odds > kLikelier ||
          (std::abs(odds - 1.0) < kSame && place(other.name) < place(own.name()));
 }
 

@@ -157,17 +157,15 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   if (progress) progress("judging by what was held out");
   const HoldOut holdout(search.study(), loaded.holdout);
   Json refuted_names = leave_refuted(search, holdout);
-  const bool replaced = prefer_one_law(search);
+  prefer_one_law(search);
   const std::vector<BandTest> bands = search.bands();
   const double unnamed = search.posterior().unknown + search.posterior().named_and_unknown;
   auto laws = add_discovered(search);
-  const bool added = !laws.empty();
   for (const Json& law : leave_refuted_laws(search, holdout, unnamed, laws)) {
     refuted_names.push_back(law);
   }
-  if (replaced || added) {
-    for (const Json& name : leave_refuted(search, holdout)) refuted_names.push_back(name);
-  }
+  // Names that were found beside laws, or in the place of one.
+  for (const Json& name : leave_refuted(search, holdout)) refuted_names.push_back(name);
   const auto alternatives = adopt_likelier(search, holdout);
   const Case& study = search.study();
   const JointFit &fit = search.fit(), given = joint_fit(search.setting(), {});

@@ -123,11 +123,10 @@ int numbers_of(const Laws& laws, const std::vector<Member>& members) {
   return sum;
 }
 
-/// Of several laws one may be an effect that has a name: whether a name in the place of one
+/// A law may be an effect that has a name, which what is unknown hid: whether a name in its place
 /// explains as much, but for what any law must gain to be accepted in the place of names. It then
-/// stands.
+/// stands, and laws are looked for beside it.
 bool name_in_place_of_one(Search& search, Laws& laws) {
-  if (laws.found.size() < 2) return false;
   const std::vector<Member> before = search.fit().members;
   for (std::size_t k = 0; k < laws.found.size(); ++k) {
     Laws others = laws;
@@ -145,7 +144,7 @@ bool name_in_place_of_one(Search& search, Laws& laws) {
       if (lost < saved + discovery::prior::kAccepted) {
         const Setting& setting = search.setting();
         Laws again = borne_out(setting, joint_fit(setting, search.names()));
-        if (again.found.size() == others.found.size()) {  // fitted beside the name
+        if (!again.found.empty()) {
           search.put_beside(again.members);
           others = std::move(again);
         }
@@ -199,7 +198,8 @@ std::vector<Discovered> add_discovered(Search& search) {
   if (laws.found.empty()) return {};
   search.put_beside(laws.members);
   name_beside(search, laws);
-  while (name_in_place_of_one(search, laws)) {
+  constexpr int kMostRounds = 5;  // as many as names, beside those of friction
+  for (int round = 0; round < kMostRounds && name_in_place_of_one(search, laws); ++round) {
   }
   return laws.found;
 }

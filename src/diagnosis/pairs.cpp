@@ -111,40 +111,17 @@ bool Search::replace_pairs() {
   return false;
 }
 
-/// One effect in place of two that a search met one after the other, where their laws have shapes.
-bool Search::merge_pair() {
-  const auto& members = fit_.members;
-  for (std::size_t a = 0; a < members.size(); ++a) {
-    for (std::size_t b = a + 1; b < members.size(); ++b) {
-      if (stays(members[a]) || stays(members[b])) continue;
-      if (is_linear(members[a]) && is_linear(members[b])) continue;  // replace_pairs()
-      if (is_spent()) return false;
-      std::vector<Member> rest = members_without(b);
-      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(a));
-      const JointFit base = joint_fit(*setting_, rest);
-      const double own = base.chi2 - fit_.chi2 -
-                         setting_->price * (members[a].parameters() + members[b].parameters());
-      for (const Trial& trial : additions(base, false, own)) {
-        if (trial.net_gain() < own - std::max(2.0 * setting_->price, doubt(trial))) break;
-        std::vector<Member> others = base.members;
-        others.push_back(trial.member);
-        const JointFit fit = joint_fit(*setting_, others);
-        const double net = base.chi2 - fit.chi2 - setting_->price * trial.member.parameters();
-        if (net < own + 0.2 * setting_->price) continue;
-        settle(fit.members);
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-/// Takes these members in place of `split` if they earn their numbers better.
+/// Takes these members in place of `split` if they earn their numbers better. A law acts along an
+/// axis once: one that is there already serves as that part.
 bool Search::exchange(std::size_t split, const std::vector<Member>& parts) {
   const JointFit& rest = without(split);
   std::vector<Member> members = rest.members;
   int numbers = 0;
   for (const Member& part : parts) {
+    const bool there = std::any_of(rest.members.begin(), rest.members.end(), [&](const Member& m) {
+      return m.kind == part.kind && m.axis == part.axis;
+    });
+    if (there) continue;
     members.push_back(part);
     numbers += part.parameters();
   }

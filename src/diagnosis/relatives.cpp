@@ -3,6 +3,7 @@
 #include <set>
 #include <string>
 
+#include "diagnosis/axis_case.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/modulation.h"
 #include "diagnosis/search.h"
@@ -127,22 +128,29 @@ bool Search::keep_bystanders() {
   return any;
 }
 
-/// Leaves out a faint name that only makes up for what a relative of a stronger law leaves: without
-/// it that law's strength varies by more than the name explains.
-bool Search::uncover_relatives() {
-  constexpr double kFaint = 6.0;  // prices
-  if (study_.axis || study_.is_static() || study_.without.omnibus) return false;
+/// Beside a slow remainder a law must gain by the numbers that a simpler relative lacks what it
+/// would have to in noise as loud; a machine's drift their price, also after other names are gone
+/// (one that settles long after the recording ends is a straight line).
+void Search::prefer_fewer_numbers() {
+  const double loud = rest_loudness();
+  if (loud == 1.0 && !study_.axis) return;
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
-    if (fit_.members[m].fixed || net_gain(m) > kFaint * setting_->price) continue;
-    const JointFit& rest = without(m);
-    const double needed = kModulated + setting_->price + std::max(0.0, net_gain(m));
-    for (const double strength : modulations(*setting_, rest)) {
-      if (strength < needed || strength < kLeastDoubt * explained(false)) continue;
-      settle(std::vector<Member>(rest.members));
-      return true;
-    }
+    const Member& own = fit_.members[m];
+    if (own.fixed || (study_.axis && own.kind->stage != Stage::kOffset)) continue;
+    const auto simpler = std::find_if(others(m).begin(), others(m).end(), [&](const Trial& trial) {
+      return same_family(trial.member, own) && trial.member.parameters() < own.parameters();
+    });
+    if (simpler == others(m).end()) continue;
+    std::vector<Member> members = without(m).members;
+    members.push_back(simpler->member);
+    const JointFit other = joint_fit(*setting_, members);
+    const int more = own.parameters() - simpler->member.parameters();
+    const double least =
+        study_.axis ? setting_->price * more : loud * least_gain(*setting_, more, false);
+    if (other.chi2 - fit_.chi2 > least) continue;
+    settle(other.members);
+    m = 0;
   }
-  return false;
 }
 
 }  // namespace dcnn

@@ -17,7 +17,6 @@ namespace {
 using evidence::prior::kModelError;
 
 constexpr double kLeastGrowth = 0.001;     // of what the model explains already
-constexpr double kLeastOfMotion = 0.0003;  // the same for a mode: it mends errors of the motion
 constexpr int kMostRounds = 6;             // of exchanges
 constexpr int kMostGrowth = 30;            // of growth: what is added may be left out again
 constexpr double kLinearError = 0.01;      // of a gain that is estimated along a tangent
@@ -139,8 +138,6 @@ bool Search::grow() {
   // Poses at rest have no error of the motion, but that of the law.
   const double share = study_.is_static() ? kModelError * kModelError : kLeastGrowth;
   if (best->gain < share * explained(false)) return false;
-  const bool mode = best->member.kind->stage == Stage::kResonance;
-  if (mode && best->gain < kLeastOfMotion * explained(true)) return false;
   if (may_be_slow_noise(best->member) && admit_slow_noise()) return true;
   std::vector<Member> members = fit_.members;
   members.push_back(best->member);
@@ -246,8 +243,7 @@ void Search::explore() {
     }
     if (fit_.members.empty() || fit_.members.size() == apart_.size()) return;
     say("trying other effects in place of those found");
-    if (!study_.without.exchange && (swap() || split() || replace_pairs() || merge_pair()))
-      continue;
+    if (!study_.without.exchange && (swap() || split() || replace_pairs())) continue;
     if (recut || study_.is_static()) return;
     recut = true;
     const bool lag = std::any_of(fit_.members.begin(), fit_.members.end(),

@@ -119,6 +119,7 @@ class Search {
   void smooth(double cutoff_hz);
   std::vector<Case*> cases();  ///< study_ and the same under other filters
   void choose_cutoff(const std::vector<Member>& members);
+  void pass_motion(const std::vector<Member>& members);
   void tune_to_mode();
   bool choose_rounding_noise();
   void make_setting(const std::vector<Member>& members);
@@ -130,7 +131,6 @@ class Search {
   bool split();
   bool exchange(std::size_t split, const std::vector<Member>& parts);
   bool replace_pairs();
-  bool merge_pair();
   void explore();
   /// Leaves rows out that are outlying beside the model at hand: whether others than before.
   bool mask_outlying();
@@ -142,7 +142,6 @@ class Search {
   void let_ring();
   bool is_alarming_now();
   bool are_constant() const;
-  bool loosen();
   bool noise_suffices();
   /// A product of pose, rates, force or time gains in what is left.
   bool depends_on_motion() const;
@@ -152,14 +151,12 @@ class Search {
   bool admit_slow_noise();
   bool admit_colour();
   void judge();
-  void drop_minor();
   void prefer_fewer_numbers();
   void keep_what_carries_over();
   double rest_loudness() const;
   std::vector<double> doubts(double little);
   bool take_back_relatives();
   bool keep_bystanders();
-  bool uncover_relatives();
   /// Evidence of the members, of subsets of them, and of none, with and without an unknown: the
   /// place of the most probable among them.
   std::size_t weigh_once();

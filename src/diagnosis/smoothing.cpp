@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "data/bridge.h"
+#include "data/spectral.h"
+#include "dcnn/data/rotation.h"
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/search.h"
@@ -14,10 +17,32 @@ namespace {
 
 constexpr double kTuning = 1.25;  // from one cut-off to the next
 constexpr int kMostTunings = 6;
+const std::vector<std::string> kPosition{"x", "y", "z"};
 
-DerivativeSpec low_pass_spec(double cutoff_hz, double subtraction) {
-  return {
-      .kind = DerivativeSpec::Kind::kSpectral, .cutoff_hz = cutoff_hz, .subtraction = subtraction};
+DerivativeSpec low_pass_spec(double cutoff_hz, double subtraction, double most_noise = 0.0) {
+  return {.kind = DerivativeSpec::Kind::kSpectral,
+          .cutoff_hz = cutoff_hz,
+          .subtraction = subtraction,
+          .most_noise = most_noise};
+}
+
+/// The most that the poses of a tool hold beyond the cut-off, in units of their noise's power.
+double most_noise_of(const Case& study) {
+  double most = 0.0;
+  const auto add = [&](const Eigen::MatrixXd& pose, const Recording& recording) {
+    const Bridged even = bridged(pose, recording);
+    for (const Segment& s : even.segments) {
+      for (Index j = 0; j < pose.cols(); ++j) {
+        const auto x = even.columns.col(j).segment(s.begin, s.size());
+        most = std::max(most, most_noise(x, recording.dt, study.derivative.cutoff_hz));
+      }
+    }
+  };
+  for (const Log& log : study.logs) {
+    add(quaternions(log.recording), log.recording);
+    if (log.recording.has_all(kPosition)) add(log.recording.block(kPosition), log.recording);
+  }
+  return most;
 }
 
 /// dF/dt and d2F/dt2 of the prediction: what a delay or a low-pass looks like when small.
@@ -36,8 +61,13 @@ std::vector<Signals> lag_columns(const Case& study, const Signals& prediction) {
   return columns;
 }
 
-/// Chi-square that a small linear model (tool, sensor matrix, lag, offset) beside `members` leaves.
-double linear_misfit(const Case& study, const std::vector<Member>& members) {
+/// Chi-square that a small linear model leaves, and how many numbers it is the sum of.
+struct Misfit {
+  double square, rows;
+  double variance() const { return square / rows; }
+};
+/// Of tool, sensor matrix, lag and offset beside `members`.
+Misfit linear_misfit(const Case& study, const std::vector<Member>& members) {
   const Signals prediction = predict(study, members);
   std::vector<Floor> floors(static_cast<std::size_t>(study.channel_count()));
   for (auto& floor : floors) floor.white = 1.0;
@@ -75,7 +105,8 @@ double linear_misfit(const Case& study, const std::vector<Member>& members) {
     if (!is_listed(study, kind) || !is_testable(study, kind)) continue;
     A = appended(A, scan.columns(make_member(study, kind, kind.fits[0], "", Eigen::VectorXd(0))));
   }
-  return (empty.residual - A * least_squares(A, empty.residual)).squaredNorm();
+  const Eigen::VectorXd left = empty.residual - A * least_squares(A, empty.residual);
+  return {left.squaredNorm(), static_cast<double>(left.size())};
 }
 
 }  // namespace
@@ -100,7 +131,7 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
     const auto at = static_cast<std::size_t>(k);
     Case trial = study_;
     set_derivative(trial, low_pass_spec(grid[at % grid.size()], at < grid.size() ? 0.0 : 1.0));
-    all[at] = linear_misfit(trial, members);
+    all[at] = linear_misfit(trial, members).square;
   });
   const auto least = std::min_element(all.begin(), all.end()) - all.begin();
   const std::size_t kind = static_cast<std::size_t>(least) / grid.size();
@@ -108,6 +139,7 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
   const auto first = all.begin() + static_cast<std::ptrdiff_t>(kind * grid.size());
   const std::vector<double> misfit(first, first + static_cast<std::ptrdiff_t>(grid.size()));
   study_.derivative.subtraction = kind == 0 ? 0.0 : 1.0;
+  study_.derivative.most_noise = 0.0;
   other_filter_.reset();
   if (kinds == 2) {  // the best of the other kind
     const auto others = all.begin() + static_cast<std::ptrdiff_t>((1 - kind) * grid.size());
@@ -120,6 +152,25 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
     cutoff *= elementary::pow(1.4, 0.5 * (below - above) / (below + above));
   }
   smooth(cutoff);
+  if (!study_.axis) pass_motion(members);
+}
+
+/// Lets motion beyond the cut-off pass, of this recording and of others that move otherwise: what
+/// exceeds the pose's noise, or as many times that as does not make the force worse known by more
+/// than a number costs, or as these recordings reach.
+void Search::pass_motion(const std::vector<Member>& members) {
+  const Misfit least = linear_misfit(study_, members);
+  for (const double times : {1.0, 10.0, 100.0}) {
+    Case trial = study_;
+    trial.derivative.most_noise = times;
+    set_derivative(trial, trial.derivative);
+    if (linear_misfit(trial, members).square > least.square + kNumberPrice * least.variance())
+      continue;
+    study_.derivative.most_noise = times;
+    smooth(study_.derivative.cutoff_hz);
+    return;
+  }
+  study_.derivative.most_noise = most_noise_of(study_);
 }
 
 /// A mode makes much of little motion near its own frequency, which the first choice took for
@@ -149,12 +200,24 @@ void Search::tune_to_mode() {
   settle(without_tuning);
 }
 
+/// Motion too fast for the smoother, or too small for the pose to show it, shakes the modes that
+/// were found. It is noise like the pose's own; once it counts as such, what had only served to
+/// explain it goes.
+void Search::let_ring() {
+  if (!rings() || study_.axis) return;
+  ringing_ = true;
+  settle(fit_.members);
+  while (simplify()) {
+  }
+  explore();
+}
+
 void Search::smooth(double cutoff_hz) {
   constexpr double kOver = 3.0;  // of the noise that the Wiener gain takes off
-  const double subtraction = study_.derivative.subtraction;
+  const DerivativeSpec chosen = study_.derivative;
   const auto smoothed = [&](double hz, double times) {
     Case other = study_;
-    set_derivative(other, low_pass_spec(hz, times * subtraction));
+    set_derivative(other, low_pass_spec(hz, times * chosen.subtraction, chosen.most_noise));
     return other;
   };
   smoothed_ = {smoothed(0.75 * cutoff_hz, kOver), smoothed(1.4 * cutoff_hz, 1.0 / kOver)};

@@ -119,13 +119,13 @@ void Search::judge() {
   drop_unconfirmed();
   if (study_.axis) keep_what_carries_over();
   remains_ = is_alarming_now();
-  if (remains_ && (loosen() || admit_slow_noise() || admit_colour())) remains_ = false;
+  if (remains_ && (admit_slow_noise() || admit_colour())) remains_ = false;
   if (keep_bystanders()) {
     remains_ = true;
     bands_ = band_tests(*setting_, fit_.residual);
     return;
   }
-  if (!remains_ && !take_back_relatives() && !uncover_relatives()) return;
+  if (!remains_ && !take_back_relatives()) return;
   remains_ = true;
   say("something is left that no effect explains: names are tested again");
   if (events_allowed_) {
@@ -149,33 +149,11 @@ void Search::judge() {
   while (take_back_relatives()) {
   }
   drop_coincidences();
-  drop_minor();
   prefer_fewer_numbers();
   if (study_.is_static()) return;
   choose_cutoff(fit_.members);  // beside what is no more another one was best
   settle(fit_.members);
   remains_ = is_alarming_now();
-}
-
-/// Beside a remainder nobody can name, a name that explains less than what is left is more likely a
-/// part of it; where that is little, a name must stand out from it as it must from the noise.
-void Search::drop_minor() {
-  while (true) {
-    bands_ = band_tests(*setting_, fit_.residual);
-    const double loud = rest_loudness(), left = left_over(bands_);
-    double most = 0.0;
-    std::optional<std::size_t> worst;
-    for (std::size_t m = 0; m < fit_.members.size(); ++m) {
-      const Member& member = fit_.members[m];
-      if (member.fixed) continue;
-      const int numbers = member.parameters();
-      const double noise = loud * least_gain(*setting_, numbers, false) - setting_->price * numbers;
-      const double needed = loud > 1.0 ? std::min(left, noise) : left;
-      if (needed - net_gain(m) > most) most = needed - net_gain(m), worst = m;
-    }
-    if (!worst) return;
-    settle(members_without(*worst));
-  }
 }
 
 /// Of a machine, where laws are never constant to the last digit: a name must help on pieces of

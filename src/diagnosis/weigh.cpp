@@ -2,6 +2,7 @@
 // without an unknown.
 #include <algorithm>
 
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/search.h"
 
 namespace dcnn {
@@ -64,10 +65,11 @@ void Search::weigh() {
     judge_rest();
     return;
   }
-  // A spectrum above the floor alone is noise, and a field alone the error of a law: what remains
-  // depends on what moves.
+  // A spectrum a little above the floor alone is noise, and a field alone the error of a law: what
+  // remains depends on what moves, or is louder than noise may be.
   const bool unknown = posterior_.named_and_unknown + posterior_.unknown > 0.5;
-  remains_ = (remains_ || unknown) && depends_on_motion();
+  const bool loud = loudest(bands_) > evidence::prior::kMostFreeNoise;
+  remains_ = (remains_ || unknown) && (loud || depends_on_motion());
 }
 
 void Search::judge_rest() {

@@ -1,6 +1,7 @@
 // Laws side by side: two of one kind that look like one, and a listed one beside an unknown one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "diagnosis/support.h"
@@ -38,7 +39,14 @@ TEST(Bystanders, TwoModesOfAnAxisAreNotOne) {
   const Json one = Bench(shaken(Json::array({mode(6.0, 0.02, 0.5)}))).diagnose().report;
   EXPECT_EQ(names(one), std::vector<std::string>{"flexible_resonance"}) << one["findings"].dump(1);
   const Json two = Bench(shaken({mode(6.0, 0.02, 0.5), mode(9.0, 0.02, 0.4)})).diagnose().report;
-  EXPECT_EQ(found(two).count("flexible_resonance"), 0U) << two["findings"].dump(1);
+  // Either is named at its own frequency, beside something unnamed, or neither.
+  EXPECT_NE(two["verdict"], "explained");
+  for (const Json& f : two["findings"]) {
+    if (f["effect"] != "flexible_resonance") continue;
+    const double hz = f["parameters"]["freq_hz"]["value"].get<double>();
+    EXPECT_LT(std::min(std::abs(hz / 6.0 - 1.0), std::abs(hz / 9.0 - 1.0)), 0.02) << f.dump(1);
+    EXPECT_EQ(f["axis"], "sensor_y") << f.dump(1);
+  }
 }
 
 TEST(Bystanders, ADelayAndALowPassAreTwo) {

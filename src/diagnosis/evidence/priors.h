@@ -3,7 +3,7 @@
 
 namespace dcnn::evidence::prior {
 
-constexpr double kName = 0.04;      ///< probability of each listed effect, shared by its axes
+constexpr double kName = 0.04;  ///< probability of each listed effect, shared by its axes
 /// Of a law that bends a commoner one, as a share of the latter's; in a search it costs one number
 /// more.
 constexpr double kSpecial = 0.1;
@@ -11,6 +11,8 @@ constexpr double kUnknown = 0.12;   ///< of physics that no effect of the catalo
 constexpr double kSlowNoise = 0.1;  ///< of noise that grows below the floor's band
 /// Density of a sensor's slow noise over its floor at most, in any octave.
 constexpr double kMostSlowNoise = 100.0;
+/// The same of noise of any spectrum, in any band, that depends on nothing.
+constexpr double kMostFreeNoise = 3.0;
 /// Corner [Hz] below which slow noise shows: log-uniform between these.
 constexpr double kLeastCorner = 0.01, kMostCorner = 2.0;
 /// Decades over which the size of an effect, in deviations of the noise over all rows, is

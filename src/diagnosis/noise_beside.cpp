@@ -1,4 +1,5 @@
-// Noise whose density grows towards low frequencies, against names that would be fitted to it.
+// What could leave a remainder without any effect being missing: noise that the band above the
+// motion does not show, against names that would be fitted to it.
 #include <algorithm>
 
 #include "diagnosis/axis_case.h"
@@ -28,6 +29,33 @@ double Search::unlikely() const {
 /// An event, or a drift: what slow noise looks like.
 bool Search::may_be_slow_noise(const Member& member) const {
   return member.interval_s || (member.kind->stage == Stage::kOffset && member.parameters() > 0);
+}
+
+bool Search::are_constant() const {
+  const auto tests = constancy(*setting_, fit_);
+  return std::none_of(tests.begin(), tests.end(),
+                      [](const Constancy& test) { return test.refutes(); });
+}
+
+/// Whether beside the noise that was admitted no law gains and nothing is left, in no band and of
+/// no product of what moves.
+bool Search::noise_suffices() { return !grow() && is_independent(); }
+
+/// Whether noise of one colour, which the band above the motion bears out, is all that is left: far
+/// below that band its colour is hardly known from there.
+bool Search::admit_colour() {
+  if (study_.is_static() || study_.without.coloured_floor) return false;
+  const Signals raw = study_.lowpass_hz > 0.0 ? unfiltered_left(study_, fit_.members) : left_;
+  const std::vector<Member> members = fit_.members;
+  noise_ = noise_of_all(study_, raw, noise_level(study_, raw));
+  if (noise_) {
+    settle(members);
+    if (noise_suffices()) return true;
+    noise_.reset();
+    settle(members);
+    is_alarming_now();
+  }
+  return false;
 }
 
 /// Searches from nothing in slow noise, which is estimated again beside whatever is found, and
