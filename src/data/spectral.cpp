@@ -181,6 +181,10 @@ double least_motion(double chance) {
 /// The frequency up to which motion is slow: little noise passes two derivatives there.
 double slow_hz(double cutoff_hz) { return std::min(3.0, cutoff_hz / 3.0); }
 
+/// The frequency from which on a filter may pass more than its edge does: an edge there takes all
+/// but a ten thousandth off the slow motion, of which a taper would leave more than moves.
+double fast_hz(double cutoff_hz) { return 0.6 * cutoff_hz; }
+
 /// The transform of a signal, its ends and reflections taken care of.
 struct Transformed {
   Index n;
@@ -231,8 +235,7 @@ Filtered filtered(const Transformed& x, const LowPass& filter) {
     out.gain(k) *= passed;
   }
   if (filter.most_noise == 0.0) return out;
-  // Read and taken above the cut-off: of slow motion the taper would leave more there than moves.
-  const Rest rest = x.above(filter.cutoff_hz);
+  const Rest rest = x.above(fast_hz(filter.cutoff_hz));
   const Relative relative = relative_of(rest, x.dt, x.length());
   const double least = filter.most_noise * least_motion(relative.chance);
   for (Index k = 0; k < bins && x.hz(k) < kFastestMotion; ++k) {
@@ -284,7 +287,7 @@ Eigen::VectorXd gain_of(const Eigen::Ref<const Eigen::VectorXd>& x, double dt,
 double most_noise(const Eigen::Ref<const Eigen::VectorXd>& signal, double dt, double cutoff_hz) {
   const Transformed x(signal, dt, cutoff_hz);
   double most = 0.0;
-  for (const double power : relative_of(x.above(cutoff_hz), dt, x.length()).power) {
+  for (const double power : relative_of(x.above(fast_hz(cutoff_hz)), dt, x.length()).power) {
     if (power < kSlow) most = std::max(most, power);
   }
   return most;
