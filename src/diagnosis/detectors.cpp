@@ -66,7 +66,7 @@ std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
 
   const Index channels = study.channel_count();
   Eigen::MatrixXd sine(1, channels), cosine(1, channels);
-  // Noise that channels share is as many times as likely to make a line.
+  // The share of the channels' chi-squares that is independent: noise in common counts once.
   const auto terms = static_cast<double>(left.size()) * static_cast<double>(channels);
   const double independent = std::min(1.0, lines.front().terms / terms);
   double samples = 0.0;

@@ -160,9 +160,9 @@ bool name_in_place_of_one(Search& search, Laws& laws) {
 
 }  // namespace
 
-bool prefer_one_law(Search& search) {
+void prefer_one_law(Search& search) {
   const Setting& setting = search.setting();
-  if (!can_hold_laws(search.study())) return false;
+  if (!can_hold_laws(search.study())) return;
   const JointFit& fit = search.fit();
   std::map<std::string, std::vector<std::size_t>> along;  // names by axis
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
@@ -187,9 +187,8 @@ bool prefer_one_law(Search& search) {
     const double better = fit.chi2 - joint_fit(setting, other).chi2 - setting.price * more;
     if (better < discovery::prior::kAccepted) continue;
     search.leave_out(names);
-    return true;
+    return;
   }
-  return false;
 }
 
 std::vector<Discovered> add_discovered(Search& search) {
@@ -198,7 +197,7 @@ std::vector<Discovered> add_discovered(Search& search) {
   if (laws.found.empty()) return {};
   search.put_beside(laws.members);
   name_beside(search, laws);
-  constexpr int kMostRounds = 5;  // as many as names, beside those of friction
+  constexpr int kMostRounds = 5;  // a limit of computation: each round searches all places again
   for (int round = 0; round < kMostRounds && name_in_place_of_one(search, laws); ++round) {
   }
   return laws.found;

@@ -8,8 +8,8 @@ namespace dcnn {
 
 /// Takes back the names along an axis, together of more numbers than the simplest law has, where
 /// one established law without a name in their place gains more than they do by what any law must
-/// gain to be accepted, and by the price of the numbers that it has more: whether it did.
-bool prefer_one_law(Search& search);
+/// gain to be accepted, and by the price of the numbers that it has more.
+void prefer_one_law(Search& search);
 
 /// Where something unnamed remains: looks for laws in the residual (dcnn/discovery), puts them
 /// beside the names, looks for further names beside both, and for the laws again beside those. The

@@ -23,9 +23,8 @@ std::vector<double> mean_gain(const Case& study) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(kSteps);
   double columns = 0.0;
   for (const Log& log : study.logs) {
-    const std::vector<std::string> position{"x", "y", "z"};
-    const Eigen::MatrixXd pose = log.recording.has_all(position) ? log.recording.block(position)
-                                                                 : quaternions(log.recording);
+    const Eigen::MatrixXd pose = log.recording.has_all(kPosition) ? log.recording.block(kPosition)
+                                                                  : quaternions(log.recording);
     const Bridged even = bridged(pose, log.recording);
     for (const Segment& s : even.segments) {
       for (Index j = 0; j < pose.cols() && s.size() > kFewestInSegment; ++j, ++columns) {

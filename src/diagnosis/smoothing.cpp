@@ -17,7 +17,6 @@ namespace {
 
 constexpr double kTuning = 1.25;  // from one cut-off to the next
 constexpr int kMostTunings = 6;
-const std::vector<std::string> kPosition{"x", "y", "z"};
 
 DerivativeSpec low_pass_spec(double cutoff_hz, double subtraction, double most_noise = 0.0) {
   return {.kind = DerivativeSpec::Kind::kSpectral,
