@@ -69,7 +69,9 @@ Json law_finding(const Discovered& found, const Json& law) {
       {"parameters", law_numbers(found)},
       {"words",
        found.established ? words : "approximate formula, its form not established: " + words}};
-  if (law::is_axis(found.law.structure.direction)) entry["axis"] = law["axis"];
+  if (law::is_axis(found.law.structure.direction) && !found.law.structure.oblique) {
+    entry["axis"] = law["axis"];
+  }
   entry.update({{"confidence", nullptr},
                 {"p_value", nullptr},
                 {"alternatives", Json::array()},

@@ -38,11 +38,15 @@ void Data::read(const Record& record, Index begin) {
     now.load_S = record.load.row(k);
     now.t = motion.t(k);
     for (std::size_t c = 0; c < values_.size(); ++c) {
-      values_[c](begin + k) = law::coordinate_at(c, now);
+      if (!law::is_own(c)) values_[c](begin + k) = law::coordinate_at(c, now);
     }
     for (std::size_t d = 0; d < directions_.size(); ++d) {
-      directions_[d].row(begin + k) = law::direction_at(d, now).transpose();
+      const auto own = law::has_axis(d)
+                           ? law::Vector3d(law::Vector3d::Unit(static_cast<Index>(d % 3)))
+                           : law::Vector3d(law::Vector3d::Zero());
+      directions_[d].row(begin + k) = law::direction_at(d, now, own).transpose();
     }
+    now_.push_back(now);
     if (k > 0) step_(begin + k) = motion.t(k) - motion.t(k - 1);
   }
 }
@@ -50,6 +54,7 @@ void Data::read(const Record& record, Index begin) {
 void Data::measure() {
   const auto count = static_cast<double>(samples_);
   for (std::size_t c = 0; c < values_.size(); ++c) {
+    if (law::is_own(c)) break;  // the last ones
     low_.push_back(values_[c].minCoeff());
     high_.push_back(values_[c].maxCoeff());
     rms_.push_back(std::sqrt(values_[c].squaredNorm() / count));
@@ -68,9 +73,56 @@ void Data::measure() {
     const double size = std::sqrt(direction.squaredNorm() / count);
     sizes_.push_back(size > 1e-9 ? size : 0.0);
   }
+  measure_own();
 }
 
-VectorXd Data::product(const std::vector<Piece>& pieces) const {
+void Data::measure_own() {
+  const auto add = [&](double low, double high, double rms, double path) {
+    low_.push_back(low), high_.push_back(high), rms_.push_back(rms), path_range_.push_back(path);
+  };
+  const auto widest = [&](const std::vector<double>& list, const char* first) {
+    const auto at = list.begin() + static_cast<std::ptrdiff_t>(coordinate_named(first));
+    return *std::max_element(at, at + 3);
+  };
+  const double third = std::sqrt(1.0 / 3.0);
+  const std::size_t x = coordinate_named("x");
+  double diagonal = 0.0, farthest = 0.0;
+  for (std::size_t c = x; c < x + 3; ++c) {
+    diagonal = std::hypot(diagonal, high(c) - low(c));
+    farthest = std::hypot(farthest, std::max(std::abs(low(c)), std::abs(high(c))));
+  }
+  // In the order of the list of coordinates: velocity, rate, position, force, distance.
+  const double speed = high(coordinate_named("speed")), rate = high(coordinate_named("rate")),
+               load = high(coordinate_named("load"));
+  add(-speed, speed, third * rms(coordinate_named("speed")), widest(path_range_, "v_base_x"));
+  add(-rate, rate, third * rms(coordinate_named("rate")), widest(path_range_, "w_base_x"));
+  add(-farthest, farthest, third * diagonal, widest(path_range_, "x"));
+  add(-load, load, third * rms(coordinate_named("load")), 2.0 * load);
+  add(0.0, 2.0 * diagonal, 0.5 * diagonal, diagonal);
+}
+
+MatrixXd Data::direction(const Sketch& sketch) const {
+  if (own_numbers(sketch) == 0) return directions_[sketch.direction];
+  const law::Vector3d own = own_vector(sketch);
+  MatrixXd rows(samples_, 3);
+  for (Index k = 0; k < samples_; ++k) {
+    const law::Sample& now = now_[static_cast<std::size_t>(k)];
+    rows.row(k) = law::direction_at(sketch.direction, now, own).transpose();
+  }
+  return rows;
+}
+
+VectorXd Data::own_coordinate(std::size_t coordinate, const Sketch& of) const {
+  const law::Vector3d own = own_vector(of);
+  VectorXd values(samples_);
+  for (Index k = 0; k < samples_; ++k) {
+    const law::Sample& now = now_[static_cast<std::size_t>(k)];
+    values(k) = law::coordinate_at(coordinate, now, law::direction_at(of.direction, now, own), own);
+  }
+  return values;
+}
+
+VectorXd Data::product(const std::vector<Piece>& pieces, const Sketch& of) const {
   VectorXd product = VectorXd::Ones(samples_);
   for (const Piece& piece : pieces) {
     std::vector<double> numbers;
@@ -79,7 +131,8 @@ VectorXd Data::product(const std::vector<Piece>& pieces) const {
     numbers.push_back(piece.scale);
     numbers.push_back(piece.extra);
     law::FactorRun run(piece.factor, numbers.data());
-    const VectorXd& q = values_[piece.factor.coordinate];
+    const std::size_t c = piece.factor.coordinate;
+    const VectorXd q = law::is_own(c) ? own_coordinate(c, of) : values_[c];
     for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
       for (Index k = begins_[r]; k < begins_[r + 1]; ++k) {
         product(k) *= run.step(q(k), step_(k), k == begins_[r]);
@@ -101,7 +154,7 @@ VectorXd Data::lagged(const VectorXd& signal, double tau) const {
 }
 
 MatrixXd Data::vector_of(const Sketch& sketch) const {
-  const MatrixXd& direction = directions_[sketch.direction];
+  const MatrixXd direction = this->direction(sketch);
   const double scale = *law::directions()[sketch.direction].unit ? sketch.vector_scale : 1.0;
   if (sketch.vector_lag <= 0.0) return direction / scale;
   MatrixXd out(samples_, 3);
@@ -127,7 +180,7 @@ MatrixXd Data::transposed(const VectorXd& rows) const {
 }
 
 VectorXd Data::raw_column(const Sketch& sketch) const {
-  VectorXd strength = product(sketch.pieces);
+  VectorXd strength = product(sketch.pieces, sketch);
   if (sketch.lag > 0.0) strength = lagged(strength, sketch.lag);
   return whiten(strength.asDiagonal() * vector_of(sketch));
 }

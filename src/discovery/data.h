@@ -17,7 +17,8 @@ class Data {
   double seconds() const { return seconds_; }
   double dt() const { return dt_; }
 
-  /// Whether the recordings hold the coordinate and it changes.
+  /// Whether the recordings hold the coordinate and it changes. Of coordinates along a law's own
+  /// direction: ranges of any direction.
   bool varies(std::size_t coordinate) const { return high_[coordinate] > low_[coordinate]; }
   const Eigen::VectorXd& coordinate(std::size_t coordinate) const { return values_[coordinate]; }
   double low(std::size_t coordinate) const { return low_[coordinate]; }
@@ -28,14 +29,13 @@ class Data {
   /// The path that the coordinate makes, or its integral where it is a rate, from end to end.
   double path_range(std::size_t c) const { return path_range_[c]; }
 
-  /// (T,3), all recordings below each other, in the direction's own unit.
-  const Eigen::MatrixXd& direction(std::size_t direction) const { return directions_[direction]; }
   /// Root of the mean square of its length.
   double size_of(std::size_t direction) const { return sizes_[direction]; }
   bool has_direction(std::size_t direction) const { return sizes_[direction] > 0.0; }
 
-  /// The product of a sketch's factors, without direction and lag, (T).
-  Eigen::VectorXd product(const std::vector<Piece>& pieces) const;
+  /// The product of factors, without direction and lag, (T); coordinates of a law's own direction
+  /// are those of `of`.
+  Eigen::VectorXd product(const std::vector<Piece>& pieces, const Sketch& of) const;
   /// The same behind a lag.
   Eigen::VectorXd lagged(const Eigen::VectorXd& signal, double tau) const;
   /// The direction of a sketch over its scale and behind its lag, (T,3).
@@ -54,12 +54,18 @@ class Data {
  private:
   void read(const Record& record, Index begin);
   void measure();
+  /// Ranges of coordinates along any direction, and of the distance from any point around.
+  void measure_own();
+  /// (T,3), all recordings below each other, in the direction's own unit.
+  Eigen::MatrixXd direction(const Sketch& sketch) const;
+  Eigen::VectorXd own_coordinate(std::size_t coordinate, const Sketch& of) const;
 
   const Problem& problem_;
   Index samples_ = 0;
   double seconds_ = 0.0, dt_ = 0.0;
   std::vector<Index> begins_;  // first sample of each record, and the end of the last
   Eigen::VectorXd step_;       // s since the sample before; of the first of a record, dt
+  std::vector<law::Sample> now_;
   std::vector<Eigen::VectorXd> values_;
   std::vector<double> low_, high_, rms_, path_range_, sizes_;
   std::vector<Eigen::MatrixXd> directions_;

@@ -108,6 +108,7 @@ void add_products(const Data& data, std::vector<Atom>& list) {
     const bool rate = kind_of(a) == Kind::kRate && law::coordinates()[a].is_rate;
     for (std::size_t b = 0; b < count; ++b) {
       if (a == b || !data.varies(a) || !data.varies(b)) continue;
+      if (law::is_own(a) || law::is_own(b)) continue;
       if (kind_of(a) == Kind::kClock || kind_of(b) == Kind::kClock) continue;
       if (b > a) list.push_back({linear_in(data, a), linear_in(data, b)});
       if (rate && kind_of(b) != Kind::kRate) {
@@ -157,7 +158,7 @@ Piece linear_in(const Data& data, std::size_t c) {
 std::vector<Atom> dictionary(const Data& data) {
   std::vector<Atom> list{{}};
   for (std::size_t c = 0; c < law::coordinates().size(); ++c) {
-    if (!data.varies(c)) continue;
+    if (!data.varies(c) || law::is_own(c)) continue;
     switch (kind_of(c)) {
       case Kind::kRate:
         add_rate(data, c, list);
@@ -182,7 +183,7 @@ std::vector<Atom> dictionary(const Data& data) {
 std::vector<Sketch> direction_sketches(const Data& data) {
   std::vector<Sketch> list;
   for (std::size_t d = 0; d < law::directions().size(); ++d) {
-    if (!data.has_direction(d)) continue;
+    if (!data.has_direction(d) || law::is_central(d)) continue;
     Sketch sketch;
     sketch.direction = d;
     sketch.vector_scale = data.size_of(d);

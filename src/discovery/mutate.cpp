@@ -5,7 +5,7 @@
 
 #include "core/linear_algebra.h"
 #include "dcnn/core/parallel.h"
-#include "discovery/dictionary.h"
+#include "discovery/own_directions.h"
 #include "discovery/priors.h"
 
 namespace dcnn::discovery {
@@ -34,11 +34,11 @@ double extra_gain(const Data& data, const Trial& trial, const VectorXd& column) 
 std::vector<Sketch> modulated(const Data& data, const Trial& trial) {
   const auto pieces = modulators(data);
   std::vector<std::pair<double, std::size_t>> gains(pieces.size());
-  VectorXd strength = data.product(trial.sketch.pieces);
+  VectorXd strength = data.product(trial.sketch.pieces, trial.sketch);
   const MatrixXd vector = data.vector_of(trial.sketch);
   for_each_piece(static_cast<Index>(pieces.size()), [&](Index k) {
     const auto at = static_cast<std::size_t>(k);
-    VectorXd product = strength.cwiseProduct(data.product({pieces[at]}));
+    VectorXd product = strength.cwiseProduct(data.product({pieces[at]}, trial.sketch));
     if (trial.sketch.lag > 0.0) product = data.lagged(product, trial.sketch.lag);
     const VectorXd column = data.projected(data.whiten(product.asDiagonal() * vector));
     gains[at] = {extra_gain(data, trial, column), at};
@@ -75,6 +75,7 @@ void add_deletions(const Sketch& from, std::vector<Sketch>& list) {
       list.push_back(sketch);
     }
   }
+  for (const Sketch& plain : made_plain(from)) list.push_back(plain);
   for (double Sketch::*lag : {&Sketch::lag, &Sketch::vector_lag}) {
     if (!(from.*lag > 0.0)) continue;
     Sketch sketch = from;
@@ -103,6 +104,7 @@ std::vector<Sketch> variants(const Data& data, const Trial& trial) {
       list.push_back(sketch);
     }
   }
+  for (const Sketch& oblique : made_oblique(from)) list.push_back(oblique);
   Sketch sketch = from;
   if (!(sketch.lag > 0.0)) {
     sketch.lag = 0.15;

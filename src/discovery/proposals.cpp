@@ -50,7 +50,7 @@ void add_modulators(const Data& data, std::size_t c, std::vector<Piece>& list) {
 std::vector<Piece> modulators(const Data& data) {
   std::vector<Piece> list;
   for (std::size_t c = 0; c < law::coordinates().size(); ++c) {
-    if (data.varies(c)) add_modulators(data, c, list);
+    if (data.varies(c) && !law::is_own(c)) add_modulators(data, c, list);
   }
   return list;
 }
@@ -79,6 +79,11 @@ std::vector<Piece> other_shapes(const Data& data, const Piece& from) {
   add("asymmetric", size, 0.5);
   add("one_sided", size, 1.0);
   add("one_sided", -size, 1.0);
+  if (kind_of(c) == Kind::kSize) add("inverse_power", size, 2.0);
+  if (c == coordinate_named("distance")) {
+    add("gaussian", size);
+    add("exponential", 0.5 * size);
+  }
   if (kind_of(c) == Kind::kPlace) {
     add("gaussian", 0.4 * size);
     add("sine", 0.5 * size);

@@ -15,6 +15,8 @@ using Eigen::VectorXd;
 
 constexpr double kSettled = 0.05;  // of chi-square
 constexpr double kLeastLength = 0.05;
+constexpr double kFarthestPoint = 3.0;  // diagonals of what was reached
+constexpr double kSteepest = 3.0;       // of an oblique axis: beyond 1 another axis is nearer
 
 /// A number of a sketch on the scale that it is searched on.
 struct Handle {
@@ -67,9 +69,27 @@ void add_handles(const Data& data, Piece& piece, std::vector<Handle>& list) {
                   is_power ? 0.5 : 2.0 * (1.0 + std::abs(piece.extra))});
 }
 
+/// Two of an oblique axis, or the place of a point, which may lie outside what was reached.
+void add_own_handles(const Data& data, Sketch& sketch, std::vector<Handle>& list) {
+  if (law::is_central(sketch.direction)) {
+    const std::size_t x = coordinate_named("x");
+    const double diagonal = 2.0 * data.rms(coordinate_named("distance"));
+    for (std::size_t k = 0; k < 3; ++k) {
+      list.push_back({&sketch.own[k], false, data.low(x + k) - kFarthestPoint * diagonal,
+                      data.high(x + k) + kFarthestPoint * diagonal, 2e-3 * diagonal,
+                      0.15 * diagonal});
+    }
+  } else if (sketch.oblique) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      list.push_back({&sketch.own[k], false, -kSteepest, kSteepest, 0.01, 0.3});
+    }
+  }
+}
+
 /// In the order of the law's numbers, without the amplitude and the references.
 std::vector<Handle> handles_of(const Data& data, Sketch& sketch) {
   std::vector<Handle> list;
+  add_own_handles(data, sketch, list);
   if (sketch.vector_lag > 0.0) {
     list.push_back(positive(sketch.vector_lag, 2.0 * data.dt(), 0.5 * data.seconds()));
   }

@@ -5,7 +5,8 @@
 #include <set>
 
 #include "dcnn/core/parallel.h"
-#include "discovery/dictionary.h"
+#include "discovery/own_directions.h"
+#include "discovery/priors.h"
 
 namespace dcnn::discovery {
 namespace {
@@ -18,8 +19,7 @@ constexpr std::size_t kExact = 4;  // times as many are weighed exactly as are a
 
 struct Candidate {
   double gain;
-  std::size_t atom, direction;
-  double centre;  // of a linear factor whose constant is free
+  Sketch sketch;
 };
 
 /// Power that whitening makes of a channel's signals of motion, per sample.
@@ -39,22 +39,43 @@ Eigen::RowVector3d power_gains(const Data& data) {
   return gains;
 }
 
+/// A gain that is worth being remembered.
+bool is_worth(double gain) { return gain > prior::kNumber; }
+
 /// By direction: e·x of the residual brought back through the whitening, and e·e in its metric.
 struct Weights {
+  MatrixXd back;
+  Eigen::RowVector3d gains;
   MatrixXd score, energy;
 };
 
 Weights weights_of(const Data& data, const std::vector<Sketch>& directions) {
-  const MatrixXd back = data.transposed(data.problem().residual);
-  const Eigen::RowVector3d gains = power_gains(data);
   const auto count = static_cast<Index>(directions.size());
-  Weights weights{MatrixXd(data.samples(), count), MatrixXd(data.samples(), count)};
+  Weights weights{data.transposed(data.problem().residual), power_gains(data),
+                  MatrixXd(data.samples(), count), MatrixXd(data.samples(), count)};
   for (Index d = 0; d < count; ++d) {
     const MatrixXd e = data.vector_of(directions[static_cast<std::size_t>(d)]);
-    weights.score.col(d) = e.cwiseProduct(back).rowwise().sum();
-    weights.energy.col(d) = e.cwiseAbs2() * gains.transpose();
+    weights.score.col(d) = e.cwiseProduct(weights.back).rowwise().sum();
+    weights.energy.col(d) = e.cwiseAbs2() * weights.gains.transpose();
   }
   return weights;
+}
+
+/// Whether the directions from d on are the three axes of a frame, or vector products with them.
+bool begins_axes(const std::vector<Sketch>& directions, std::size_t d) {
+  const std::size_t first = directions[d].direction;
+  return law::has_axis(first) && first % 3 == 0 && d + 2 < directions.size() &&
+         directions[d + 2].direction == first + 2;
+}
+
+/// The oblique axis of three that gains most, from the strengths along each.
+Sketch turned(const std::vector<Sketch>& directions, std::size_t d,
+              const Eigen::Vector3d& strengths, const Atom& atom) {
+  Eigen::Vector3d e = strengths;
+  for (std::size_t i = 0; i < 3; ++i) e[static_cast<Index>(i)] /= directions[d + i].vector_scale;
+  Sketch sketch = with_axis(directions[d], e);
+  sketch.pieces = atom;
+  return sketch;
 }
 
 bool has_free_constant(const Atom& atom) {
@@ -63,13 +84,25 @@ bool has_free_constant(const Atom& atom) {
          atom[0].factor.memory == law::Memory::kNone;
 }
 
+/// `centre`: of a linear factor whose constant is free.
+Sketch sketch_of(const Data& data, const Sketch& direction, const Atom& atom, double centre) {
+  Sketch sketch = direction;
+  sketch.pieces = atom;
+  if (has_free_constant(sketch.pieces)) {
+    const std::size_t c = sketch.pieces[0].factor.coordinate;
+    const double reach = 2.0 * data.half_range(c);
+    sketch.pieces[0].centre = std::clamp(centre, data.middle(c) - reach, data.middle(c) + reach);
+  }
+  return sketch;
+}
+
 /// Candidates of one batch of atoms.
 std::vector<Candidate> batch_gains(const Data& data, const std::vector<Atom>& atoms,
                                    std::size_t first, std::size_t count, const Weights& weights,
                                    const std::vector<Sketch>& directions) {
   MatrixXd columns(data.samples(), static_cast<Index>(count));
   for (std::size_t k = 0; k < count; ++k) {
-    columns.col(static_cast<Index>(k)) = data.product(atoms[first + k]);
+    columns.col(static_cast<Index>(k)) = data.product(atoms[first + k], {});
   }
   const MatrixXd scores = columns.transpose() * weights.score;
   const MatrixXd means = columns.transpose() * weights.energy;
@@ -79,6 +112,16 @@ std::vector<Candidate> batch_gains(const Data& data, const std::vector<Atom>& at
   std::vector<Candidate> list;
   for (std::size_t k = 0; k < count; ++k) {
     const Atom& atom = atoms[first + k];
+    const auto at = static_cast<Index>(k);
+    for (std::size_t d = 0; d < directions.size(); ++d) {
+      if (!begins_axes(directions, d)) continue;
+      if (atom.empty() && law::is_axis(directions[d].direction)) continue;
+      const Eigen::Array3d s = scores.row(at).segment<3>(static_cast<Index>(d)).transpose(),
+                           e = energies.row(at).segment<3>(static_cast<Index>(d)).transpose();
+      if (!(e.minCoeff() > 0.0)) continue;
+      const double gain = (s * s / e).sum();
+      if (is_worth(gain)) list.push_back({gain, turned(directions, d, s / e, atom)});
+    }
     for (Index d = 0; d < scores.cols(); ++d) {
       const auto direction = static_cast<std::size_t>(d);
       if (atom.empty() && law::is_axis(directions[direction].direction)) continue;
@@ -95,30 +138,36 @@ std::vector<Candidate> batch_gains(const Data& data, const std::vector<Atom>& at
         const double u0 = mean - constant * energy / score;  // where the line is zero
         centre = atom[0].centre + u0 * atom[0].scale;
       }
-      list.push_back({score * score / energy + extra, first + k, direction, centre});
+      const double gain = score * score / energy + extra;
+      if (!is_worth(gain)) continue;
+      list.push_back({gain, sketch_of(data, directions[direction], atom, centre)});
     }
   }
   return list;
 }
 
-Sketch sketch_of(const Data& data, const Candidate& candidate, const std::vector<Atom>& atoms,
-                 const std::vector<Sketch>& directions) {
-  Sketch sketch = directions[candidate.direction];
-  sketch.pieces = atoms[candidate.atom];
-  if (has_free_constant(sketch.pieces)) {
-    const std::size_t c = sketch.pieces[0].factor.coordinate;
-    const double reach = 2.0 * data.half_range(c);
-    sketch.pieces[0].centre =
-        std::clamp(candidate.centre, data.middle(c) - reach, data.middle(c) + reach);
+/// Candidates of one direction with numbers of its own.
+std::vector<Candidate> own_gains(const Data& data, const Sketch& direction,
+                                 const Weights& weights) {
+  const MatrixXd e = data.vector_of(direction);
+  const VectorXd score = e.cwiseProduct(weights.back).rowwise().sum();
+  const VectorXd energy = e.cwiseAbs2() * weights.gains.transpose();
+  std::vector<Candidate> list;
+  for (const Atom& atom : own_atoms(data, direction)) {
+    const VectorXd column = data.product(atom, direction);
+    const double size = column.cwiseAbs2().dot(energy), found = column.dot(score);
+    if (!(size > 0.0) || !is_worth(found * found / size)) continue;
+    list.push_back({found * found / size, direction});
+    list.back().sketch.pieces = atom;
   }
-  return sketch;
+  return list;
 }
 
 /// At most two of one direction and set of coordinates.
 class Crowd {
  public:
   bool admits(const Sketch& sketch) {
-    std::multiset<std::size_t> key{1000 + sketch.direction};
+    std::multiset<std::size_t> key{1000 + 2 * sketch.direction + sketch.oblique};
     for (const Piece& piece : sketch.pieces) key.insert(piece.factor.coordinate);
     return ++counts_[key] <= 2;
   }
@@ -138,23 +187,31 @@ std::vector<Trial> scan(const Data& data, std::size_t count) {
   const auto atoms = dictionary(data);
   const auto directions = direction_sketches(data);
   const Weights weights = weights_of(data, directions);
+  const auto own = own_directions(data);
   const auto batches = (static_cast<Index>(atoms.size()) + kBatch - 1) / kBatch;
-  std::vector<std::vector<Candidate>> found(static_cast<std::size_t>(batches));
-  for_each_piece(batches, [&](Index b) {
+  std::vector<std::vector<Candidate>> found(static_cast<std::size_t>(batches) + own.size());
+  for_each_piece(static_cast<Index>(found.size()), [&](Index b) {
+    if (b >= batches) {
+      const auto k = static_cast<std::size_t>(b - batches);
+      found[static_cast<std::size_t>(b)] = own_gains(data, own[k], weights);
+      return;
+    }
     const auto first = static_cast<std::size_t>(b * kBatch);
     const std::size_t size = std::min(static_cast<std::size_t>(kBatch), atoms.size() - first);
     found[static_cast<std::size_t>(b)] = batch_gains(data, atoms, first, size, weights, directions);
   });
   std::vector<Candidate> all;
   for (const auto& list : found) all.insert(all.end(), list.begin(), list.end());
+  double largest = 0.0;
+  for (const Candidate& candidate : all) largest = std::max(largest, candidate.gain);
+  for (Candidate& candidate : all) candidate.gain -= penalty(candidate.sketch, largest);
   std::stable_sort(all.begin(), all.end(),
                    [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
   Crowd crowd, final_crowd;
   std::vector<Trial> exact, best;
   for (const Candidate& candidate : all) {
     if (exact.size() >= kExact * count) break;
-    const Sketch sketch = sketch_of(data, candidate, atoms, directions);
-    if (crowd.admits(sketch)) exact.push_back(weighed(data, sketch));
+    if (crowd.admits(candidate.sketch)) exact.push_back(weighed(data, candidate.sketch));
   }
   sort_by_gain(exact);
   for (Trial& trial : exact) {

@@ -24,6 +24,13 @@ double one_digit(double value) {
   return std::copysign(std::round(std::abs(value) / size) * size, value);
 }
 
+law::Structure direction_of(const Sketch& sketch) {
+  law::Structure structure;
+  structure.direction = sketch.direction;
+  structure.oblique = sketch.oblique;
+  return structure;
+}
+
 bool has_vector_scale(const Sketch& sketch) {
   return *law::directions()[sketch.direction].unit != 0;
 }
@@ -33,6 +40,7 @@ template <class AnySketch, class Visit>
 void each_number(AnySketch& sketch, const Visit& visit) {
   visit(sketch.amplitude);
   if (has_vector_scale(sketch)) visit(sketch.vector_scale);
+  for (int k = 0; k < own_numbers(sketch); ++k) visit(sketch.own[static_cast<std::size_t>(k)]);
   if (sketch.vector_lag > 0.0) visit(sketch.vector_lag);
   if (sketch.lag > 0.0) visit(sketch.lag);
   for (auto& piece : sketch.pieces) {
@@ -48,9 +56,23 @@ void each_number(AnySketch& sketch, const Visit& visit) {
 std::size_t shape_named(const char* name) { return place_named(law::shapes(), name); }
 std::size_t coordinate_named(const char* name) { return place_named(law::coordinates(), name); }
 
+int own_numbers(const Sketch& sketch) { return law::own_numbers(direction_of(sketch)); }
+
+law::Vector3d own_vector(const Sketch& sketch) {
+  return law::own_vector(direction_of(sketch), sketch.own.data());
+}
+
+Sketch with_axis(Sketch sketch, const law::Vector3d& e) {
+  Eigen::Index k = 0;
+  e.cwiseAbs().maxCoeff(&k);
+  sketch.direction = sketch.direction / 3 * 3 + static_cast<std::size_t>(k);
+  sketch.oblique = true;
+  sketch.own = {e[(k + 1) % 3] / e[k], e[(k + 2) % 3] / e[k], 0.0};
+  return sketch;
+}
+
 law::Structure structure_of(const Sketch& sketch) {
-  law::Structure structure;
-  structure.direction = sketch.direction;
+  law::Structure structure = direction_of(sketch);
   structure.direction_lagged = sketch.vector_lag > 0.0;
   structure.lagged = sketch.lag > 0.0;
   for (const Piece& piece : sketch.pieces) structure.factors.push_back(piece.factor);
@@ -67,6 +89,7 @@ law::Law law_of(const Sketch& sketch) {
 Sketch sketch_of(const law::Law& law) {
   Sketch sketch;
   sketch.direction = law.structure.direction;
+  sketch.oblique = law.structure.oblique;
   sketch.vector_lag = law.structure.direction_lagged ? 1.0 : 0.0;
   sketch.lag = law.structure.lagged ? 1.0 : 0.0;
   for (const law::Factor& factor : law.structure.factors) {

@@ -1,6 +1,7 @@
 // A law while it is being searched for: its numbers by factor, ready to be changed.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "dcnn/physics/law.h"
@@ -14,6 +15,8 @@ struct Piece {
 
 struct Sketch {
   std::size_t direction = 0;
+  bool oblique = false;
+  std::array<double, 3> own{};  ///< of the direction itself: two of an oblique axis, or a point, m
   double vector_scale = 1.0;
   double vector_lag = 0.0, lag = 0.0;  ///< s; 0 for none
   double amplitude = 1.0;
@@ -21,6 +24,12 @@ struct Sketch {
 };
 
 law::Structure structure_of(const Sketch& sketch);
+/// Of the direction itself.
+int own_numbers(const Sketch& sketch);
+law::Vector3d own_vector(const Sketch& sketch);
+/// The sketch along the axis `e` of the frame in which its direction is, told from the nearest of
+/// that frame's axes.
+Sketch with_axis(Sketch sketch, const law::Vector3d& e);
 law::Law law_of(const Sketch& sketch);
 Sketch sketch_of(const law::Law& law);
 

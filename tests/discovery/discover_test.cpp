@@ -65,6 +65,49 @@ TEST(Discover, FrictionModulatedByAnAngle) {
       "gamma", 13);
 }
 
+TEST(Discover, DryFrictionAlongAnObliqueAxisOfTheSensor) {
+  const Eigen::Vector3d e = Eigen::Vector3d(0.5, -0.3, 0.8).normalized();
+  expect_found(
+      [e](const Motion& m, const MatrixXd&, Index k) {
+        const double v = (m.R_BS[static_cast<std::size_t>(k)] * e).dot(m.v_B.row(k));
+        return Eigen::Vector3d(e * (-0.06 * std::tanh(v / 0.01)));
+      },
+      "v_along", 16);
+}
+
+TEST(Discover, SpringAlongAnObliqueAxisOfTheBase) {
+  const Eigen::Vector3d e = Eigen::Vector3d(0.7, 0.6, -0.4).normalized();
+  expect_found(
+      [e](const Motion& m, const MatrixXd&, Index k) {
+        const Eigen::Vector3d n = m.R_BS[static_cast<std::size_t>(k)].transpose() * e;
+        return Eigen::Vector3d(n * (-1.5 * (e.dot(m.p_B.row(k)) - 0.3)));
+      },
+      "p_along", 17);
+}
+
+TEST(Discover, VoiceCoilInAnObliqueField) {
+  const Eigen::Vector3d field(0.3, -0.8, 0.4);
+  expect_found(
+      [field](const Motion& m, const MatrixXd&, Index k) {
+        const Eigen::Vector3d v = m.v_B.row(k);
+        return Eigen::Vector3d(m.R_BS[static_cast<std::size_t>(k)].transpose() * v.cross(field));
+      },
+      "velocity_cross_base(", 18);
+}
+
+TEST(Discover, MagnetBesideThePath) {
+  const Scene at = scene(3, 2000);
+  const Eigen::Vector3d magnet =
+      at.motion.p_B.colwise().mean().transpose() + Eigen::Vector3d(0.12, -0.07, 0.09);
+  expect_found(
+      [magnet](const Motion& m, const MatrixXd&, Index k) {
+        const Eigen::Vector3d d = magnet - m.p_B.row(k).transpose();
+        return Eigen::Vector3d(m.R_BS[static_cast<std::size_t>(k)].transpose() * d.normalized() *
+                               (0.03 * std::pow(0.15 / d.norm(), 3)));
+      },
+      "from_point(", 19);
+}
+
 TEST(Discover, ForceBehindALag) {
   // A polymer pad: 4 % of the load follows with 0.8 s.
   const auto lagged = [](const Scene& at) {

@@ -100,6 +100,85 @@ TEST(DiscoveredLaw, LoadIsTheForceThatItIsAddedTo) {
   EXPECT_LT((applied(effect, motion, before).force - 1.05 * before.force).norm(), 1e-9);
 }
 
+TEST(DiscoveredLaw, ObliqueAxisIsTheNormalisedSumOfAxes) {
+  const Motion motion = example_motion(300);
+  const auto effect = discovered(
+      R"({"axis": "base_y", "oblique": true, "factors": [{"shape": "tanh", "of": "v_along"},
+          {"shape": "affine", "of": "p_along", "centred": true}]})",
+      {{"amplitude_n", -0.7},
+       {"axis_z", 0.5},
+       {"axis_x", -2.0},
+       {"scale_1_mps", 0.02},
+       {"centre_2_m", 0.1},
+       {"scale_2_m", 0.2},
+       {"gain_2", 0.4}});
+  const Eigen::Vector3d e = Eigen::Vector3d(-2.0, 1.0, 0.5).normalized();
+  const Wrench wrench = applied(effect, motion, no_wrench(300));
+  for (Index k = 0; k < 300; ++k) {
+    const double size = -0.7 * std::tanh(e.dot(motion.v_B.row(k)) / 0.02) *
+                        (1.0 + 0.4 * (e.dot(motion.p_B.row(k)) - 0.1) / 0.2);
+    const Eigen::Vector3d n = motion.R_BS[static_cast<std::size_t>(k)].transpose() * e;
+    ASSERT_LT((wrench.force.row(k).transpose() - size * n).norm(), 1e-12);
+  }
+  EXPECT_EQ(law::words(law_of(effect)).substr(0, 73),
+            "a force against the motion along the axis (-0.873, 0.436, 0.218) of the b");
+  EXPECT_NE(law::expression(law_of(effect)).find("along base(-0.873, 0.436, 0.218)"),
+            std::string::npos);
+}
+
+TEST(DiscoveredLaw, CentralFieldFallsWithTheDistanceFromItsPoint) {
+  const Motion motion = example_motion(300);
+  const auto effect = discovered(
+      R"({"axis": "from_point", "factors": [{"shape": "inverse_power", "of": "distance"}]})",
+      {{"amplitude_n", -0.3},
+       {"point_x_m", 0.4},
+       {"point_y_m", 0.2},
+       {"point_z_m", -0.3},
+       {"scale_1_m", 0.1},
+       {"power_1", 3.0}});
+  const Eigen::Vector3d point(0.4, 0.2, -0.3);
+  const Wrench wrench = applied(effect, motion, no_wrench(300));
+  for (Index k = 0; k < 300; ++k) {
+    const Eigen::Vector3d d = motion.p_B.row(k).transpose() - point;
+    const Eigen::Vector3d f =
+        motion.R_BS[static_cast<std::size_t>(k)].transpose() * d / std::pow(d.norm(), 4);
+    ASSERT_LT((wrench.force.row(k).transpose() + 0.3e-3 * f).norm(), 1e-12);
+  }
+  EXPECT_EQ(law::words(law_of(effect)),
+            "a force towards the point (0.4, 0.2, -0.3) m of the base, falling as the 3rd power of "
+            "the distance from it: 0.3 N at 0.1 m of the distance from it");
+}
+
+TEST(DiscoveredLaw, NumbersOfTheDirectionStandInFiles) {
+  for (const char* law : {R"({"axis": "velocity_cross_base_z", "oblique": true, "factors": []})",
+                          R"({"axis": "tool_z", "oblique": true, "lagged": true,
+                              "factors": [{"shape": "linear", "of": "w_along"}]})",
+                          R"({"axis": "from_point", "direction_lagged": true,
+                              "factors": [{"shape": "linear", "of": "distance"}]})"}) {
+    Options text(Json::parse(law), "test", Exit::kUsage);
+    law::Law before{law::parse_structure(text), {}};
+    const auto list = law::numbers_of(before.structure);
+    before.numbers = Eigen::VectorXd::LinSpaced(static_cast<Index>(list.size()), 0.5, 1.5);
+    const law::Law after = law_of(make_effect("discovered", "", law::parameters_json(before),
+                                              nullptr, law::to_json(before).dump().c_str()));
+    EXPECT_EQ(after.structure, before.structure);
+    EXPECT_EQ(after.numbers, before.numbers);
+  }
+}
+
+TEST(DiscoveredLaw, RefusesWhatItsDirectionDoesNotHave) {
+  EXPECT_NE(
+      refusal_of(R"({"axis": "base_x", "factors": [{"shape": "linear", "of": "distance"}]})", {})
+          .find("'distance' needs the axis from_point, not 'base_x'"),
+      std::string::npos);
+  EXPECT_NE(refusal_of(R"({"axis": "load", "factors": [{"shape": "linear", "of": "v_along"}]})", {})
+                .find("'v_along' needs an axis"),
+            std::string::npos);
+  EXPECT_NE(refusal_of(R"({"axis": "velocity", "oblique": true, "factors": []})", {})
+                .find("of axes, not of 'velocity'"),
+            std::string::npos);
+}
+
 TEST(DiscoveredLaw, StreamsWithoutAllocating) {
   const EffectSpec effect = example_effect(*find_effect("discovered"));
   if (!test::HeapCounter::works()) GTEST_SKIP() << "heap calls are not seen here";

@@ -22,6 +22,8 @@ struct Coordinate {
 };
 /// All of them; a law names one by its place in this list.
 const std::vector<Coordinate>& coordinates();
+/// Taken along the law's own direction, or from its point: none without one.
+bool is_own(std::size_t coordinate);
 
 /// A vector of the sensor frame that the force is proportional to.
 struct Direction {
@@ -32,6 +34,10 @@ struct Direction {
 const std::vector<Direction>& directions();
 /// An axis of sensor, tool or base.
 bool is_axis(std::size_t direction);
+/// An axis, or a vector product with one: it may be oblique.
+bool has_axis(std::size_t direction);
+/// Away from a point of the base frame, whose place are numbers of the law.
+bool is_central(std::size_t direction);
 
 /// f(u), u = (q - centre)/scale, q the coordinate or a state that it drives; p a further number.
 struct Shape {
@@ -79,11 +85,16 @@ struct Structure {
   bool lagged = false;
   bool on_torque = false;
   std::vector<Factor> factors;
+  bool oblique = false;  ///< the direction's axis e_k is e_k + a e_(k+1) + b e_(k+2), normalised
   bool operator==(const Structure&) const = default;
 };
+/// Numbers of the direction itself: a and b of an oblique axis, or the point.
+int own_numbers(const Structure& structure);
+/// The unit axis in the frame that the direction names, or the point, m; `numbers` are those.
+Vector3d own_vector(const Structure& structure, const double* numbers);
 
 /// The numbers that a structure has, in the order in which a law holds them: the amplitude, those
-/// of the direction, the lag, then factor by factor memory, centre, scale, p.
+/// of the direction (scale, own, lag), the lag, then factor by factor memory, centre, scale, p.
 std::vector<Number> numbers_of(const Structure& structure);
 
 struct Law {
@@ -113,9 +124,14 @@ struct Sample {
   Vector3d load_S;  ///< N, the force that the law is added to
   double t = 0.0;   ///< s, the recording's clock
 };
+/// Not of those that are the law's own.
 double coordinate_at(std::size_t coordinate, const Sample& now);
-/// In the sensor frame; unit vectors are zero where what they are taken from is.
-Vector3d direction_at(std::size_t direction, const Sample& now);
+/// The same of all, along the unit vector `n_S` or from the point `own`.
+double coordinate_at(std::size_t coordinate, const Sample& now, const Vector3d& n_S,
+                     const Vector3d& own);
+/// In the sensor frame; unit vectors are zero where what they are taken from is. `own` is
+/// own_vector().
+Vector3d direction_at(std::size_t direction, const Sample& now, const Vector3d& own);
 
 /// s' = (q - s)/tau of a value or a vector, exact for an input linear between samples.
 template <class Value>
@@ -154,6 +170,7 @@ class LawRun {
  private:
   Structure structure_;
   double amplitude_ = 0.0, scale_ = 1.0, direction_tau_ = 0.0, tau_ = 0.0;
+  Vector3d own_;
   std::vector<FactorRun> factors_;
   LagRun<double> lag_;
   LagRun<Vector3d> direction_lag_;

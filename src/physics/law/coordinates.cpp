@@ -25,6 +25,11 @@ enum CoordinateBlock : std::size_t {
   kLoad,
   kLoadAcross,
   kClock,
+  kVelocityAlong,
+  kRateAlong,
+  kPositionAlong,
+  kLoadAlong,
+  kDistance,
 };
 enum DirectionBlock : std::size_t {
   kSensorAxis = 0,
@@ -37,6 +42,7 @@ enum DirectionBlock : std::size_t {
   kLoadVector,
   kVelocityCross = 12,
   kRateCross = 15,
+  kFromPoint = 18,
 };
 
 Vector3d unit(const Vector3d& x) {
@@ -86,7 +92,12 @@ const std::vector<Coordinate>& coordinates() {
       {"speed_squared", "m^2/s^2", "", "the square of the speed"},
       {"load", "N", "", "the size of the predicted force"},
       {"load_across", "N", "tool", "the size of the predicted force across the tool"},
-      {"t", "s", "", "the time", false, true}};
+      {"t", "s", "", "the time", false, true},
+      {"v_along", "m/s", "axis", "the velocity along it", true},
+      {"w_along", "rad/s", "axis", "the angular velocity about it", true},
+      {"p_along", "m", "axis", "the position along it"},
+      {"f_along", "N", "axis", "the predicted force along it"},
+      {"distance", "m", "", "the distance from it"}};
   return list;
 }
 
@@ -111,11 +122,32 @@ const std::vector<Direction>& directions() {
        "the vector product of angular velocity and the sensor's x axis"},
       {"rate_cross_sensor_y", "rad/s",
        "the vector product of angular velocity and the sensor's y axis"},
-      {"rate_cross_tool_z", "rad/s", "the vector product of angular velocity and the tool's axis"}};
+      {"rate_cross_tool_z", "rad/s", "the vector product of angular velocity and the tool's axis"},
+      {"from_point", "", "the line from a point"}};
   return list;
 }
 
+bool is_own(std::size_t coordinate) { return coordinate >= kVelocityAlong; }
 bool is_axis(std::size_t direction) { return direction < kAlongVelocity; }
+bool has_axis(std::size_t direction) {
+  return is_axis(direction) || (direction >= kVelocityCross && direction < kFromPoint);
+}
+bool is_central(std::size_t direction) { return direction == kFromPoint; }
+
+int own_numbers(const Structure& structure) {
+  return is_central(structure.direction) ? 3 : structure.oblique ? 2 : 0;
+}
+
+Vector3d own_vector(const Structure& structure, const double* numbers) {
+  if (is_central(structure.direction)) return {numbers[0], numbers[1], numbers[2]};
+  if (!has_axis(structure.direction)) return Vector3d::Zero();
+  const auto k = static_cast<Eigen::Index>(structure.direction % 3);
+  Vector3d axis = Vector3d::Unit(k);
+  if (!structure.oblique) return axis;
+  axis[(k + 1) % 3] = numbers[0];
+  axis[(k + 2) % 3] = numbers[1];
+  return axis.normalized();
+}
 
 double coordinate_at(std::size_t coordinate, const Sample& now) {
   const auto i = static_cast<Eigen::Index>(coordinate % 3);
@@ -161,14 +193,30 @@ double coordinate_at(std::size_t coordinate, const Sample& now) {
   }
 }
 
-Vector3d direction_at(std::size_t direction, const Sample& now) {
-  const auto i = static_cast<Eigen::Index>(direction % 3);
-  if (direction < kBaseAxis) return Vector3d::Unit(i);
-  if (direction < kAlongVelocity) return now.R_BS.row(i).transpose();
-  if (direction >= kRateCross) return now.w_S.cross(Vector3d::Unit(i));
-  if (direction >= kVelocityCross) {
-    return now.R_BS.transpose() * now.v_B.cross(Vector3d::Unit(i));
+double coordinate_at(std::size_t coordinate, const Sample& now, const Vector3d& n_S,
+                     const Vector3d& own) {
+  switch (coordinate) {
+    case kVelocityAlong:
+      return (now.R_BS * n_S).dot(now.v_B);
+    case kRateAlong:
+      return n_S.dot(now.w_S);
+    case kPositionAlong:
+      return (now.R_BS * n_S).dot(now.p_B);
+    case kLoadAlong:
+      return n_S.dot(now.load_S);
+    case kDistance:
+      return (now.p_B - own).norm();
+    default:
+      return coordinate_at(coordinate, now);
   }
+}
+
+Vector3d direction_at(std::size_t direction, const Sample& now, const Vector3d& own) {
+  if (direction < kBaseAxis) return own;
+  if (direction < kAlongVelocity) return now.R_BS.transpose() * own;
+  if (is_central(direction)) return now.R_BS.transpose() * unit(now.p_B - own);
+  if (direction >= kRateCross) return now.w_S.cross(own);
+  if (direction >= kVelocityCross) return now.R_BS.transpose() * now.v_B.cross(own);
   switch (direction) {
     case kAlongVelocity:
       return now.R_BS.transpose() * unit(now.v_B);
@@ -193,8 +241,10 @@ bool needs_clock(const Structure& structure) {
 }
 
 bool needs_position(const Structure& structure) {
+  if (is_central(structure.direction)) return true;
   for (const Factor& factor : structure.factors) {
-    if (factor.coordinate >= kPosition && factor.coordinate < kAngle) return true;
+    const std::size_t c = factor.coordinate;
+    if ((c >= kPosition && c < kAngle) || c == kPositionAlong || c == kDistance) return true;
   }
   return false;
 }

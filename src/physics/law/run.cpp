@@ -7,6 +7,8 @@ LawRun::LawRun(const Law& law) : structure_(law.structure) {
   const double* next = law.numbers.data();
   amplitude_ = *next++;
   if (*directions()[structure_.direction].unit) scale_ = *next++;
+  own_ = own_vector(structure_, next);
+  next += own_numbers(structure_);
   if (structure_.direction_lagged) direction_tau_ = *next++;
   if (structure_.lagged) tau_ = *next++;
   for (const Factor& factor : structure_.factors) {
@@ -17,13 +19,15 @@ LawRun::LawRun(const Law& law) : structure_(law.structure) {
 }
 
 Vector3d LawRun::step(const Sample& now, double h, bool first) {
-  Vector3d direction = direction_at(structure_.direction, now) / scale_;
+  const Vector3d n_S = direction_at(structure_.direction, now, own_);
+  Vector3d direction = n_S / scale_;
   if (structure_.direction_lagged) {
     direction = direction_lag_.step(direction, direction_tau_, h, first);
   }
   double strength = amplitude_;
   for (std::size_t k = 0; k < factors_.size(); ++k) {
-    strength *= factors_[k].step(coordinate_at(structure_.factors[k].coordinate, now), h, first);
+    const std::size_t coordinate = structure_.factors[k].coordinate;
+    strength *= factors_[k].step(coordinate_at(coordinate, now, n_S, own_), h, first);
   }
   if (structure_.lagged) strength = lag_.step(strength, tau_, h, first);
   return strength * direction;

@@ -19,6 +19,7 @@ double power_of(double size, double p) {
 double linear(double u, double) { return u; }
 double power(double u, double p) { return std::copysign(power_of(std::abs(u), p), u); }
 double even_power(double u, double p) { return power_of(std::abs(u), p); }
+double inverse_power(double u, double p) { return power_of(std::abs(u), -p); }
 double one_sided(double u, double p) { return u > 0.0 ? power_of(u, p) : 0.0; }
 double asymmetric(double u, double p) { return u > 0.0 ? u : p * u; }
 double saturating(double u, double) { return elementary::tanh(u); }
@@ -63,6 +64,8 @@ const std::vector<Shape>& shapes() {
        false, true, false, power},
       {"even_power", "|u|^p", "\\left|@\\right|^{#}", "power", 0.05, 8.0, false, true, false,
        even_power},
+      {"inverse_power", "|u|^(-p)", "\\left|@\\right|^{-#}", "power", 0.05, 8.0, false, true, false,
+       inverse_power},
       {"one_sided", "max(0, u)^p", "\\max\\left(0, @\\right)^{#}", "power", 0.05, 8.0, false, true,
        true, one_sided},
       {"asymmetric", "max(0, u) + p min(0, u)", "\\left(\\max(0, @) + #\\min(0, @)\\right)",

@@ -90,6 +90,32 @@ void add_numbers(const Factor& factor, const std::string& index, std::vector<Num
   if (*shape.extra) add(std::string(shape.extra) + "_", "", false, shape.least, shape.most);
 }
 
+/// A coordinate of the law's own direction needs one: a unit axis, or for `distance` a point.
+void refuse_without_axis(Options& options, const Structure& structure, std::size_t coordinate) {
+  if (!is_own(coordinate)) return;
+  const bool central = is_central(structure.direction);
+  const std::string name = coordinates()[coordinate].name;
+  if (name == "distance" ? central : central || is_axis(structure.direction)) return;
+  options.reject("factors", "'", name, "' needs ",
+                 name == "distance" ? "the axis from_point" : "an axis of sensor, tool or base",
+                 ", not '", directions()[structure.direction].name, "'");
+}
+
+/// Of an oblique axis, or of a point.
+void add_own_numbers(const Structure& structure, std::vector<Number>& list) {
+  const char* const names[] = {"x", "y", "z"};
+  if (is_central(structure.direction)) {
+    for (const char* name : names) {
+      list.push_back({std::string("point_") + name + "_m", "m", false, -1e6, 1e6});
+    }
+  } else if (structure.oblique) {
+    for (const std::size_t next : {1, 2}) {
+      const std::string name = names[(structure.direction + next) % 3];
+      list.push_back({"axis_" + name, "", false, -1e6, 1e6});
+    }
+  }
+}
+
 Json factor_json(const Factor& factor) {
   Json json{{"shape", shapes()[factor.shape].name}, {"of", coordinates()[factor.coordinate].name}};
   if (factor.memory != Memory::kNone) {
@@ -107,6 +133,10 @@ Structure parse_structure(Options& options) {
   structure.direction_lagged = options.get<bool>("direction_lagged", false);
   structure.lagged = options.get<bool>("lagged", false);
   structure.on_torque = options.get<bool>("on_torque", false);
+  structure.oblique = options.get<bool>("oblique", false);
+  if (structure.oblique && !has_axis(structure.direction)) {
+    options.reject("oblique", "is of axes, not of '", directions()[structure.direction].name, "'");
+  }
   const Json factors = options.raw("factors");
   if (!factors.is_array() || factors.size() > kMostFactors) {
     options.reject("factors", "must be a list of at most ", kMostFactors, " factors, not ",
@@ -115,6 +145,7 @@ Structure parse_structure(Options& options) {
   for (std::size_t k = 0; k < factors.size(); ++k) {
     structure.factors.push_back(
         parse_factor(Options(factors[k], "law: factor " + std::to_string(k + 1), Exit::kData)));
+    refuse_without_axis(options, structure, structure.factors.back().coordinate);
   }
   if (structure.factors.empty() && is_axis(structure.direction)) {
     options.reject("factors", "must not be empty: a constant force is the effect bias or contact");
@@ -134,6 +165,7 @@ std::vector<Number> numbers_of(const Structure& structure) {
   if (!vector.empty()) {
     list.push_back({"vector_scale" + suffix_of(vector), vector, true, 1e-9, 1e9});
   }
+  add_own_numbers(structure, list);
   if (structure.direction_lagged) list.push_back({"vector_lag_s", "s", false, 1e-4, 1e5});
   if (structure.lagged) list.push_back({"lag_s", "s", false, 1e-4, 1e5});
   for (std::size_t k = 0; k < structure.factors.size(); ++k) {
@@ -167,6 +199,7 @@ Json parameters_json(const Law& law) {
 Json to_json(const Law& law) {
   const Structure& structure = law.structure;
   Json json{{"axis", directions()[structure.direction].name}};
+  if (structure.oblique) json["oblique"] = true;
   if (structure.direction_lagged) json["direction_lagged"] = true;
   if (structure.lagged) json["lagged"] = true;
   if (structure.on_torque) json["on_torque"] = true;

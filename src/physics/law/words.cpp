@@ -5,6 +5,7 @@
 
 #include "dcnn/core/number.h"
 #include "dcnn/physics/law.h"
+#include "physics/law/direction_text.h"
 
 namespace dcnn::law {
 namespace {
@@ -143,18 +144,27 @@ std::string period(const FactorText& text) {
   return brief(2.0 * std::numbers::pi * std::abs(text.scale_value)) + unit_of(text);
 }
 
+/// "1.5th", "2nd".
+std::string ordinal(double value) {
+  const std::string number = brief(value);
+  const char* const end = number == "1" ? "st" : number == "2" ? "nd" : number == "3" ? "rd" : "th";
+  return number + end;
+}
+
 std::string clause(const FactorText& text) {
   const std::string of = subject(text), name = text.shape->name, from = from_centre(text);
+  const std::string pth = ordinal(text.extra);
   const std::string p = brief(text.extra), percent = brief(100.0 * text.extra);
   if (name == "linear") return "proportional to " + of + from;
-  if (name == "power") return "growing as the " + p + "th power of " + of + from;
+  if (name == "power") return "growing as the " + pth + " power of " + of + from;
   if (name == "even_power") {
-    return (text.extra < 0.0 ? "as the " : "growing as the ") + p + "th power of the size of " +
+    return (text.extra < 0.0 ? "as the " : "growing as the ") + pth + " power of the size of " +
            of + from;
   }
+  if (name == "inverse_power") return "falling as the " + pth + " power of " + of + from;
   if (name == "one_sided") {
     return "only where " + of + (text.scale_value > 0.0 ? " is above " : " is below ") +
-           (text.factor->centred ? text.centre : "0") + ", as the " + p + "th power";
+           (text.factor->centred ? text.centre : "0") + ", as the " + pth + " power";
   }
   if (name == "asymmetric") {
     return "proportional to " + of + from + ", " + p + " times as strong where that is negative";
@@ -193,7 +203,8 @@ bool is_resistance(const Structure& structure) {
   const bool odd = shape == "linear" || shape == "power" || shape == "asymmetric" ||
                    shape == "tanh" || shape == "peaked" || shape == "fading" ||
                    shape == "dead_band" || shape == "log";
-  return odd && (q == "v_" + axis || (q == "speed" && axis == "along_velocity"));
+  const bool along = q == "v_along" && is_axis(structure.direction);
+  return odd && (along || q == "v_" + axis || (q == "speed" && axis == "along_velocity"));
 }
 
 std::string beginning(const Law& law) {
@@ -202,9 +213,14 @@ std::string beginning(const Law& law) {
   std::string text = law.structure.on_torque ? "a torque " : "a force ";
   if (is_resistance(law.structure)) {
     text += negative ? "against the motion along " : "with the motion along ";
-    return text + (std::string(direction.name) == "along_velocity" ? "its path" : direction.words);
+    const bool path = std::string(direction.name) == "along_velocity";
+    return text + (path ? "its path" : direction_words(law));
   }
-  return text + (negative ? "against " : "along ") + direction.words;
+  if (is_central(law.structure.direction)) {
+    return text + (negative ? "towards" : "away from") + " the point " + own_text(law) +
+           " m of the base";
+  }
+  return text + (negative ? "against " : "along ") + direction_words(law);
 }
 
 }  // namespace
@@ -215,10 +231,11 @@ std::string expression(const Law& law) {
   std::string product = amplitude_text(law);
   for (const FactorText& text : texts_of(law)) product += " * [" + factor_expression(text) + "]";
   Eigen::Index next = 1;
-  std::string vector = direction.name;
+  std::string vector = direction_name(law);
   if (*direction.unit) {
     vector += "/(" + brief(law.numbers(next++)) + " " + direction.unit + ")";
   }
+  next += own_numbers(structure);
   if (structure.direction_lagged) {
     vector = "lag(" + vector + ", " + brief(law.numbers(next++)) + " s)";
   }
@@ -234,10 +251,11 @@ std::string latex(const Law& law) {
   std::string text = latex_number(law.numbers(0), structure.on_torque ? "N m" : "N");
   for (const FactorText& factor : texts_of(law)) text += "\\;" + latex_factor(factor);
   Eigen::Index next = 1;
-  std::string vector = "\\mathbf{e}_{\\text{" + replaced(direction.name, "_", " ") + "}}";
+  std::string vector = "\\mathbf{e}_{\\text{" + replaced(direction_name(law), "_", " ") + "}}";
   if (*direction.unit) {
     vector = "\\frac{" + vector + "}{" + latex_number(law.numbers(next++), direction.unit) + "}";
   }
+  next += own_numbers(structure);
   const auto lagged = [&](const std::string& of) {
     return "\\frac{1}{1 + " + latex_number(law.numbers(next++), "s") + "\\,d_t}\\left[" + of +
            "\\right]";
@@ -261,6 +279,7 @@ std::string words(const Law& law) {
     at += (at.empty() ? " at " : " and ") + brief(law.numbers(next++)) + " " +
           directions()[structure.direction].unit;
   }
+  next += own_numbers(structure);
   if (structure.direction_lagged) {
     text += ", the vector behind a lag of " + brief(law.numbers(next++)) + " s";
   }
