@@ -14,6 +14,10 @@ namespace {
 Json outer_finding(Json finding, const AxisPlan& plan) {
   const Axis& axis = plan.axis();
   const EffectKind& kind = *find_effect(finding["effect"].get<std::string>());
+  if (finding.contains("law")) {  // told in the axis' terms
+    finding["axis"] = axis.name;
+    return finding;
+  }
   Json parameters = Json::object();
   for (const auto& [name, number] : finding["parameters"].items()) {
     const auto outer = axis_parameter(kind, name, axis, plan.sense);

@@ -157,10 +157,9 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   if (progress) progress("judging by what was held out");
   const HoldOut holdout(search.study(), loaded.holdout);
   Json refuted_names = leave_refuted(search, holdout);
-  prefer_one_law(search);
   const std::vector<BandTest> bands = search.bands();
   const double unnamed = search.posterior().unknown + search.posterior().named_and_unknown;
-  auto laws = add_discovered(search);
+  auto laws = add_discovered(search, holdout);
   for (const Json& law : leave_refuted_laws(search, holdout, unnamed, laws)) {
     refuted_names.push_back(law);
   }

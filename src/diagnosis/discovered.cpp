@@ -19,7 +19,7 @@ constexpr int kFewestNumbers = 2;      // of a law: its size, and a scale or a p
 constexpr double kStillGained = 0.5;   // of a law's gain, once all are fitted through the chain
 
 bool can_hold_laws(const Case& study) {
-  if (study.is_static() || study.axis) return false;
+  if (study.is_static() || !study.axis_moves) return false;
   return std::all_of(study.logs.begin(), study.logs.end(), [](const Log& log) {
     return log.motion.v_B.rows() == log.motion.samples() &&
            log.motion.a_B.rows() == log.motion.samples();
@@ -39,15 +39,15 @@ Member member_of(const law::Law& law, const Json& told) {
   return member;
 }
 
-Json law_json(const Discovered& found) {
-  Json json = law::to_json(found.law);
+Json law_json(const Discovered& found, const law::Terms& terms = law::tool_terms()) {
+  Json json = law::to_json(found.law, terms);
   json["established"] = found.established;
   json["rivals"] = found.rivals;
   return json;
 }
 
-Json law_numbers(const Discovered& found) {
-  const auto numbers = law::numbers_of(found.law.structure);
+Json law_numbers(const Discovered& found, const law::Terms& terms) {
+  const auto numbers = law::numbers_of(found.law.structure, terms);
   Json json = Json::object();
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const auto at = static_cast<Index>(k);
@@ -58,7 +58,15 @@ Json law_numbers(const Discovered& found) {
   return json;
 }
 
-Json law_finding(const Discovered& found, const Json& law) {
+/// As it is told of a tool, or of an axis: what adds to its reading.
+Json law_finding(Discovered found, const AxisPlan* plan) {
+  law::Terms terms = law::tool_terms();
+  if (plan != nullptr) {
+    const Axis& axis = plan->axis();
+    terms = law::axis_terms(axis.name, axis.unit, axis.position_unit, plan->sense);
+    found.law.numbers(0) *= -plan->sense;
+  }
+  const Json law = law_json(found, terms);
   const auto words = law["words"].get<std::string>();
   Json entry{
       {"effect", "discovered"},
@@ -66,10 +74,10 @@ Json law_finding(const Discovered& found, const Json& law) {
       {"axis", nullptr},
       {"interval_s", nullptr},
       {"law", law},
-      {"parameters", law_numbers(found)},
+      {"parameters", law_numbers(found, terms)},
       {"words",
        found.established ? words : "approximate formula, its form not established: " + words}};
-  if (law::is_axis(found.law.structure.direction) && !found.law.structure.oblique) {
+  if (!plan && law::is_axis(found.law.structure.direction) && !found.law.structure.oblique) {
     entry["axis"] = law["axis"];
   }
   entry.update({{"confidence", nullptr},
@@ -125,6 +133,25 @@ int numbers_of(const Laws& laws, const std::vector<Member>& members) {
   return sum;
 }
 
+/// Leaves out names without which laws, looked for again, explain as much for their numbers: what
+/// had no name may have been taken for one in part.
+void leave_needless_names(Search& search, Laws& laws) {
+  const Setting& setting = search.setting();
+  for (std::size_t m = search.names().size(); m-- > 0;) {
+    std::vector<Member> rest = search.names();
+    if (rest[m].fixed) continue;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(m));
+    const Laws again = borne_out(setting, joint_fit(setting, rest));
+    if (again.found.empty() || again.found.size() > laws.found.size()) continue;
+    rest.insert(rest.end(), again.members.begin(), again.members.end());
+    const std::vector<Member>& all = search.fit().members;
+    const double lost = joint_fit(setting, rest).chi2 - search.fit().chi2;
+    if (lost > setting.price * (numbers_of(laws, all) - numbers_of(again, rest))) continue;
+    search.hold(rest);
+    laws = again;
+  }
+}
+
 /// A law may be an effect that has a name, which what is unknown hid: whether a name in its place
 /// explains as much, but for what any law must gain to be accepted in the place of names. It then
 /// stands, and laws are looked for beside it.
@@ -160,11 +187,11 @@ bool name_in_place_of_one(Search& search, Laws& laws) {
   return false;
 }
 
-}  // namespace
-
-void prefer_one_law(Search& search) {
+/// Several names along one axis may be one law that no catalogue has: where it explains more than
+/// they, for its further numbers and for what any law must gain, and held-out data do not speak
+/// against it, it stands in their place.
+Laws in_place_of_names(Search& search, const HoldOut& holdout) {
   const Setting& setting = search.setting();
-  if (!can_hold_laws(search.study())) return;
   const JointFit& fit = search.fit();
   std::map<std::string, std::vector<std::size_t>> along;  // names by axis
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
@@ -181,23 +208,33 @@ void prefer_one_law(Search& search) {
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(*m));
     }
     if (numbers <= kFewestNumbers) continue;
-    const auto laws = laws_in(setting, joint_fit(setting, rest));
-    if (laws.size() != 1 || !laws.front().established) continue;
+    Laws laws{laws_in(setting, joint_fit(setting, rest)), {}};
+    if (laws.found.size() != 1 || !laws.found.front().established) continue;
+    laws.members.push_back(member_of(laws.found.front().law, law_json(laws.found.front())));
     std::vector<Member> other = rest;
-    other.push_back(member_of(laws.front().law, law_json(laws.front())));
-    const int more = std::max(0, fitted_numbers(laws.front()) - numbers);
-    const double better = fit.chi2 - joint_fit(setting, other).chi2 - setting.price * more;
-    if (better < discovery::prior::kAccepted) continue;
+    other.push_back(laws.members.front());
+    const int more = std::max(0, fitted_numbers(laws.found.front()) - numbers);
+    const JointFit with = joint_fit(setting, other);
+    if (fit.chi2 - with.chi2 - setting.price * more < discovery::prior::kAccepted) continue;
+    const double support =
+        holdout.log_support(holdout.prediction(with.members, with.base),
+                            holdout.prediction(fit.members, fit.base), search.floors());
+    if (support < 0.0) continue;
     search.leave_out(names);
-    return;
+    return laws;
   }
+  return {};
 }
 
-std::vector<Discovered> add_discovered(Search& search) {
-  if (!search.remains() || !can_hold_laws(search.study())) return {};
-  Laws laws = borne_out(search.setting(), search.fit());
+}  // namespace
+
+std::vector<Discovered> add_discovered(Search& search, const HoldOut& holdout) {
+  if (!can_hold_laws(search.study())) return {};
+  Laws laws = in_place_of_names(search, holdout);
+  if (laws.found.empty() && search.remains()) laws = borne_out(search.setting(), search.fit());
   if (laws.found.empty()) return {};
   search.put_beside(laws.members);
+  leave_needless_names(search, laws);
   name_beside(search, laws);
   constexpr int kMostRounds = 5;  // a limit of computation: each round searches all places again
   for (int round = 0; round < kMostRounds && name_in_place_of_one(search, laws); ++round) {
@@ -222,7 +259,7 @@ Json leave_refuted_laws(Search& search, const HoldOut& holdout, double unnamed,
     if (!worst) break;
     const std::size_t place = places[*worst];
     refuted.push_back({{"effect", "discovered"},
-                       {"axis", law_finding(laws[*worst], members[place].law)["axis"]},
+                       {"axis", law_finding(laws[*worst], nullptr)["axis"]},
                        {"confidence", *likely[*worst]}});
     laws.erase(laws.begin() + static_cast<std::ptrdiff_t>(*worst));
     search.hold(search.members_without(place));
@@ -238,7 +275,7 @@ Json law_findings(const Search& search, const std::vector<Discovered>& laws,
   std::size_t next = 0;
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
     if (fit.members[m].law.is_null()) continue;
-    Json entry = law_finding(laws[next++], fit.members[m].law);
+    Json entry = law_finding(laws[next++], search.study().axis.get());
     if (!holdout.empty()) {
       std::vector<Member> others = fit.members;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));

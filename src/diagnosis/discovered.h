@@ -6,15 +6,11 @@
 
 namespace dcnn {
 
-/// Takes back the names along an axis, together of more numbers than the simplest law has, where
-/// one established law without a name in their place gains more than they do by what any law must
-/// gain to be accepted, and by the price of the numbers that it has more.
-void prefer_one_law(Search& search);
-
-/// Where something unnamed remains: looks for laws in the residual (dcnn/discovery), puts them
-/// beside the names, looks for further names beside both, and for the laws again beside those. The
-/// laws that then stand in the fit, in their order; none where none is found.
-std::vector<discovery::Discovered> add_discovered(Search& search);
+/// Where one law explains more than several names along an axis do, and predicts what was held out
+/// as well, it stands in their place. Where something unnamed remains, laws are looked for in the
+/// residual (dcnn/discovery). Beside laws further names are looked for, and the laws again beside
+/// those. The laws that then stand in the fit, in their order; none where none is found.
+std::vector<discovery::Discovered> add_discovered(Search& search, const HoldOut& holdout);
 
 /// Takes back laws that held-out data make less probable than not, the least probable first, as
 /// leave_refuted() does names; `unnamed` is the probability of each before: that something which no

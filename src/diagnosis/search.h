@@ -54,7 +54,8 @@ class Search {
   const std::vector<Floor>& floors() const { return floors_; }
   const Signals& left() const { return left_; }  ///< measured - predicted, at the log's rate
   /// Something is left that no effect of the catalogue explains.
-  bool remains() const { return remains_; }
+  /// Whether something acts that no name explains; a law without a name is such.
+  bool remains() const { return remains_ || names().size() < fit_.members.size(); }
   const std::optional<Member>& rounding() const { return rounding_; }
   const std::optional<Member>& knocking() const { return knocking_; }
   /// Stretches that decide nothing, for far more is left there than elsewhere.

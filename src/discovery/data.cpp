@@ -13,12 +13,13 @@ Data::Data(const Problem& problem) : problem_(problem) {
     begins_.push_back(samples_);
     samples_ += record.motion->samples();
     dt_ = record.motion->dt;
+    of_axis_ = record.motion->of_axis;
   }
   begins_.push_back(samples_);
   seconds_ = dt_ * static_cast<double>(samples_);
   step_ = VectorXd::Constant(samples_, dt_);
   values_.assign(law::coordinates().size(), VectorXd(samples_));
-  directions_.assign(law::directions().size(), MatrixXd(samples_, 3));
+  directions_.assign(law::directions().size(), MatrixXd::Zero(samples_, 3));
   for (std::size_t k = 0; k < problem.records.size(); ++k) read(problem.records[k], begins_[k]);
   measure();
 }
@@ -26,6 +27,8 @@ Data::Data(const Problem& problem) : problem_(problem) {
 void Data::read(const Record& record, Index begin) {
   const Motion& motion = *record.motion;
   const bool placed = motion.p_B.rows() == motion.samples();
+  std::vector<bool> there(values_.size());
+  for (std::size_t c = 0; c < there.size(); ++c) there[c] = !of_axis_ || law::is_of_axes(c);
   for (Index k = 0; k < motion.samples(); ++k) {
     law::Sample now;
     now.R_BS = motion.R_BS[static_cast<std::size_t>(k)];
@@ -38,12 +41,13 @@ void Data::read(const Record& record, Index begin) {
     now.load_S = record.load.row(k);
     now.t = motion.t(k);
     for (std::size_t c = 0; c < values_.size(); ++c) {
-      if (!law::is_own(c)) values_[c](begin + k) = law::coordinate_at(c, now);
+      if (law::is_own(c)) break;  // the last ones
+      values_[c](begin + k) = there[c] ? law::coordinate_at(c, now) : 0.0;
     }
     for (std::size_t d = 0; d < directions_.size(); ++d) {
-      const auto own = law::has_axis(d)
-                           ? law::Vector3d(law::Vector3d::Unit(static_cast<Index>(d % 3)))
-                           : law::Vector3d(law::Vector3d::Zero());
+      law::Vector3d own = law::Vector3d::Zero();
+      if (law::has_axis(d)) own = law::Vector3d::Unit(static_cast<Index>(d % 3));
+      if (of_axis_ && d != law::drive_direction()) continue;
       directions_[d].row(begin + k) = law::direction_at(d, now, own).transpose();
     }
     now_.push_back(now);

@@ -16,6 +16,8 @@ class Data {
   Index samples() const { return samples_; }
   double seconds() const { return seconds_; }
   double dt() const { return dt_; }
+  /// Whether the recordings are of a machine's axis.
+  bool of_axis() const { return of_axis_; }
 
   /// Whether the recordings hold the coordinate and it changes. Of coordinates along a law's own
   /// direction: ranges of any direction.
@@ -63,6 +65,7 @@ class Data {
   const Problem& problem_;
   Index samples_ = 0;
   double seconds_ = 0.0, dt_ = 0.0;
+  bool of_axis_ = false;
   std::vector<Index> begins_;  // first sample of each record, and the end of the last
   Eigen::VectorXd step_;       // s since the sample before; of the first of a record, dt
   std::vector<law::Sample> now_;

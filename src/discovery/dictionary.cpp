@@ -124,7 +124,7 @@ Kind kind_of(std::size_t coordinate) {
   const law::Coordinate& q = law::coordinates()[coordinate];
   if (q.is_clock) return Kind::kClock;
   const std::string unit = q.unit;
-  if (*q.frame == 0 || std::string(q.name) == "load_across") return Kind::kSize;
+  if (q.frame.empty() || q.name == "load_across") return Kind::kSize;
   if (unit == "m" || unit == "rad") return Kind::kPlace;
   return unit == "N" ? Kind::kLoad : Kind::kRate;
 }

@@ -104,7 +104,9 @@ std::vector<Sketch> variants(const Data& data, const Trial& trial) {
       list.push_back(sketch);
     }
   }
-  for (const Sketch& oblique : made_oblique(from)) list.push_back(oblique);
+  if (!data.of_axis()) {
+    for (const Sketch& oblique : made_oblique(from)) list.push_back(oblique);
+  }
   Sketch sketch = from;
   if (!(sketch.lag > 0.0)) {
     sketch.lag = 0.15;

@@ -107,6 +107,7 @@ void add_motion_along(const Data& data, const char* coordinate, std::vector<Atom
 
 std::vector<Sketch> own_directions(const Data& data) {
   std::vector<Sketch> list;
+  if (data.of_axis()) return list;
   for (const char* frame : {"sensor_x", "base_x"}) {
     Sketch sketch;
     sketch.direction = direction_named(frame);

@@ -2,7 +2,7 @@
 
 #include <cassert>
 #include <cmath>
-#include <cstring>
+#include <string>
 
 #include "core/elementary.h"
 
@@ -12,7 +12,7 @@ namespace {
 template <class List>
 std::size_t place_named(const List& list, const char* name) {
   for (std::size_t k = 0; k < list.size(); ++k) {
-    if (std::strcmp(list[k].name, name) == 0) return k;
+    if (std::string(name) == list[k].name) return k;
   }
   assert(false && "a shape or coordinate of this name");
   return 0;

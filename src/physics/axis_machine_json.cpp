@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "dcnn/physics/axis_machine.h"
+#include "physics/axis_law.h"
 
 namespace dcnn {
 
@@ -115,6 +116,10 @@ std::string inner_axis(const EffectKind& kind) {
 Json effects_json(const CorrectedAxis& corrected, const Axis& axis) {
   Json list = Json::array();
   for (const EffectSpec& effect : corrected.effects) {
+    if (!effect.law.is_null()) {
+      list.push_back(outer_law(effect, axis, corrected.sense));
+      continue;
+    }
     Json entry{{"effect", effect.effect}, {"interval_s", nullptr}};
     if (effect.interval_s) {
       entry["interval_s"] = {effect.interval_s->first, effect.interval_s->second};
@@ -135,6 +140,10 @@ std::vector<EffectSpec> effects_from(const Json& list, const Axis& axis, double 
     const EffectKind* kind = find_effect(name);
     require(kind && entry.contains("parameters") && entry["parameters"].is_object(), exit, where,
             ": effect '", name, "' is unknown or has no parameters");
+    if (name == "discovered") {
+      inner.push_back(inner_law(entry, axis, sense, where, exit));
+      continue;
+    }
     Json translated = entry;
     const std::string axis_name = inner_axis(*kind);
     translated["axis"] = axis_name.empty() ? Json() : Json(axis_name);

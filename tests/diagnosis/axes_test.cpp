@@ -256,6 +256,46 @@ TEST(DiagnoseAxes, DoesNotNameWhatItDoesNotKnow) {
   EXPECT_GT(report["unnamed"]["excess_rms"][0].get<double>(), 0.05);
 }
 
+/// A law found on an axis, told in its terms; the model that is written predicts what the report
+/// says, whether the log shows the drive or the reaction to it.
+TEST(DiagnoseAxes, DiscoversAnEddyCurrentBrake) {
+  for (const double sense : {1.0, -1.0}) {
+    const AxisBench bench([sense](const State& s) {
+      const double u = s.v / 0.3;
+      const double drive = 1.6 * u / (1.0 + u * u);
+      return sense > 0.0 ? drive : -drive - 2.0 * kInertia * s.a;
+    });
+    const Diagnosis diagnosis = bench.diagnose(one_axis());
+    const Json* law = find(diagnosis.report, "discovered");
+    ASSERT_TRUE(law) << diagnosis.report["findings"].dump(1);
+    EXPECT_EQ((*law)["axis"], "wheel");
+    EXPECT_TRUE((*law)["words"].get<std::string>().starts_with(
+        "an effort against the motion of wheel, largest at 0.3"))
+        << (*law)["words"];
+    EXPECT_NEAR(number(*law, "amplitude", "N*m"), 1.6 * sense, 0.05);
+    EXPECT_NEAR(number(*law, "scale_1", "rad/s"), 0.3, 0.01);
+    EXPECT_LT(diagnosis.report["fit"]["holdout_rmse_after"][0].get<double>(), 1.05 * kAxisNoise);
+    const AxisMachine written = parse_axis_machine(diagnosis.model, "model", Exit::kModel);
+    const Recording hold = read_recording(bench / "hold.csv", ReadOptions(), written.system);
+    const Eigen::VectorXd left = hold.column("torque") - predict_axes(written, hold).col(0);
+    EXPECT_LT(std::sqrt(left.squaredNorm() / double(left.size())), 1.05 * kAxisNoise);
+  }
+}
+
+// Dry and viscous friction together imitate a root of the speed; one law explains more than both.
+TEST(DiagnoseAxes, OneLawStandsInThePlaceOfTwoNames) {
+  const Json report = AxisBench([](const State& s) {
+                        return 0.5 * std::copysign(std::sqrt(std::abs(s.v) / 0.5), s.v);
+                      })
+                          .diagnose(one_axis())
+                          .report;
+  ASSERT_EQ(report["findings"].size(), 1U) << report["findings"].dump(1);
+  EXPECT_EQ(report["findings"][0]["effect"], "discovered");
+  EXPECT_EQ(report["verdict"], "unexplained");
+  EXPECT_NEAR(number(report["findings"][0], "power_1", ""), 0.5, 0.05);
+  EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 1.05 * kAxisNoise);
+}
+
 TEST(DiagnoseAxes, LowPassesBothSidesAndShowsTheRawFiguresBeside) {
   const AxisBench bench([](const State& s) { return 0.8 * std::tanh(s.v / 0.01); });
   Json system = one_axis();

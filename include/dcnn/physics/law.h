@@ -13,10 +13,10 @@ using Eigen::Vector3d;
 
 /// A scalar of the motion or of the force that the law is added to.
 struct Coordinate {
-  const char* name;       ///< "v_tool_z"
-  const char* unit;       ///< "m/s"
-  const char* frame;      ///< base, sensor, tool, or "" for what no frame changes
-  const char* words;      ///< "the velocity along the tool"
+  std::string name;       ///< "v_tool_z"
+  std::string unit;       ///< "m/s"
+  std::string frame;      ///< base, sensor, tool, or "" for what no frame changes
+  std::string words;      ///< "the velocity along the tool"
   bool is_rate = false;   ///< a displacement per second: states of displacement integrate it
   bool is_clock = false;  ///< of the recording's clock: not known online
 };
@@ -24,6 +24,8 @@ struct Coordinate {
 const std::vector<Coordinate>& coordinates();
 /// Taken along the law's own direction, or from its point: none without one.
 bool is_own(std::size_t coordinate);
+/// What the axis of a machine has: angle alpha, what moves along base x, sizes, time.
+bool is_of_axes(std::size_t coordinate);
 
 /// A vector of the sensor frame that the force is proportional to.
 struct Direction {
@@ -32,12 +34,27 @@ struct Direction {
   const char* words;  ///< "the base's x axis"
 };
 const std::vector<Direction>& directions();
+/// That of a machine's drive.
+std::size_t drive_direction();
 /// An axis of sensor, tool or base.
 bool is_axis(std::size_t direction);
 /// An axis, or a vector product with one: it may be oblique.
 bool has_axis(std::size_t direction);
 /// Away from a point of the base frame, whose place are numbers of the law.
 bool is_central(std::size_t direction);
+
+/// What is called how in which unit: by default that of a tool.
+struct Terms {
+  std::vector<Coordinate> coordinates;  ///< in the places of coordinates(); no name: not there
+  std::string axis;                     ///< of a machine, "joint2"; else empty
+  std::string force = "N";              ///< unit of the amplitude, not on torques
+  double resisting = -1.0;              ///< sign of an amplitude that resists the motion
+};
+const Terms& tool_terms();
+/// Of the axis of a machine whose effort has unit `effort`; `resisting` is 1 where the drive's
+/// effort is told, which overcomes friction, and -1 where the reaction to it is.
+Terms axis_terms(const std::string& axis, const std::string& effort,
+                 const std::string& position_unit, double resisting);
 
 /// f(u), u = (q - centre)/scale, q the coordinate or a state that it drives; p a further number.
 struct Shape {
@@ -95,7 +112,7 @@ Vector3d own_vector(const Structure& structure, const double* numbers);
 
 /// The numbers that a structure has, in the order in which a law holds them: the amplitude, those
 /// of the direction (scale, own, lag), the lag, then factor by factor memory, centre, scale, p.
-std::vector<Number> numbers_of(const Structure& structure);
+std::vector<Number> numbers_of(const Structure& structure, const Terms& terms = tool_terms());
 
 struct Law {
   Structure structure;
@@ -104,16 +121,16 @@ struct Law {
 
 /// The structure of a law as it stands in a file; expression, coordinates and the like are told
 /// again by to_json() and not read.
-Structure parse_structure(Options& options);
-Law parse_law(const Structure& structure, Options& parameters);
+Structure parse_structure(Options& options, const Terms& terms = tool_terms());
+Law parse_law(const Structure& structure, Options& parameters, const Terms& terms = tool_terms());
 /// {"axis", "factors", …, "expression", "latex", "words", "coordinates", "states"}.
-Json to_json(const Law& law);
-Json parameters_json(const Law& law);
+Json to_json(const Law& law, const Terms& terms = tool_terms());
+Json parameters_json(const Law& law, const Terms& terms = tool_terms());
 
-std::string expression(const Law& law);
-std::string latex(const Law& law);
+std::string expression(const Law& law, const Terms& terms = tool_terms());
+std::string latex(const Law& law, const Terms& terms = tool_terms());
 /// "a force against the velocity along the tool, …".
-std::string words(const Law& law);
+std::string words(const Law& law, const Terms& terms = tool_terms());
 bool needs_clock(const Structure& structure);
 bool needs_position(const Structure& structure);
 

@@ -127,6 +127,8 @@ const std::vector<Direction>& directions() {
   return list;
 }
 
+std::size_t drive_direction() { return kBaseAxis; }
+
 bool is_own(std::size_t coordinate) { return coordinate >= kVelocityAlong; }
 bool is_axis(std::size_t direction) { return direction < kAlongVelocity; }
 bool has_axis(std::size_t direction) {

@@ -13,5 +13,7 @@ std::string own_text(const Law& law);
 std::string direction_words(const Law& law);
 /// Of a formula: "base(0.6, 0.8, 0)", "from_point(0.5, 0, 0.1)".
 std::string direction_name(const Law& law);
+/// How a law in words begins: "a force against the motion along the tool".
+std::string beginning_words(const Law& law, const Terms& terms);
 
 }  // namespace dcnn::law

@@ -15,7 +15,9 @@ const std::vector<std::string> kToldAgain{"expression", "latex", "words", "coord
 template <class List>
 std::vector<std::string> names_in(const List& list) {
   std::vector<std::string> names;
-  for (const auto& entry : list) names.emplace_back(entry.name);
+  for (const auto& entry : list) {
+    if (!std::string(entry.name).empty()) names.emplace_back(entry.name);
+  }
   return names;
 }
 
@@ -24,20 +26,21 @@ template <class List>
 std::size_t place_in(Options& options, const std::string& key, const List& list) {
   const auto names = names_in(list);
   const auto word = options.get<std::string>(key);
-  const auto found = std::find(names.begin(), names.end(), word);
-  if (found == names.end()) {
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const auto& entry) { return entry.name == word; });
+  if (found == list.end() || word.empty()) {
     const auto near = nearest_word(word, names);
     options.reject(key, "'", word, "' is unknown",
                    near.empty() ? "; docs/use/diagnose.md lists the words of laws"
                                 : "; did you mean '" + near + "'?");
   }
-  return static_cast<std::size_t>(found - names.begin());
+  return static_cast<std::size_t>(found - list.begin());
 }
 
-Factor parse_factor(Options options) {
+Factor parse_factor(Options options, const Terms& terms) {
   Factor factor;
   factor.shape = place_in(options, "shape", shapes());
-  factor.coordinate = place_in(options, "of", coordinates());
+  factor.coordinate = place_in(options, "of", terms.coordinates);
   const auto memory = options.choice("memory", kMemories[0], kMemories);
   factor.memory = static_cast<Memory>(std::find(kMemories.begin(), kMemories.end(), memory) -
                                       kMemories.begin());
@@ -63,28 +66,31 @@ std::string path_unit(const Coordinate& q) {
   return q.is_rate ? unit.substr(0, unit.find('/')) : unit;
 }
 
-std::string memory_unit(const Factor& factor) {
-  const Coordinate& q = coordinates()[factor.coordinate];
+std::string memory_unit(const Factor& factor, const Coordinate& q) {
   if (factor.memory == Memory::kPlay) return q.unit;
   if (factor.memory == Memory::kDahl || factor.memory == Memory::kDwell) return path_unit(q);
   return "s";
 }
 
 /// Unit of what the shape is taken of.
-std::string state_unit(const Factor& factor) {
+std::string state_unit(const Factor& factor, const Coordinate& q) {
   if (factor.memory == Memory::kDahl) return "";
   if (factor.memory == Memory::kDwell) return "s";
-  return coordinates()[factor.coordinate].unit;
+  return q.unit;
 }
 
-void add_numbers(const Factor& factor, const std::string& index, std::vector<Number>& list) {
+void add_numbers(const Factor& factor, const std::string& index, const Terms& terms,
+                 std::vector<Number>& list) {
+  const Coordinate& q = terms.coordinates[factor.coordinate];
   const Shape& shape = shapes()[factor.shape];
   const auto add = [&](const std::string& stem, const std::string& unit, bool reference, double low,
                        double high) {
-    list.push_back({stem + index + suffix_of(unit), unit, reference, low, high});
+    // Parameters of a machine's axis do not end in units, which the description gives.
+    const std::string suffix = terms.axis.empty() ? suffix_of(unit) : "";
+    list.push_back({stem + index + suffix, unit, reference, low, high});
   };
-  if (factor.memory != Memory::kNone) add("memory_", memory_unit(factor), false, 1e-9, 1e9);
-  const std::string unit = state_unit(factor);
+  if (factor.memory != Memory::kNone) add("memory_", memory_unit(factor, q), false, 1e-9, 1e9);
+  const std::string unit = state_unit(factor, q);
   if (factor.centred) add("centre_", unit, !shape.free_centre, -1e9, 1e9);
   add("scale_", unit, !shape.free_scale, shape.signed_scale ? -1e9 : 1e-9, 1e9);
   if (*shape.extra) add(std::string(shape.extra) + "_", "", false, shape.least, shape.most);
@@ -116,8 +122,8 @@ void add_own_numbers(const Structure& structure, std::vector<Number>& list) {
   }
 }
 
-Json factor_json(const Factor& factor) {
-  Json json{{"shape", shapes()[factor.shape].name}, {"of", coordinates()[factor.coordinate].name}};
+Json factor_json(const Factor& factor, const Coordinate& q) {
+  Json json{{"shape", shapes()[factor.shape].name}, {"of", q.name}};
   if (factor.memory != Memory::kNone) {
     json["memory"] = kMemories[static_cast<std::size_t>(factor.memory)];
   }
@@ -127,13 +133,14 @@ Json factor_json(const Factor& factor) {
 
 }  // namespace
 
-Structure parse_structure(Options& options) {
+Structure parse_structure(Options& options, const Terms& terms) {
   Structure structure;
-  structure.direction = place_in(options, "axis", directions());
+  structure.direction =
+      terms.axis.empty() ? place_in(options, "axis", directions()) : drive_direction();
   structure.direction_lagged = options.get<bool>("direction_lagged", false);
   structure.lagged = options.get<bool>("lagged", false);
   structure.on_torque = options.get<bool>("on_torque", false);
-  structure.oblique = options.get<bool>("oblique", false);
+  structure.oblique = terms.axis.empty() && options.get<bool>("oblique", false);
   if (structure.oblique && !has_axis(structure.direction)) {
     options.reject("oblique", "is of axes, not of '", directions()[structure.direction].name, "'");
   }
@@ -143,8 +150,8 @@ Structure parse_structure(Options& options) {
                    factors.dump());
   }
   for (std::size_t k = 0; k < factors.size(); ++k) {
-    structure.factors.push_back(
-        parse_factor(Options(factors[k], "law: factor " + std::to_string(k + 1), Exit::kData)));
+    structure.factors.push_back(parse_factor(
+        Options(factors[k], "law: factor " + std::to_string(k + 1), Exit::kData), terms));
     refuse_without_axis(options, structure, structure.factors.back().coordinate);
   }
   if (structure.factors.empty() && is_axis(structure.direction)) {
@@ -157,10 +164,14 @@ Structure parse_structure(Options& options) {
   return structure;
 }
 
-std::vector<Number> numbers_of(const Structure& structure) {
+std::vector<Number> numbers_of(const Structure& structure, const Terms& terms) {
   std::vector<Number> list;
-  const std::string unit = structure.on_torque ? "N*m" : "N";
-  list.push_back({structure.on_torque ? "amplitude_nm" : "amplitude_n", unit, false, -1e9, 1e9});
+  if (structure.on_torque) {
+    list.push_back({"amplitude_nm", "N*m", false, -1e9, 1e9});
+  } else {
+    list.push_back(
+        {terms.axis.empty() ? "amplitude_n" : "amplitude", terms.force, false, -1e9, 1e9});
+  }
   const std::string vector = directions()[structure.direction].unit;
   if (!vector.empty()) {
     list.push_back({"vector_scale" + suffix_of(vector), vector, true, 1e-9, 1e9});
@@ -169,13 +180,13 @@ std::vector<Number> numbers_of(const Structure& structure) {
   if (structure.direction_lagged) list.push_back({"vector_lag_s", "s", false, 1e-4, 1e5});
   if (structure.lagged) list.push_back({"lag_s", "s", false, 1e-4, 1e5});
   for (std::size_t k = 0; k < structure.factors.size(); ++k) {
-    add_numbers(structure.factors[k], std::to_string(k + 1), list);
+    add_numbers(structure.factors[k], std::to_string(k + 1), terms, list);
   }
   return list;
 }
 
-Law parse_law(const Structure& structure, Options& parameters) {
-  const auto list = numbers_of(structure);
+Law parse_law(const Structure& structure, Options& parameters, const Terms& terms) {
+  const auto list = numbers_of(structure, terms);
   Law law{structure, Eigen::VectorXd(static_cast<Eigen::Index>(list.size()))};
   for (std::size_t k = 0; k < list.size(); ++k) {
     const double value = parameter(parameters, list[k].name, list[k].low, list[k].high);
@@ -187,8 +198,8 @@ Law parse_law(const Structure& structure, Options& parameters) {
   return law;
 }
 
-Json parameters_json(const Law& law) {
-  const auto list = numbers_of(law.structure);
+Json parameters_json(const Law& law, const Terms& terms) {
+  const auto list = numbers_of(law.structure, terms);
   Json json = Json::object();
   for (std::size_t k = 0; k < list.size(); ++k) {
     json[list[k].name] = law.numbers(static_cast<Eigen::Index>(k));
@@ -196,9 +207,10 @@ Json parameters_json(const Law& law) {
   return json;
 }
 
-Json to_json(const Law& law) {
+Json to_json(const Law& law, const Terms& terms) {
   const Structure& structure = law.structure;
-  Json json{{"axis", directions()[structure.direction].name}};
+  Json json = Json::object();
+  if (terms.axis.empty()) json["axis"] = directions()[structure.direction].name;
   if (structure.oblique) json["oblique"] = true;
   if (structure.direction_lagged) json["direction_lagged"] = true;
   if (structure.lagged) json["lagged"] = true;
@@ -206,19 +218,19 @@ Json to_json(const Law& law) {
   Json factors = Json::array(), used = Json::array(), states = Json::array();
   for (std::size_t k = 0; k < structure.factors.size(); ++k) {
     const Factor& factor = structure.factors[k];
-    const Coordinate& q = coordinates()[factor.coordinate];
-    factors.push_back(factor_json(factor));
+    const Coordinate& q = terms.coordinates[factor.coordinate];
+    factors.push_back(factor_json(factor, q));
     used.push_back(Json{{"name", q.name}, {"frame", q.frame}, {"unit", q.unit}});
     if (factor.memory == Memory::kNone) continue;
     states.push_back(Json{{"name", "s_" + std::to_string(k + 1)},
                           {"kind", kMemories[static_cast<std::size_t>(factor.memory)]},
                           {"of", q.name},
-                          {"unit", state_unit(factor)}});
+                          {"unit", state_unit(factor, q)}});
   }
   json["factors"] = factors;
-  json["expression"] = expression(law);
-  json["latex"] = latex(law);
-  json["words"] = words(law);
+  json["expression"] = expression(law, terms);
+  json["latex"] = latex(law, terms);
+  json["words"] = words(law, terms);
   json["coordinates"] = used;
   json["states"] = states;
   return json;

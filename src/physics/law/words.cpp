@@ -19,12 +19,12 @@ struct FactorText {
   double centre_value = 0.0, scale_value = 1.0, extra = 0.0;
 };
 
-std::vector<FactorText> texts_of(const Law& law) {
-  const auto list = numbers_of(law.structure);
+std::vector<FactorText> texts_of(const Law& law, const Terms& terms) {
+  const auto list = numbers_of(law.structure, terms);
   std::vector<FactorText> texts;
   for (std::size_t k = 0; k < law.structure.factors.size(); ++k) {
     const Factor& factor = law.structure.factors[k];
-    FactorText text{&factor, &shapes()[factor.shape], &coordinates()[factor.coordinate],
+    FactorText text{&factor, &shapes()[factor.shape], &terms.coordinates[factor.coordinate],
                     std::to_string(k + 1)};
     for (std::size_t i = 0; i < list.size(); ++i) {
       const double value = law.numbers(static_cast<Eigen::Index>(i));
@@ -107,8 +107,8 @@ std::string latex_factor(const FactorText& text) {
   return replaced(replaced(text.shape->latex, "#", brief(text.extra)), "@", u);
 }
 
-std::string amplitude_text(const Law& law) {
-  return brief(law.numbers(0)) + (law.structure.on_torque ? " N*m" : " N");
+std::string amplitude_unit(const Law& law, const Terms& terms) {
+  return law.structure.on_torque ? "N*m" : terms.force;
 }
 
 /// What the shape is taken of, in words.
@@ -194,42 +194,14 @@ std::string clause(const FactorText& text) {
          (text.factor->centred ? text.centre : "0");
 }
 
-/// Whether the force changes its sign with the coordinate that is the rate along its own axis.
-bool is_resistance(const Structure& structure) {
-  if (structure.factors.empty()) return false;
-  const std::string axis = directions()[structure.direction].name;
-  const std::string q = coordinates()[structure.factors[0].coordinate].name;
-  const std::string shape = shapes()[structure.factors[0].shape].name;
-  const bool odd = shape == "linear" || shape == "power" || shape == "asymmetric" ||
-                   shape == "tanh" || shape == "peaked" || shape == "fading" ||
-                   shape == "dead_band" || shape == "log";
-  const bool along = q == "v_along" && is_axis(structure.direction);
-  return odd && (along || q == "v_" + axis || (q == "speed" && axis == "along_velocity"));
-}
-
-std::string beginning(const Law& law) {
-  const bool negative = law.numbers(0) < 0.0;
-  const Direction& direction = directions()[law.structure.direction];
-  std::string text = law.structure.on_torque ? "a torque " : "a force ";
-  if (is_resistance(law.structure)) {
-    text += negative ? "against the motion along " : "with the motion along ";
-    const bool path = std::string(direction.name) == "along_velocity";
-    return text + (path ? "its path" : direction_words(law));
-  }
-  if (is_central(law.structure.direction)) {
-    return text + (negative ? "towards" : "away from") + " the point " + own_text(law) +
-           " m of the base";
-  }
-  return text + (negative ? "against " : "along ") + direction_words(law);
-}
-
 }  // namespace
 
-std::string expression(const Law& law) {
+std::string expression(const Law& law, const Terms& terms) {
   const Structure& structure = law.structure;
   const Direction& direction = directions()[structure.direction];
-  std::string product = amplitude_text(law);
-  for (const FactorText& text : texts_of(law)) product += " * [" + factor_expression(text) + "]";
+  std::string product = brief(law.numbers(0)) + " " + amplitude_unit(law, terms);
+  for (const FactorText& text : texts_of(law, terms))
+    product += " * [" + factor_expression(text) + "]";
   Eigen::Index next = 1;
   std::string vector = direction_name(law);
   if (*direction.unit) {
@@ -242,14 +214,14 @@ std::string expression(const Law& law) {
   if (structure.lagged) {
     product = "lag(" + product + ", " + brief(law.numbers(next)) + " s)";
   }
-  return product + " along " + vector;
+  return terms.axis.empty() ? product + " along " + vector : product;
 }
 
-std::string latex(const Law& law) {
+std::string latex(const Law& law, const Terms& terms) {
   const Structure& structure = law.structure;
   const Direction& direction = directions()[structure.direction];
-  std::string text = latex_number(law.numbers(0), structure.on_torque ? "N m" : "N");
-  for (const FactorText& factor : texts_of(law)) text += "\\;" + latex_factor(factor);
+  std::string text = latex_number(law.numbers(0), amplitude_unit(law, terms));
+  for (const FactorText& factor : texts_of(law, terms)) text += "\\;" + latex_factor(factor);
   Eigen::Index next = 1;
   std::string vector = "\\mathbf{e}_{\\text{" + replaced(direction_name(law), "_", " ") + "}}";
   if (*direction.unit) {
@@ -262,13 +234,13 @@ std::string latex(const Law& law) {
   };
   if (structure.direction_lagged) vector = lagged(vector);
   if (structure.lagged) text = lagged(text);
-  return text + "\\;" + vector;
+  return terms.axis.empty() ? text + "\\;" + vector : text;
 }
 
-std::string words(const Law& law) {
-  std::string text = beginning(law);
+std::string words(const Law& law, const Terms& terms) {
+  std::string text = beginning_words(law, terms);
   std::string at;
-  for (const FactorText& factor : texts_of(law)) {
+  for (const FactorText& factor : texts_of(law, terms)) {
     text += ", " + clause(factor);
     const bool reference = !factor.shape->free_scale && std::string(factor.shape->name) != "affine";
     if (reference) at += (at.empty() ? " at " : " and ") + factor.scale + " of " + factor.q->words;
@@ -285,7 +257,7 @@ std::string words(const Law& law) {
   }
   if (structure.lagged) text += ", following with " + brief(law.numbers(next)) + " s";
   const double size = std::abs(law.numbers(0));
-  return text + ": " + brief(size) + (structure.on_torque ? " N*m" : " N") + at;
+  return text + ": " + brief(size) + " " + amplitude_unit(law, terms) + at;
 }
 
 }  // namespace dcnn::law
