@@ -42,6 +42,15 @@ Member make_member(const Case& study, const EffectKind& kind, const EffectFit& f
   return member;
 }
 
+bool is_degenerate(const Member& member) {
+  for (Index i = 0; i < member.shapes.size(); ++i) {
+    const double most = member.most_shapes(i);
+    const double size = 1e-3 * std::max(std::abs(most), std::abs(member.least_shapes(i)));
+    if (member.shapes(i) > most - size) return true;
+  }
+  return false;
+}
+
 EffectSpec spec_of(const Member& member) {
   if (!member.law.is_null()) {
     return {member.kind->name, "", std::nullopt, member.law_parameters, "", member.law};

@@ -33,6 +33,10 @@ struct Member {
   int parameters() const;
 };
 
+/// A shape as far as it goes: the law bends less, or more, than any of its kind, and another that
+/// has no such shape may do.
+bool is_degenerate(const Member& member);
+
 /// Laws of one kind (friction, drift, …) that act along the same axis.
 bool same_family(const Member& a, const Member& b);
 

@@ -25,17 +25,6 @@ constexpr double kDegenerateError = 0.05;  // the same beside a law whose shape 
 // More only ever fed what is not in the catalogue; but friction acts in every direction.
 constexpr int kMostMembers = 5, kMostFrictions = 14;
 
-/// A shape as far as it goes: the law bends less, or more, than any of its kind, and another that
-/// has no such shape may do.
-bool is_degenerate(const Member& member) {
-  for (Index i = 0; i < member.shapes.size(); ++i) {
-    const double most = member.most_shapes(i);
-    const double size = 1e-3 * std::max(std::abs(most), std::abs(member.least_shapes(i)));
-    if (member.shapes(i) > most - size) return true;
-  }
-  return false;
-}
-
 /// Which effects these are, and where.
 std::multiset<std::string> places_of(const std::vector<Member>& members) {
   std::multiset<std::string> places;

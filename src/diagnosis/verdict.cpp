@@ -70,6 +70,7 @@ bool Search::still_knocks() {
 
 /// Takes back, the most doubtful first, what signs drawn at random for each second explain as
 /// often: a coincidence of a few moments, not a law. (An event has too few seconds for this test.)
+/// A delay or a lag at the end of its range is no estimate, but what comes nearest to another law.
 void Search::drop_coincidences() {
   constexpr double kMostLikely = 0.05, kCertain = 50.0;
   if (study_.is_static() || study_.without.flips) return;
@@ -78,8 +79,10 @@ void Search::drop_coincidences() {
     std::optional<std::size_t> worst;
     for (std::size_t m = 0; m < fit_.members.size(); ++m) {
       if (stays(fit_.members[m]) || fit_.members[m].interval_s) continue;
-      if (net_gain(m) > kCertain * setting_->price) continue;  // nor do a few moves have enough
-      const double p = flip_p_value(*setting_, fit_, m);
+      const bool estimate =
+          fit_.members[m].amplitudes.size() > 0 || !is_degenerate(fit_.members[m]);
+      if (estimate && net_gain(m) > kCertain * setting_->price) continue;  // nor have a few moves
+      const double p = estimate ? flip_p_value(*setting_, fit_, m) : 1.0;
       if (p > most) most = p, worst = m;
     }
     if (!worst) return;

@@ -134,13 +134,9 @@ std::vector<Trial> fitted(const Data& data, const std::vector<Sketch>& sketches,
   return trials;
 }
 
-/// Scores by the largest gain of all, the best first, one trial a structure.
-void rank(std::vector<Trial>& trials) {
-  double largest = 0.0;
-  for (const Trial& trial : trials) largest = std::max(largest, trial.gain);
-  for (Trial& trial : trials) trial.score = trial.gain - penalty(trial.sketch, largest);
-  std::stable_sort(trials.begin(), trials.end(),
-                   [](const Trial& a, const Trial& b) { return a.score > b.score; });
+/// The best first, one trial a structure.
+void rank_structures(std::vector<Trial>& trials) {
+  rank(trials);
   std::vector<Trial> unique;
   for (Trial& trial : trials) {
     const auto structure = structure_of(trial.sketch);
@@ -158,7 +154,7 @@ std::vector<Trial> evolved(const Data& data, std::vector<Trial> trials) {
   std::vector<Sketch> sketches;
   for (const Trial& trial : trials) sketches.push_back(trial.sketch);
   trials = fitted(data, sketches, 2 * kFirstSteps);
-  rank(trials);
+  rank_structures(trials);
   std::vector<law::Structure> done;
   for (int round = 0; round < kRounds; ++round) {
     std::vector<Sketch> next;
@@ -173,12 +169,12 @@ std::vector<Trial> evolved(const Data& data, std::vector<Trial> trials) {
     if (next.empty()) break;
     auto children = fitted(data, next, kFirstSteps);
     trials.insert(trials.end(), children.begin(), children.end());
-    rank(trials);
+    rank_structures(trials);
     // The best few to the end: what is compared must have converged.
     for (std::size_t k = 0; k < std::min(kParents, trials.size()); ++k) {
       trials[k] = refined(data, trials[k].sketch, kLastSteps);
     }
-    rank(trials);
+    rank_structures(trials);
     if (trials.size() > 40) trials.resize(40);
   }
   return trials;

@@ -143,6 +143,14 @@ double penalty(const Sketch& sketch, double largest) {
          prior::kFactor * std::max(0.0, factors - 1.0) + prior::kMemory * memories(sketch);
 }
 
+void rank(std::vector<Trial>& trials) {
+  double largest = 0.0;
+  for (const Trial& trial : trials) largest = std::max(largest, trial.gain);
+  for (Trial& trial : trials) trial.score = trial.gain - penalty(trial.sketch, largest);
+  std::stable_sort(trials.begin(), trials.end(),
+                   [](const Trial& a, const Trial& b) { return a.score > b.score; });
+}
+
 Trial weighed(const Data& data, const Sketch& sketch) {
   Trial trial{sketch, 0.0, 0.0, data.column(sketch)};
   solve_amplitude(data, trial);

@@ -26,4 +26,7 @@ Eigen::MatrixXd tangent_of(const Data& data, const Sketch& sketch);
 /// any sketch, of which a share per number is what an error of the motion could buy.
 double penalty(const Sketch& sketch, double largest);
 
+/// Scores by the largest gain of all; the best first.
+void rank(std::vector<Trial>& trials);
+
 }  // namespace dcnn::discovery

@@ -17,11 +17,6 @@ using Eigen::VectorXd;
 constexpr Index kBatch = 64;
 constexpr std::size_t kExact = 4;  // times as many are weighed exactly as are asked for
 
-struct Candidate {
-  double gain;
-  Sketch sketch;
-};
-
 /// Power that whitening makes of a channel's signals of motion, per sample.
 Eigen::RowVector3d power_gains(const Data& data) {
   Eigen::RowVector3d gains = Eigen::RowVector3d::Zero();
@@ -41,6 +36,9 @@ Eigen::RowVector3d power_gains(const Data& data) {
 
 /// A gain that is worth being remembered.
 bool is_worth(double gain) { return gain > prior::kNumber; }
+
+/// A trial whose gain is an estimate and whose column is not made yet.
+Trial told(const Sketch& sketch, double gain) { return {sketch, gain, 0.0, VectorXd()}; }
 
 /// By direction: e·x of the residual brought back through the whitening, and e·e in its metric.
 struct Weights {
@@ -96,68 +94,84 @@ Sketch sketch_of(const Data& data, const Sketch& direction, const Atom& atom, do
   return sketch;
 }
 
+/// Of a batch of atoms, by atom and direction: products with the score, and with the energy of the
+/// atom and of its square.
+struct Sums {
+  MatrixXd scores, means, energies;
+};
+
+/// The oblique axes that gain most, of every frame.
+void add_turned(const Sums& sums, Index row, const Atom& atom,
+                const std::vector<Sketch>& directions, std::vector<Trial>& list) {
+  for (std::size_t d = 0; d < directions.size(); ++d) {
+    if (!begins_axes(directions, d)) continue;
+    if (atom.empty() && law::is_axis(directions[d].direction)) continue;
+    const auto first = static_cast<Index>(d);
+    const Eigen::Array3d score = sums.scores.row(row).segment<3>(first).transpose(),
+                         energy = sums.energies.row(row).segment<3>(first).transpose();
+    if (!(energy.minCoeff() > 0.0)) continue;
+    const double gain = (score * score / energy).sum();
+    if (is_worth(gain)) list.push_back(told(turned(directions, d, score / energy, atom), gain));
+  }
+}
+
+/// The directions as they are; a linear factor with the constant that gains most.
+void add_straight(const Data& data, const Sums& sums, Index row, const Atom& atom,
+                  const Weights& weights, const std::vector<Sketch>& directions,
+                  std::vector<Trial>& list) {
+  for (Index d = 0; d < sums.scores.cols(); ++d) {
+    const Sketch& direction = directions[static_cast<std::size_t>(d)];
+    if (atom.empty() && law::is_axis(direction.direction)) continue;
+    const double whole = sums.energies(row, d);
+    double score = sums.scores(row, d), energy = whole, extra = 0.0, centre = 0.0;
+    if (!(energy > 0.0)) continue;
+    if (has_free_constant(atom)) {
+      const double constant_score = weights.score.col(d).sum(),
+                   constant_energy = weights.energy.col(d).sum();
+      const double mean = sums.means(row, d) / constant_energy;
+      const double constant = constant_score / constant_energy;
+      score -= mean * constant_score;
+      energy -= mean * mean * constant_energy;
+      if (!(energy > 1e-9 * whole)) continue;
+      extra = constant * constant_score;
+      const double u0 = mean - constant * energy / score;  // where the line is zero
+      centre = atom[0].centre + u0 * atom[0].scale;
+    }
+    const double gain = score * score / energy + extra;
+    if (is_worth(gain)) list.push_back(told(sketch_of(data, direction, atom, centre), gain));
+  }
+}
+
 /// Candidates of one batch of atoms.
-std::vector<Candidate> batch_gains(const Data& data, const std::vector<Atom>& atoms,
-                                   std::size_t first, std::size_t count, const Weights& weights,
-                                   const std::vector<Sketch>& directions) {
+std::vector<Trial> batch_gains(const Data& data, const std::vector<Atom>& atoms, std::size_t first,
+                               std::size_t count, const Weights& weights,
+                               const std::vector<Sketch>& directions) {
   MatrixXd columns(data.samples(), static_cast<Index>(count));
   for (std::size_t k = 0; k < count; ++k) {
     columns.col(static_cast<Index>(k)) = data.product(atoms[first + k], {});
   }
-  const MatrixXd scores = columns.transpose() * weights.score;
-  const MatrixXd means = columns.transpose() * weights.energy;
-  const MatrixXd energies = columns.cwiseAbs2().transpose() * weights.energy;
-  const Eigen::RowVectorXd constant_score = weights.score.colwise().sum();
-  const Eigen::RowVectorXd constant_energy = weights.energy.colwise().sum();
-  std::vector<Candidate> list;
+  const Sums sums{columns.transpose() * weights.score, columns.transpose() * weights.energy,
+                  columns.cwiseAbs2().transpose() * weights.energy};
+  std::vector<Trial> list;
   for (std::size_t k = 0; k < count; ++k) {
-    const Atom& atom = atoms[first + k];
-    const auto at = static_cast<Index>(k);
-    for (std::size_t d = 0; d < directions.size(); ++d) {
-      if (!begins_axes(directions, d)) continue;
-      if (atom.empty() && law::is_axis(directions[d].direction)) continue;
-      const Eigen::Array3d s = scores.row(at).segment<3>(static_cast<Index>(d)).transpose(),
-                           e = energies.row(at).segment<3>(static_cast<Index>(d)).transpose();
-      if (!(e.minCoeff() > 0.0)) continue;
-      const double gain = (s * s / e).sum();
-      if (is_worth(gain)) list.push_back({gain, turned(directions, d, s / e, atom)});
-    }
-    for (Index d = 0; d < scores.cols(); ++d) {
-      const auto direction = static_cast<std::size_t>(d);
-      if (atom.empty() && law::is_axis(directions[direction].direction)) continue;
-      const auto row = static_cast<Index>(k);
-      double score = scores(row, d), energy = energies(row, d), extra = 0.0, centre = 0.0;
-      if (!(energy > 0.0)) continue;
-      if (has_free_constant(atom)) {
-        const double mean = means(row, d) / constant_energy(d);
-        const double constant = constant_score(d) / constant_energy(d);
-        score -= mean * constant_score(d);
-        energy -= mean * mean * constant_energy(d);
-        if (!(energy > 1e-9 * energies(row, d))) continue;
-        extra = constant * constant_score(d);
-        const double u0 = mean - constant * energy / score;  // where the line is zero
-        centre = atom[0].centre + u0 * atom[0].scale;
-      }
-      const double gain = score * score / energy + extra;
-      if (!is_worth(gain)) continue;
-      list.push_back({gain, sketch_of(data, directions[direction], atom, centre)});
-    }
+    const auto row = static_cast<Index>(k);
+    add_turned(sums, row, atoms[first + k], directions, list);
+    add_straight(data, sums, row, atoms[first + k], weights, directions, list);
   }
   return list;
 }
 
 /// Candidates of one direction with numbers of its own.
-std::vector<Candidate> own_gains(const Data& data, const Sketch& direction,
-                                 const Weights& weights) {
+std::vector<Trial> own_gains(const Data& data, const Sketch& direction, const Weights& weights) {
   const MatrixXd e = data.vector_of(direction);
   const VectorXd score = e.cwiseProduct(weights.back).rowwise().sum();
   const VectorXd energy = e.cwiseAbs2() * weights.gains.transpose();
-  std::vector<Candidate> list;
+  std::vector<Trial> list;
   for (const Atom& atom : own_atoms(data, direction)) {
     const VectorXd column = data.product(atom, direction);
     const double size = column.cwiseAbs2().dot(energy), found = column.dot(score);
     if (!(size > 0.0) || !is_worth(found * found / size)) continue;
-    list.push_back({found * found / size, direction});
+    list.push_back(told(direction, found * found / size));
     list.back().sketch.pieces = atom;
   }
   return list;
@@ -176,11 +190,6 @@ class Crowd {
   std::map<std::multiset<std::size_t>, int> counts_;
 };
 
-void sort_by_gain(std::vector<Trial>& trials) {
-  std::stable_sort(trials.begin(), trials.end(),
-                   [](const Trial& a, const Trial& b) { return a.gain > b.gain; });
-}
-
 }  // namespace
 
 std::vector<Trial> scan(const Data& data, std::size_t count) {
@@ -189,7 +198,7 @@ std::vector<Trial> scan(const Data& data, std::size_t count) {
   const Weights weights = weights_of(data, directions);
   const auto own = own_directions(data);
   const auto batches = (static_cast<Index>(atoms.size()) + kBatch - 1) / kBatch;
-  std::vector<std::vector<Candidate>> found(static_cast<std::size_t>(batches) + own.size());
+  std::vector<std::vector<Trial>> found(static_cast<std::size_t>(batches) + own.size());
   for_each_piece(static_cast<Index>(found.size()), [&](Index b) {
     if (b >= batches) {
       const auto k = static_cast<std::size_t>(b - batches);
@@ -200,20 +209,16 @@ std::vector<Trial> scan(const Data& data, std::size_t count) {
     const std::size_t size = std::min(static_cast<std::size_t>(kBatch), atoms.size() - first);
     found[static_cast<std::size_t>(b)] = batch_gains(data, atoms, first, size, weights, directions);
   });
-  std::vector<Candidate> all;
+  std::vector<Trial> all;
   for (const auto& list : found) all.insert(all.end(), list.begin(), list.end());
-  double largest = 0.0;
-  for (const Candidate& candidate : all) largest = std::max(largest, candidate.gain);
-  for (Candidate& candidate : all) candidate.gain -= penalty(candidate.sketch, largest);
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.gain > b.gain; });
+  rank(all);
   Crowd crowd, final_crowd;
   std::vector<Trial> exact, best;
-  for (const Candidate& candidate : all) {
+  for (const Trial& candidate : all) {
     if (exact.size() >= kExact * count) break;
     if (crowd.admits(candidate.sketch)) exact.push_back(weighed(data, candidate.sketch));
   }
-  sort_by_gain(exact);
+  rank(exact);
   for (Trial& trial : exact) {
     if (best.size() < count && final_crowd.admits(trial.sketch)) best.push_back(std::move(trial));
   }

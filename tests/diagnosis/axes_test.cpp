@@ -296,6 +296,16 @@ TEST(DiagnoseAxes, OneLawStandsInThePlaceOfTwoNames) {
   EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 1.05 * kAxisNoise);
 }
 
+// A log of torques that come 0.3 s before the motion has no lead of 0.2 s, where its range ends.
+TEST(DiagnoseAxes, NoLeadEndsWhereItsRangeDoes) {
+  const Json report =
+      AxisBench([](const State& s) { return kInertia * (state_at(s.t + 0.3).a - s.a); })
+          .diagnose(one_axis({{"simulated", "simulated"}}))
+          .report;
+  EXPECT_FALSE(find(report, "time_delay")) << report["findings"].dump(1);
+  EXPECT_NE(report["verdict"], "explained");
+}
+
 TEST(DiagnoseAxes, LowPassesBothSidesAndShowsTheRawFiguresBeside) {
   const AxisBench bench([](const State& s) { return 0.8 * std::tanh(s.v / 0.01); });
   Json system = one_axis();
