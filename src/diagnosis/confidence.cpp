@@ -99,20 +99,44 @@ std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldO
   }
 }
 
-std::optional<std::size_t> refuted_of(const std::vector<std::optional<double>>& probabilities) {
-  double least = 0.5;
-  std::optional<std::size_t> worst;
+namespace {
+
+/// Probability that any of the names acts, held-out data included: two that cancel in part may each
+/// be right beside the other, and both wrong.
+double together(const Search& search, const HoldOut& holdout) {
+  const JointFit& fit = search.fit();
+  std::vector<Member> others = fit.members;
+  std::erase_if(others, [](const Member& m) { return !m.fixed; });
+  if (others.size() == fit.members.size()) return 1.0;
+  const JointFit none = joint_fit(search.setting(), others);
+  const evidence::Posterior& before = search.posterior();
+  return evidence::updated(
+      before.named + before.named_and_unknown,
+      holdout.log_support(holdout.prediction(fit.members, fit.base),
+                          holdout.prediction(none.members, none.base), search.floors()));
+}
+
+std::optional<std::size_t> least_of(const std::vector<std::optional<double>>& probabilities) {
+  std::optional<std::size_t> least;
   for (std::size_t m = 0; m < probabilities.size(); ++m) {
-    if (probabilities[m] && *probabilities[m] < least) least = *probabilities[m], worst = m;
+    if (probabilities[m] && (!least || *probabilities[m] < *probabilities[*least])) least = m;
   }
-  return worst;
+  return least;
+}
+
+}  // namespace
+
+std::optional<std::size_t> refuted_of(const std::vector<std::optional<double>>& probabilities) {
+  const auto least = least_of(probabilities);
+  return least && *probabilities[*least] < 0.5 ? least : std::nullopt;
 }
 
 Json leave_refuted(Search& search, const HoldOut& holdout) {
   Json refuted = Json::array();
   while (true) {
     const auto likely = confidences(search, holdout);
-    const auto worst = refuted_of(likely);
+    auto worst = refuted_of(likely);
+    if (!worst && together(search, holdout) < 0.5) worst = least_of(likely);
     if (!worst) return refuted;
     const Member& member = search.fit().members[*worst];
     refuted.push_back({{"effect", member.name()},

@@ -78,6 +78,7 @@ void add_deletions(const Sketch& from, std::vector<Sketch>& list) {
   for (const Sketch& plain : made_plain(from)) list.push_back(plain);
   for (double Sketch::*lag : {&Sketch::lag, &Sketch::vector_lag}) {
     if (!(from.*lag > 0.0)) continue;
+    if (from.pieces.empty() && law::is_axis(from.direction)) continue;  // a constant force is left
     Sketch sketch = from;
     sketch.*lag = 0.0;
     list.push_back(sketch);

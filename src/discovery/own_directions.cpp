@@ -113,12 +113,22 @@ std::vector<Sketch> own_directions(const Data& data) {
     sketch.direction = direction_named(frame);
     for (const Vector3d& e : axes()) list.push_back(with_axis(sketch, e));
   }
+  // Gravity behind a lag: liquid, a hose, a polymer.
+  for (const char* axis : {"base_x", "base_y", "base_z"}) {
+    for (const double tau : {0.1, 0.3, 1.0, 3.0, 10.0}) {
+      Sketch sketch;
+      sketch.direction = direction_named(axis);
+      sketch.vector_lag = tau;
+      list.push_back(sketch);
+    }
+  }
   if (data.varies(coordinate_named("distance"))) add_points(data, list);
   return list;
 }
 
 std::vector<Atom> own_atoms(const Data& data, const Sketch& direction) {
   if (law::is_central(direction.direction)) return atoms_of_distance(data);
+  if (direction.vector_lag > 0.0) return {{}};
   std::vector<Atom> list;
   for (const char* motion : {"v_along", "w_along"}) add_motion_along(data, motion, list);
   const std::size_t f = coordinate_named("f_along");

@@ -5,8 +5,8 @@
 
 namespace dcnn::discovery {
 
-/// Oblique axes of base and sensor on a coarse grid of directions, and points in and around the
-/// space that was reached; without factors.
+/// Oblique axes of base and sensor on a coarse grid of directions, axes of the base behind lags, and
+/// points in and around the space that was reached; without factors.
 std::vector<Sketch> own_directions(const Data& data);
 /// Factors of coordinates along such an axis, or of the distance from such a point.
 std::vector<Atom> own_atoms(const Data& data, const Sketch& direction);

@@ -108,6 +108,26 @@ TEST(Discover, MagnetBesideThePath) {
       "from_point(", 19);
 }
 
+TEST(Discover, LiquidWhoseWeightTurnsLate) {
+  // 0.3 N of the weight follow with 0.7 s; the rest turns with the tool.
+  const auto lagged = [](const Scene& at) {
+    MatrixXd s(at.motion.samples(), 3);
+    for (Index k = 0; k < s.rows(); ++k) {
+      const Eigen::RowVector3d g = -0.3 * at.motion.R_BS[static_cast<std::size_t>(k)].row(2);
+      s.row(k) = k == 0 ? g : s.row(k - 1) + (1.0 - std::exp(-0.02 / 0.7)) * (g - s.row(k - 1));
+    }
+    return s;
+  };
+  const Scene at = scene(3, 2000), other = scene(77, 2000);
+  const auto laws = discover(problem_of(at, lagged(at) + white(2000, kDeviation, 20), kDeviation));
+  ASSERT_FALSE(laws.empty());
+  const MatrixXd error = prediction(other, laws) - lagged(other);
+  EXPECT_LE(std::sqrt(error.squaredNorm() / static_cast<double>(error.size())), 0.32 * kDeviation)
+      << law::expression(laws[0].law);
+  EXPECT_NE(law::expression(laws[0].law).find("lag(base_z"), std::string::npos)
+      << law::expression(laws[0].law);
+}
+
 TEST(Discover, ForceBehindALag) {
   // A polymer pad: 4 % of the load follows with 0.8 s.
   const auto lagged = [](const Scene& at) {

@@ -154,7 +154,8 @@ Structure parse_structure(Options& options, const Terms& terms) {
         Options(factors[k], "law: factor " + std::to_string(k + 1), Exit::kData), terms));
     refuse_without_axis(options, structure, structure.factors.back().coordinate);
   }
-  if (structure.factors.empty() && is_axis(structure.direction)) {
+  const bool changes = !structure.factors.empty() || structure.direction_lagged;
+  if (!changes && is_axis(structure.direction)) {
     options.reject("factors", "must not be empty: a constant force is the effect bias or contact");
   }
   for (const auto& key : kToldAgain) options.raw(key);
