@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     request.read = read.options();
     for (const auto& log : request.logs) {
-      require(std::filesystem::is_regular_file(log), Exit::kData, log.string(),
+      require(log == "-" || std::filesystem::is_regular_file(log), Exit::kData, log.string(),
               ": is no file; give a recording (CSV)");
     }
     const auto reports = check_logs(request);
