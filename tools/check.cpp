@@ -51,7 +51,9 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     request.read = read.options();
     for (const auto& log : request.logs) {
-      require(log == "-" || std::filesystem::is_regular_file(log), Exit::kData, log.string(),
+      require(log != "-", Exit::kUsage,
+              "a log is read twice: write standard input to a file first");
+      require(std::filesystem::is_regular_file(log), Exit::kData, log.string(),
               ": is no file; give a recording (CSV)");
     }
     const auto reports = check_logs(request);
