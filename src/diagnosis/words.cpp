@@ -128,9 +128,11 @@ std::string in_words(const Member& member, const Estimates& n) {
     return "the sensor's offset jumps by " + force(length_of(n, "step", "_n")) + when(member);
   if (id == "saturation") return "the reading is clipped at " + number("limit_n") + " N" + where;
   if (id == "quantisation") return "the reading comes in steps of " + force(value_of(n, "step_n"));
-  if (id == "hum")
-    return "a hum of " + force(std::hypot(length_of(n, "sin_", "_n"), length_of(n, "cos_", "_n"))) +
-           " at " + number("freq_hz") + " Hz";
+  if (id == "hum") {
+    const double sine = length_of(n, "sin_", "_n"), cosine = length_of(n, "cos_", "_n");
+    return "a hum of " + force(std::sqrt(sine * sine + cosine * cosine)) + " at " +
+           number("freq_hz") + " Hz";
+  }
   return std::string(member.kind->meaning) + where;
 }
 
