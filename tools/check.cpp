@@ -51,6 +51,8 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     request.read = read.options();
     for (const auto& log : request.logs) {
+      require(log != "-", Exit::kUsage,
+              "a log is read twice: write standard input to a file first");
       require(std::filesystem::is_regular_file(log), Exit::kData, log.string(),
               ": is no file; give a recording (CSV)");
     }

@@ -4,6 +4,7 @@
 #include "dcnn/experiment/diagnosis_report.h"
 #include "dcnn/experiment/least_sizes.h"
 #include "dcnn/identification/urdf.h"
+#include "support/apart.h"
 #include "support/doctor.h"
 #include "support/progress.h"
 #include "support/tool.h"
@@ -94,6 +95,7 @@ int main(int argc, char** argv) {
   tool.option("--without", without, "leave out parts of the method, to see what they are worth")
       .one_of(ablations())
       .group("For research");
+  tool.check([&] { expect_apart(request.fit, request.holdout); });
   const ReadFlags read(tool);
   const Doctor doctor(tool);
 

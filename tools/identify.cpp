@@ -6,6 +6,7 @@
 #include "dcnn/identification/arm.h"
 #include "dcnn/identification/payload.h"
 #include "dcnn/physics/simulator.h"
+#include "support/apart.h"
 #include "support/doctor.h"
 #include "support/tool.h"
 
@@ -183,6 +184,7 @@ int main(int argc, char** argv) {
                           .holds({FileKind::kSystem})
                           .group("Arms");
   add_arm_options(tool, command, system);
+  tool.check([&] { expect_apart(command.request.logs, command.arm.holdout); });
   const ReadFlags read(tool);
   const Doctor doctor(tool);
 

@@ -4,6 +4,7 @@
 #include "dcnn/core/file.h"
 #include "dcnn/import/assemble.h"
 #include "dcnn/import/summary.h"
+#include "support/file_kind.h"
 #include "support/import_flags.h"
 #include "support/tool.h"
 
@@ -73,6 +74,8 @@ class Importer {
     for (const Path& log : request_.logs) {
       require(log != "-", Exit::kUsage,
               "a log is read twice: write standard input to a file first");
+      const FileKind kind = kind_of_file(log);
+      if (kind != FileKind::kJson) expect_kind("dcnn-import", log, {FileKind::kRecording});
     }
     require(!request_.logs.empty(), Exit::kUsage, "name a log; see dcnn-import --help");
     const auto recordings = recordings_of(request_);

@@ -6,6 +6,7 @@
 #include "dcnn/experiment/configuration.h"
 #include "dcnn/experiment/remainder.h"
 #include "dcnn/models/model.h"
+#include "support/apart.h"
 #include "support/tool.h"
 
 namespace {
@@ -56,6 +57,7 @@ int main(int argc, char** argv) {
               {"stlsq*", "lasso*", "omp*", "greedy*"})
       .required();
 
+  tool.check([&] { expect_apart(request.fit, request.holdout); });
   return tool.run(argc, argv, [&] {
     Json reports = rivals::run(request);
     for (const std::string& network : networks) {

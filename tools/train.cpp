@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "dcnn/core/ranks.h"
+#include "support/apart.h"
 #include "support/doctor.h"
 #include "support/interrupt.h"
 #include "support/joined_ranks.h"
@@ -160,6 +161,14 @@ int main(int argc, char** argv) {
   tool.output("--out", request.out, "model file to write; its run directory is beside it")
       .required()
       .unless(resume);
+  tool.check([&] {
+    expect_apart(request.training, request.validation);
+    const bool stream = request.out == "-" || (std::filesystem::exists(request.out) &&
+                                               !std::filesystem::is_regular_file(request.out) &&
+                                               !std::filesystem::is_directory(request.out));
+    require(!stream, Exit::kUsage, request.out.string(),
+            " is no file, and the training's folder stands beside its model; name a file");
+  });
   const ReadFlags read(tool);
   const Doctor doctor(tool);
 

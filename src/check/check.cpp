@@ -6,6 +6,7 @@
 
 #include "check/kind.h"
 #include "check/rows.h"
+#include "physics/foreign_force.h"
 
 namespace dcnn::check {
 namespace {
@@ -13,7 +14,6 @@ namespace {
 using Eigen::Index;
 constexpr double kListed = 0.05;  // of a fault's probability; less is not worth a line
 constexpr std::size_t kReadingsListed = 8;
-constexpr double kMostForeign = 0.5;  // share of the force's power that a tool's log leaves
 
 /// What one fault does to the statistic of another: the consequence is not listed beside its cause.
 const std::vector<std::pair<std::string, std::string>> kConsequences{
@@ -95,26 +95,23 @@ void set_curves(const Log& log, const Adopted& a, Report& report) {
   }
 }
 
-/// Share of the force's power that neither a rigid tool nor the sensor's white noise makes.
-double foreign_share(const Log& log, const Adopted& a) {
+double foreign_share_of(const Log& log, const Adopted& a) {
   const double power = (a.fit.force.rowwise() - a.fit.force.colwise().mean()).squaredNorm();
   double noise = 0.0;
   for (const char* name : {"fx", "fy", "fz"}) {
     noise += std::pow(a.reading.force * noise_of(log.column(name)), 2);
   }
   noise *= a.rows.value.squaredNorm() * static_cast<double>(a.fit.residual.rows());
-  return power > 0.0 ? (a.fit.residual.squaredNorm() - noise) / power : 0.0;
+  return foreign_share(a.fit.residual.squaredNorm(), noise, power);
 }
 
 void add_notes(const Log& log, const Adopted& a, Report& report) {
   if (a.compared) {
-    const double share = std::min(foreign_share(log, a), 1.0);
-    if (share > kMostForeign) {
-      report.notes.push_back(
-          brief(100.0 * share) +
-          " % of what the force varies by is no rigid tool's: contacts, friction, or a force and a "
-          "pose that do not belong together; no mass or offset from this log is the tool's");
-    }
+    const std::string note = foreign_force_note(
+        foreign_share_of(log, a),
+        "contacts, friction, or a force and a pose that do not belong together; no mass or offset "
+        "from this log is the tool's");
+    if (!note.empty()) report.notes.push_back(note);
     return;
   }
   report.notes.push_back(

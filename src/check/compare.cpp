@@ -6,6 +6,7 @@
 #include "check/kind.h"
 #include "check/statistics.h"
 #include "core/elementary.h"
+#include "data/held_rows.h"
 
 namespace dcnn::check {
 namespace {
@@ -240,8 +241,8 @@ double log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
 
 /// Whether the force never changes: then no reading of the log explains more of it than another.
 bool is_dead(const Log& log) {
-  const Eigen::MatrixXd force = log.block({"fx", "fy", "fz"});
-  return (force.rowwise() - force.row(0)).isZero(0.0);
+  return never_changes(log.column("fx")) && never_changes(log.column("fy")) &&
+         never_changes(log.column("fz"));
 }
 
 Adopted adopt(const Log& log) {

@@ -5,18 +5,16 @@
 #include <numbers>
 
 #include "core/elementary.h"
+#include "data/median.h"
 
 namespace dcnn::check {
 
-double median(Eigen::VectorXd values) {
-  if (values.size() == 0) return 0.0;
-  const auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double median(const Eigen::VectorXd& values) {
+  return values.size() == 0 ? 0.0 : dcnn::median({values.begin(), values.end()});
 }
 
 double robust_deviation(const Eigen::VectorXd& values) {
-  return 1.4826 * median((values.array() - median(values)).abs());
+  return kDeviationOfMedian * median((values.array() - median(values)).abs());
 }
 
 Eigen::VectorXd steps_of(const Eigen::VectorXd& values) {

@@ -8,8 +8,8 @@
 
 namespace dcnn::check {
 
-double median(Eigen::VectorXd values);  ///< 0 for none
-/// 1.4826 times the median absolute deviation.
+double median(const Eigen::VectorXd& values);  ///< 0 for none
+/// Standard deviation of normal values by their median absolute deviation.
 double robust_deviation(const Eigen::VectorXd& values);
 /// Of white noise, from second differences, in which a slow signal cancels.
 double noise_of(const Eigen::VectorXd& values);

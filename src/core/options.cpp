@@ -1,6 +1,8 @@
 #include "dcnn/core/options.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iomanip>
 #include <numeric>
 #include <utility>
 
@@ -8,10 +10,25 @@
 
 namespace dcnn {
 
+namespace {
+
+/// Whole numbers without an exponent.
+std::string plain(double value) {
+  constexpr double kMostDigits = 1e19;
+  std::ostringstream text;
+  if (value == std::round(value) && std::abs(value) < kMostDigits)
+    text << std::fixed << std::setprecision(0);
+  text << value;
+  return text.str();
+}
+
+}  // namespace
+
 Options::Options(Json object, std::string where, Exit exit)
     : object_(std::move(object)), where_(std::move(where)), exit_(exit) {
   if (object_.is_null()) object_ = Json::object();
-  require(object_.is_object(), exit_, where_, ": must be a JSON object, not ", excerpt(object_.dump()));
+  require(object_.is_object(), exit_, where_, ": must be a JSON object, not ",
+          excerpt(object_.dump()));
 }
 
 bool Options::has(const std::string& key) const { return object_.contains(key); }
@@ -19,7 +36,7 @@ bool Options::has(const std::string& key) const { return object_.contains(key); 
 double Options::number(const std::string& key, double fallback, double low, double high) {
   const double value = get(key, fallback);
   if (!(value >= low && value <= high)) {
-    reject(key, "must be between ", low, " and ", high, ", not ", value);
+    reject(key, "must be between ", plain(low), " and ", plain(high), ", not ", plain(value));
   }
   return value;
 }
@@ -37,7 +54,8 @@ std::string Options::choice(const std::string& key, const std::string& fallback,
 
 Options Options::child(const std::string& key) {
   const Json value = raw(key);
-  if (!value.is_null() && !value.is_object()) reject(key, "must be an object, not ", excerpt(value.dump()));
+  if (!value.is_null() && !value.is_object())
+    reject(key, "must be an object, not ", excerpt(value.dump()));
   Options child(value, where_, exit_);
   child.prefix_ = path(key) + ".";
   return child;
@@ -60,30 +78,45 @@ std::string Options::path(const std::string& key) const { return prefix_ + excer
 
 namespace {
 
+/// Insertions, deletions, substitutions and swaps of neighbours that make one of the other (optimal
+/// string alignment).
 std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
+  std::vector<std::size_t> before, row(b.size() + 1), next(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
+    next[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t swap = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({swap, row[j] + 1, row[j - 1] + 1});
+      next[j] = std::min({row[j - 1] + (a[i - 1] != b[j - 1]), row[j] + 1, next[j - 1] + 1});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) next[j] = std::min(next[j], before[j - 2] + 1);
     }
+    before = std::exchange(row, next);
   }
   return row[b.size()];
+}
+
+/// Without the dashes before an option.
+std::string letters_of(const std::string& word) {
+  return word.substr(std::min(word.find_first_not_of('-'), word.size()));
+}
+
+/// Whether one word, of three letters or more, begins the other.
+bool is_beginning(const std::string& a, const std::string& b) {
+  return std::min(a.size(), b.size()) >= 3 && (a.starts_with(b) || b.starts_with(a));
 }
 
 }  // namespace
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& words) {
+  const std::string typed = letters_of(word);
+  // One slip for every four letters: more make another word of a short one.
+  std::size_t least = (typed.size() + 1) / 4 + 1;
   std::string best;
-  std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const auto& candidate : words) {
-    const auto distance = edit_distance(word, candidate);
-    if (distance < least) {
-      least = distance;
+    const std::string meant = letters_of(candidate);
+    const std::size_t slips = is_beginning(typed, meant) ? 1 : edit_distance(typed, meant);
+    if (slips < least) {
+      least = slips;
       best = candidate;
     }
   }

@@ -4,6 +4,21 @@
 
 #include <algorithm>
 #include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+// ThreadSanitizer does not see the locks of an OpenMP runtime: under it the pieces run on threads
+// whose beginning and end it knows.
+#ifdef __has_feature
+#if __has_feature(thread_sanitizer)
+#define DCNN_PLAIN_THREADS
+#endif
+#endif
+#ifdef __SANITIZE_THREAD__
+#define DCNN_PLAIN_THREADS
+#endif
 
 namespace dcnn {
 
@@ -13,22 +28,49 @@ Index piece_count(Index n) {
   return kMultiple * ((n + kLargest * kMultiple - 1) / (kLargest * kMultiple));
 }
 
+namespace {
+
+#ifdef DCNN_PLAIN_THREADS
+/// As OpenMP below: contiguous pieces for each thread, and no threads within threads.
+void on_threads(Index count, const std::function<void(Index)>& work) {
+  thread_local bool inside = false;
+  const Index most = inside ? 1 : omp_get_max_threads();
+  const Index threads = std::max<Index>(1, std::min(count, most));
+  const auto share = [&](Index t) {
+    const bool before = std::exchange(inside, true);
+    for (Index k = count * t / threads; k < count * (t + 1) / threads; ++k) work(k);
+    inside = before;
+  };
+  std::vector<std::thread> others;
+  for (Index t = 1; t < threads; ++t) others.emplace_back(share, t);
+  share(0);
+  for (std::thread& other : others) other.join();
+}
+#else
+void on_threads(Index count, const std::function<void(Index)>& work) {
+#pragma omp parallel for schedule(static) if (count > 1)
+  for (Index k = 0; k < count; ++k) work(k);
+}
+#endif
+
+}  // namespace
+
 void for_each_piece(Index count, const std::function<void(Index)>& work) {
   // What leaves a parallel region as an exception ends the program.
   std::exception_ptr thrown;
   Index thrown_by = count;
-#pragma omp parallel for schedule(static) if (count > 1)
-  for (Index k = 0; k < count; ++k) {
+  std::mutex mutex;
+  on_threads(count, [&](Index k) {
     try {
       work(k);
     } catch (...) {
-#pragma omp critical(dcnn_thrown_by_a_piece)
+      const std::lock_guard lock(mutex);
       if (k < thrown_by) {
         thrown = std::current_exception();
         thrown_by = k;
       }
     }
-  }
+  });
   if (thrown) std::rethrow_exception(thrown);
 }
 

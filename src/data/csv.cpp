@@ -53,6 +53,10 @@ void check_encoding(std::string_view line, const std::string& place) {
   reject("\xFF\xFE", "is UTF-16 text; save as UTF-8");
   reject("\xFE\xFF", "is UTF-16 text; save as UTF-8");
   reject("\x1F\x8B", "is gzip-compressed; unpack it first");
+  for (const std::string_view other : {"\x89MCAP", "#ROSBAG", "SQLite format 3", "\x93NUMPY",
+                                       "MATLAB 5.0", "\x89HDF", "PK\x03\x04"}) {
+    reject(other, "is a log of another format; dcnn-import makes recordings of it");
+  }
   require(line.find('\0') == std::string_view::npos, Exit::kData, place,
           ": contains a NUL byte; save as plain UTF-8 text (this is UTF-16 or a binary file)");
   require(is_utf8(line), Exit::kData, place, ": is not UTF-8 text; save as UTF-8");

@@ -35,6 +35,8 @@ std::vector<Index> changes_in(const Eigen::MatrixXd& values, const Segment& segm
 
 }  // namespace
 
+bool never_changes(const Eigen::VectorXd& column) { return (column.array() == column[0]).all(); }
+
 Index held_rows(const Recording& recording, const std::vector<std::string>& columns) {
   if (recording.dt <= 0.0 || columns.empty()) return 1;
   const Eigen::MatrixXd values = recording.block(columns);

@@ -8,6 +8,9 @@
 
 namespace dcnn {
 
+/// Whether all rows, one at least, have the same value.
+bool never_changes(const Eigen::VectorXd& column);
+
 /// Rows for which the values of these columns together are held: k, where 95 % of the distances
 /// from one change to the next are multiples of k; 1 where every row may bring a new one, or fewer
 /// than 20 changes tell.

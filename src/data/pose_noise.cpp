@@ -22,8 +22,7 @@ void set_columns(Recording& recording, const std::vector<std::string>& names,
 MatrixXd quaternions_from_euler(const MatrixXd& euler) {
   MatrixXd q(euler.rows(), 4);
   for (Index i = 0; i < euler.rows(); ++i) {
-    const Eigen::Quaterniond turn(rotation_from_euler(euler.row(i).transpose()));
-    q.row(i) << turn.w(), turn.x(), turn.y(), turn.z();
+    q.row(i) = quaternion_from_euler(euler.row(i).transpose());
   }
   return q;
 }

@@ -37,8 +37,7 @@ const Eigen::VectorXd& StreamingFeatures::push(const Eigen::Vector3d& position,
   Sample sample = Sample::Zero();
   sample.head<3>() = position;
   if (body_) {
-    const Eigen::Quaterniond q(rotation_from_euler(euler));
-    sample.tail<4>() << q.w(), q.x(), q.y(), q.z();
+    sample.tail<4>() = quaternion_from_euler(euler);
   } else {
     sample.segment<3>(3) = euler;
   }

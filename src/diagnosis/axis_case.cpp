@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/median.h"
 #include "dcnn/data/filter.h"
 #include "dcnn/physics/axis_machine.h"
-#include "diagnosis/median.h"
 #include "diagnosis/motion_band.h"
 #include "diagnosis/noise_floor.h"
 #include "diagnosis/periodograms.h"
@@ -169,8 +169,8 @@ Case axis_case(std::shared_ptr<const AxisPlan> plan, double motion_hz) {
 /// from that size, or logged in another unit, has its own.
 double beyond_usual(double amplitude) { return amplitude / std::clamp(amplitude, 0.05, 5.0); }
 
-/// From amplitudes of position and rate, as those of sines of the same deviation. Without a position
-/// the length is what is passed in a second.
+/// From amplitudes of position and rate, as those of sines of the same deviation. Without a
+/// position the length is what is passed in a second.
 void set_axis_units(Case& study) {
   double position = 0.0, rate = 0.0, rows = 0.0;
   for (const Log& log : study.logs) {

@@ -59,9 +59,7 @@ const std::map<std::string, Sentence>& sentences() {
       {"hysteresis", [](auto& n) { return "hysteresis of " + n.size("force"); }},
       {"cable_spring", [](auto& n) { return "a spring of " + n("k"); }},
       {"quadratic_spring",
-       [](auto& n) {
-         return "a spring that bends with the square of the position, " + n("k2");
-       }},
+       [](auto& n) { return "a spring that bends with the square of the position, " + n("k2"); }},
       {"creep",
        [](auto& n) {
          return "a reading that goes on settling by " + n.plain("a", 100.0) + " % within " +
@@ -74,7 +72,7 @@ const std::map<std::string, Sentence>& sentences() {
          return "cogging of " + n.size("amp") + " that repeats with order " + n.plain("order");
        }},
       {"inertia", [](auto& n) { return "an inertia that is off by " + n("delta_inertia"); }},
-      {"contact", [](auto& n) { return "a foreign force of " + n("force"); }},
+      {"contact", [](auto& n) { return "an external force of " + n("force"); }},
       {"bias", [](auto& n) { return "a constant offset of " + n("delta_bias"); }},
       {"gain", [](auto& n) { return "a scale that is off by " + n.plain("gain", 100.0) + " %"; }},
       {"time_delay",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "data/held_rows.h"
 #include "diagnosis/chain.h"
 
 namespace dcnn {
@@ -34,7 +35,7 @@ void refuse_dead_channels(const Case& study) {
     const Log& log = study.logs[k];
     if (log.measured.rows() < kFewestRows) continue;
     for (Index j = 0; j < study.channel_count(); ++j) {
-      if (range_of(log.measured.col(j)) > 0.0) continue;
+      if (!never_changes(log.measured.col(j))) continue;
       if (!is_driven(study, log, simulated[k], j)) continue;
       fail(Exit::kData, log.recording.name, ": column '",
            study.targets[static_cast<std::size_t>(j)], "' reads the same in all ",

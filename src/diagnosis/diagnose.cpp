@@ -102,8 +102,13 @@ Json errors_json(const Search& search, const HoldOut& simulator, const HoldOut& 
   const JointFit& fit = search.fit();
   Json json{{"holdout_rmse_before", nullptr},
             {"holdout_rmse_parameters", nullptr},
-            {"holdout_rmse_after", nullptr}};
+            {"holdout_rmse_after", nullptr},
+            {"holdout_rms_measured", nullptr},
+            {"holdout_explained_before", nullptr}};
   if (holdout.empty()) return json;
+  const HoldOut::Worth worth = simulator.worth({}, given.base);
+  json["holdout_rms_measured"] = worth.measured_rms;
+  json["holdout_explained_before"] = worth.explained;
   json["holdout_rmse_before"] = simulator.rmse({}, given.base);
   json["holdout_rmse_after"] = holdout.rmse(fit.members, fit.base);
   if (study.own_tool || study.axis) {

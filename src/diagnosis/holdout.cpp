@@ -140,6 +140,34 @@ std::vector<double> HoldOut::rmse(const std::vector<Member>& members,
   return result;
 }
 
+HoldOut::Worth HoldOut::worth(const std::vector<Member>& members,
+                              const Eigen::VectorXd& base) const {
+  const Signals predicted = prediction(members, base);
+  const Index channels = study_.channel_count();
+  Eigen::ArrayXd measured = Eigen::ArrayXd::Zero(channels), error = measured;
+  double rows = 0.0;
+  for (std::size_t k = 0; k < predicted.size(); ++k) {
+    std::vector<Index> held;
+    for (Index i = 0; i < predicted[k].rows(); ++i) {
+      if (held_[k][static_cast<std::size_t>(i)]) held.push_back(i);
+    }
+    if (held.empty()) continue;
+    const auto variation = [&](const Eigen::MatrixXd& x) -> Eigen::ArrayXd {
+      return (x.rowwise() - x.colwise().mean()).colwise().squaredNorm().transpose();
+    };
+    const Eigen::MatrixXd y = study_.logs[k].measured(held, Eigen::all);
+    measured += variation(y);
+    error += variation(y - predicted[k](held, Eigen::all));
+    rows += static_cast<double>(held.size());
+  }
+  Worth worth;
+  for (Index j = 0; j < channels; ++j) {
+    worth.measured_rms.push_back(std::sqrt(measured(j) / std::max(1.0, rows)));
+    worth.explained.push_back(measured(j) > 0.0 ? 1.0 - error(j) / measured(j) : 0.0);
+  }
+  return worth;
+}
+
 double HoldOut::mean_rmse(const std::vector<Member>& members, const Eigen::VectorXd& base) const {
   double sum = 0.0;
   for (const double error : rmse(members, base)) sum += error;

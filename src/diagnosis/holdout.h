@@ -21,6 +21,12 @@ class HoldOut {
   std::vector<double> rmse(const std::vector<Member>& members, const Eigen::VectorXd& base) const;
   /// Their mean over the channels.
   double mean_rmse(const std::vector<Member>& members, const Eigen::VectorXd& base) const;
+  /// What a prediction says of how each channel varies, about the means of the recordings.
+  struct Worth {
+    std::vector<double> measured_rms;
+    std::vector<double> explained;  ///< 1 - variance of the error / variance of the measured
+  };
+  Worth worth(const std::vector<Member>& members, const Eigen::VectorXd& base) const;
   /// A channel whose error exceeds 1.2 times its noise (that of the fitted recordings or of the
   /// held-out ones, `floors`, whichever is more; with a pose that is differentiated, also
   /// what the model leaves where it was fitted: the error of the filtered pose stands in both) by

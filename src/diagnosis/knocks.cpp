@@ -6,8 +6,8 @@
 
 #include "core/elementary.h"
 #include "core/linear_algebra.h"
+#include "data/median.h"
 #include "diagnosis/candidates.h"
-#include "diagnosis/median.h"
 #include "diagnosis/noise_floor.h"
 #include "physics/effect_law.h"
 
@@ -154,7 +154,7 @@ class Ear {
         if (const auto a = channels_.back().above(i, shape(1))) heights.push_back(std::abs(*a));
       }
     }
-    if (!heights.empty()) sigma_ = 1.4826 * median(heights) / shape(1).deviation();
+    if (!heights.empty()) sigma_ = kDeviationOfMedian * median(heights) / shape(1).deviation();
   }
 
   /// The knocks that are heard best.
@@ -172,7 +172,7 @@ class Ear {
       others.push_back(std::abs(evidence(knocks, std::llround(seconds / dt_)).strength()));
     }
     most_elsewhere = *std::max_element(others.begin(), others.end());
-    scale = std::max(1.0, 1.4826 * median(others));
+    scale = std::max(1.0, kDeviationOfMedian * median(others));
     weigh();
   }
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kSegmentSeconds = 0.5;
 constexpr int kBins = 12;
+constexpr double kOutstanding = 6.0;  // deviations: a prior
 
 double floor_power(const std::vector<Floor>& floors, Index channel) {
   const double s = floors[static_cast<std::size_t>(channel)].deviation();
@@ -71,11 +72,11 @@ Json segments(const Case& study, const Signals& left, const std::vector<Floor>& 
   }
   std::sort(sorted.begin(), sorted.end());
   const double middle = sorted[sorted.size() / 2];
-  const double spread =
-      1.4826 * (sorted[sorted.size() * 3 / 4] - sorted[sorted.size() / 4]) / 1.349;
+  // Of a normal distribution, whose quartiles are 1.349 deviations apart.
+  const double spread = (sorted[sorted.size() * 3 / 4] - sorted[sorted.size() / 4]) / 1.349;
   double noise = 0.0;
   for (Index j = 0; j < study.channel_count(); ++j) noise += floor_power(floors, j);
-  const double high = std::max(middle + 4.0 * spread, middle + 0.25 * noise);
+  const double high = std::max(middle + kOutstanding * spread, middle + 0.25 * noise);
   std::vector<Window> found;
   for (const Window& w : windows) {
     if (w.excess < high) continue;

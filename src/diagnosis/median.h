@@ -1,15 +1,1 @@
-#pragma once
-
-#include <algorithm>
-#include <vector>
-
-namespace dcnn {
-
-/// The upper one of two in the middle; of at least one value.
-inline double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-}  // namespace dcnn
+#include "data/median.h"

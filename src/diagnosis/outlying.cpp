@@ -5,15 +5,14 @@
 #include <map>
 
 #include "core/elementary.h"
+#include "data/median.h"
 #include "dcnn/diagnosis/decision.h"
-#include "diagnosis/median.h"
 
 namespace dcnn {
 namespace {
 
 constexpr double kOutlyingSeconds = 0.5;  // bursts of the noise are followed in as long ones
 constexpr double kByChance = 0.01;        // that any stretch of a recording is called outlying
-constexpr double kOfNormal = 1.4826;      // deviation over median absolute deviation
 constexpr std::size_t kFewestHalfSeconds = 10;
 
 struct HalfSecond {
@@ -55,7 +54,7 @@ std::vector<Span> outlying(const Setting& setting, const Signals& left,
   for (const HalfSecond& s : all) sizes.push_back(s.size);
   const double middle = median(sizes);
   for (double& size : sizes) size = std::abs(size - middle);
-  const double deviation = kOfNormal * median(sizes);
+  const double deviation = kDeviationOfMedian * median(sizes);
   std::vector<Span> spans;
   double theirs = 0.0, whole = 0.0;
   for (const HalfSecond& s : all) {

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "core/elementary.h"
+#include "data/median.h"
 #include "dcnn/data/fourier.h"
-#include "diagnosis/median.h"
 #include "diagnosis/spectral_lines.h"
 
 namespace dcnn {

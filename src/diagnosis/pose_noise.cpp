@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "data/bridge.h"
+#include "data/median.h"
 #include "data/spectral.h"
 #include "dcnn/data/rotation.h"
-#include "diagnosis/median.h"
 #include "diagnosis/noise_floor.h"
 #include "diagnosis/periodograms.h"
 

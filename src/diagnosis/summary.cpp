@@ -86,32 +86,73 @@ std::string capitalised(std::string text) {
   return text;
 }
 
-/// Findings and what has no name, in words.
-std::string what_is_missing(const Json& report) {
-  if (report.contains("arm")) return capitalised(report["arm"]["words"].get<std::string>());
-  std::string text;
+/// Whether the held-out error is, to half a percent, the same without it: a contact in a recording
+/// of the fit, or a law that the held-out motion does not show.
+bool is_without_effect(const Json& finding) {
+  constexpr double kLeastGain = 0.005;
+  const Json& gain = finding["holdout_gain"];
+  return !gain.is_null() && std::abs(gain.get<double>()) < kLeastGain;
+}
+
+struct Missing {
+  std::string words;   ///< findings and what has no name
+  std::string others;  ///< findings of which the held-out error does not tell
+};
+
+Missing what_is_missing(const Json& report) {
+  if (report.contains("arm")) return {capitalised(report["arm"]["words"].get<std::string>()), ""};
+  std::string text, others;
   for (const Json& finding : in_lines(report["findings"])) {
-    text += (text.empty() ? "" : "; ") + finding["words"].get<std::string>();
+    std::string& list = is_without_effect(finding) ? others : text;
+    list += (list.empty() ? "" : "; ") + finding["words"].get<std::string>();
   }
   if (!report["unnamed"]["words"].is_null()) {
     text += (text.empty() ? "" : "; and ") + report["unnamed"]["words"].get<std::string>();
   }
-  return capitalised(text);
+  if (!text.empty() || others.empty()) return {capitalised(text), others};
+  return {capitalised(others) + ", without effect on the held-out error", ""};
+}
+
+/// Targets that vary above their noise, of whose variation the simulator as given explains nothing,
+/// and how many do vary.
+std::pair<std::vector<std::string>, std::size_t> unexplained_targets(const Json& report) {
+  constexpr double kVaries = 1.5;  // times the noise, as a root mean square about the mean
+  const Json& fit = report["fit"];
+  std::pair<std::vector<std::string>, std::size_t> result;
+  const Json explained = fit.value("holdout_explained_before", Json());
+  for (std::size_t j = 0; j < explained.size(); ++j) {
+    if (explained[j].is_null()) continue;
+    const double measured = fit["holdout_rms_measured"][j], noise = heldout_noise(fit)[j];
+    if (measured <= kVaries * noise) continue;
+    ++result.second;
+    if (explained[j].get<double>() <= 0.0) result.first.push_back(report["targets"][j]);
+  }
+  return result;
+}
+
+/// A sentence on a simulator that a constant is as good as.
+std::string worthless_part(const std::vector<std::string>& targets) {
+  std::string names;
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    names += (k == 0 ? "" : k + 1 < targets.size() ? ", " : " and ") + targets[k];
+  }
+  return "The given simulator explains nothing of how " + names +
+         (targets.size() == 1 ? " varies" : " vary") +
+         " on held-out data: a constant errs no more. ";
 }
 
 /// The headline where nothing was held out.
 std::string headline_without(const Json& report) {
   const std::string missing = report["verdict"] == "consistent"
                                   ? "Nothing is missing that these recordings could show"
-                                  : what_is_missing(report);
+                                  : what_is_missing(report).words;
   return missing +
          ". Nothing was held out (the recordings are too short, or without time), so the error on "
          "new data is not known.";
 }
 
-}  // namespace
-
-std::string headline(const Json& report) {
+/// What is missing, and what it is worth.
+std::string answer(const Json& report) {
   const Json& fit = report["fit"];
   if (fit["holdout_rmse_before"].is_null()) return headline_without(report);
   const std::size_t j = telling_channel(fit);
@@ -122,10 +163,24 @@ std::string headline(const Json& report) {
            " on held-out data, the sensor's noise is " +
            brief(heldout_noise(fit)[j].get<double>()) + " " + unit + ".";
   }
-  return what_is_missing(report) + ". The hold-out error of " +
-         report["targets"][j].get<std::string>() + " " + change_of(report, j) +
-         ", the sensor's noise is " + brief(heldout_noise(fit)[j].get<double>()) + " " + unit +
-         other_channels(report, j) + ".";
+  const Missing missing = what_is_missing(report);
+  return missing.words + ". The hold-out error of " + report["targets"][j].get<std::string>() +
+         " " + change_of(report, j) + ", the sensor's noise is " +
+         brief(heldout_noise(fit)[j].get<double>()) + " " + unit + other_channels(report, j) + "." +
+         (missing.others.empty() ? ""
+                                 : " In the fitted recordings, without effect on the held-out "
+                                   "error: " +
+                                       missing.others + ".");
+}
+
+}  // namespace
+
+std::string headline(const Json& report) {
+  const auto [worthless, varying] = unexplained_targets(report);
+  if (worthless.empty()) return answer(report);
+  const std::string part = worthless_part(worthless);
+  if (worthless.size() < varying) return answer(report) + " " + part.substr(0, part.size() - 1);
+  return part + "Check its units, signs, axes and clock first (dcnn-check). " + answer(report);
 }
 
 std::string to_text(const Diagnosis& diagnosis) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace dcnn {
 namespace {
@@ -37,6 +38,28 @@ std::string place(const std::string& axis) {
 
 std::string milli(double value, const char* unit) { return brief(1e3 * value) + " " + unit; }
 
+std::string force(double newtons) {
+  const bool small = std::abs(newtons) < 0.01;
+  return small ? milli(newtons, "mN") : brief(newtons) + " N";
+}
+
+std::string mass(double kg) { return std::abs(kg) < 1.0 ? milli(kg, "g") : brief(kg) + " kg"; }
+
+std::string seconds(double t) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", t);
+  return text;
+}
+
+/// " from 12.3 to 14.0 s of fit.csv"; nothing for what acts all the time.
+std::string when(const Member& member) {
+  if (!member.interval_s) return "";
+  const auto [begin, end] = *member.interval_s;
+  const bool onset = member.kind->interval == IntervalRule::kOnset;
+  return (onset ? " at " + seconds(begin) : " from " + seconds(begin) + " to " + seconds(end)) +
+         " s" + (member.recording.empty() ? "" : " of " + member.recording);
+}
+
 }  // namespace
 
 std::string in_words(const Member& member, const Estimates& n) {
@@ -44,7 +67,7 @@ std::string in_words(const Member& member, const Estimates& n) {
   const auto number = [&](const char* name) { return brief(value_of(n, name)); };
   if (id == "mass") {
     const double d = value_of(n, "delta_mass_kg");
-    return "the tool is " + milli(std::abs(d), "g") + (d > 0 ? " heavier" : " lighter") +
+    return "the tool is " + mass(std::abs(d)) + (d > 0 ? " heavier" : " lighter") +
            " than simulated";
   }
   if (id == "com")
@@ -55,15 +78,15 @@ std::string in_words(const Member& member, const Estimates& n) {
   if (id == "inertial_terms")
     return "the simulation leaves out inertial terms that the recordings show";
   if (id == "coulomb_friction") return "dry friction of " + number("fc_n") + " N" + where;
-  if (id == "viscous_friction") return "viscous friction of " + number("c_nspm") + " N s/m" + where;
+  if (id == "viscous_friction") return "viscous friction of " + number("c_nspm") + " N·s/m" + where;
   if (id == "stribeck_friction")
     return "friction that falls from " + number("fs_n") + " to " + number("fc_n") +
            " N with speed" + where;
-  if (id == "quadratic_drag") return "drag of " + number("c2_ns2pm2") + " N s^2/m^2" + where;
+  if (id == "quadratic_drag") return "drag of " + number("c2_ns2pm2") + " N·s²/m²" + where;
   if (id == "lugre_friction")
     return "friction of " + number("fc_n") + " N that first gives way elastically" + where;
   if (id == "load_friction")
-    return "friction of " + brief(100.0 * value_of(n, "mu")) + " % of the load across the way" +
+    return "friction of " + brief(100.0 * value_of(n, "mu")) + " % of the load across the path" +
            where;
   if (id == "creep")
     return "the sensor goes on settling after a load, by " + brief(100.0 * value_of(n, "a")) +
@@ -79,7 +102,8 @@ std::string in_words(const Member& member, const Estimates& n) {
     return "a part of about " + milli(value_of(n, "slug_kg"), "g") + " that slides between stops" +
            where;
   if (id == "flexible_resonance") return "the tool rings at " + number("freq_hz") + " Hz" + where;
-  if (id == "contact") return "a foreign force of " + brief(length_of(n, "force", "_n")) + " N";
+  if (id == "contact")
+    return "a contact force of " + force(length_of(n, "force", "_n")) + when(member);
   if (id == "bias") return "a constant offset of " + brief(length_of(n, "delta_bias", "_n")) + " N";
   if (id == "misalignment")
     return "the sensor's axes are turned by " + milli(length_of(n, "rot", "_rad"), "mrad");
@@ -98,14 +122,17 @@ std::string in_words(const Member& member, const Estimates& n) {
     return "the sensor smooths with a time constant of " + milli(value_of(n, "tau_s"), "ms");
   if (id == "thermal_drift") return "the sensor's offset drifts with its temperature";
   if (id == "linear_drift")
-    return "the sensor's offset grows by " + milli(60.0 * length_of(n, "rate", "_nps"), "mN") +
+    return "the sensor's offset grows by " + force(60.0 * length_of(n, "rate", "_nps")) +
            " a minute";
   if (id == "step_bias")
-    return "the sensor's offset jumps by " + brief(length_of(n, "step", "_n")) + " N";
+    return "the sensor's offset jumps by " + force(length_of(n, "step", "_n")) + when(member);
   if (id == "saturation") return "the reading is clipped at " + number("limit_n") + " N" + where;
-  if (id == "quantisation")
-    return "the reading comes in steps of " + milli(value_of(n, "step_n"), "mN");
-  if (id == "hum") return "a hum at " + number("freq_hz") + " Hz";
+  if (id == "quantisation") return "the reading comes in steps of " + force(value_of(n, "step_n"));
+  if (id == "hum") {
+    const double sine = length_of(n, "sin_", "_n"), cosine = length_of(n, "cos_", "_n");
+    return "a hum of " + force(std::sqrt(sine * sine + cosine * cosine)) + " at " +
+           number("freq_hz") + " Hz";
+  }
   return std::string(member.kind->meaning) + where;
 }
 

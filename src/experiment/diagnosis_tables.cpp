@@ -1,5 +1,6 @@
 #include "experiment/diagnosis_tables.h"
 
+#include <algorithm>
 #include <set>
 
 #include "dcnn/diagnosis/diagnose.h"
@@ -23,7 +24,8 @@ std::string share_text(const Json& value) {
 /// Rows of the table of errors: keys of `fit` and what they are called.
 std::vector<std::pair<std::string, std::string>> stages_of(const Json& fit) {
   const bool theirs = !fit.value("holdout_noise_floor", Json()).is_null();
-  return {{"holdout_rmse_before", "as given"},
+  return {{"holdout_rms_measured", "measured, about its mean"},
+          {"holdout_rmse_before", "as given"},
           {"holdout_rmse_parameters", "own numbers refitted"},
           {"holdout_rmse_after", "with all findings"},
           {theirs ? "holdout_noise_floor" : "noise_floor", "sensor's noise"}};
@@ -38,6 +40,12 @@ std::string unit_of_target(const Json& report, const Json& target) {
   return "";
 }
 
+/// The unit of all targets; empty where they have several.
+std::string one_unit(const Json& report) {
+  const auto units = report["units"].get<std::vector<std::string>>();
+  return std::set<std::string>(units.begin(), units.end()).size() == 1 ? units.front() : "";
+}
+
 /// "3.2 g", or where the effect has no size of its own the root mean square that it would add.
 std::string least_size(const Json& report, const Json& entry) {
   if (entry.contains("least") && entry["least"].is_object()) {
@@ -46,10 +54,23 @@ std::string least_size(const Json& report, const Json& entry) {
            with_unit(least["value"].get<double>(),
                      unit_in_words(plain_text(least["parameter"]), plain_text(least["unit"])));
   }
-  const auto units = report["units"].get<std::vector<std::string>>();
-  const bool one = std::set<std::string>(units.begin(), units.end()).size() == 1;
-  return with_unit(entry["minimum_detectable_rms"].get<double>(), one ? units.front() : "") +
-         " rms";
+  return with_unit(entry["minimum_detectable_rms"].get<double>(), one_unit(report)) + " rms";
+}
+
+/// "partly explained" for "partly-explained".
+std::string in_plain_words(std::string verdict) {
+  std::replace(verdict.begin(), verdict.end(), '-', ' ');
+  return verdict;
+}
+
+/// "along the tool", "from 12.3 to 14.0 s of fit.csv", or both.
+std::string place_of_finding(const Json& finding) {
+  std::string text = words_of_axis(plain_text(finding["axis"]));
+  const Json& interval = finding["interval_s"];
+  if (interval.is_null()) return text;
+  text += (text.empty() ? "from " : ", from ") + fixed(interval[0].get<double>(), 1) + " to " +
+          fixed(interval[1].get<double>(), 1) + " s";
+  return finding.contains("recording") ? text + " of " + plain_text(finding["recording"]) : text;
 }
 
 }  // namespace
@@ -65,14 +86,14 @@ void add_errors(const Json& report, HtmlReport& page) {
   for (std::size_t j = 0; j < report["targets"].size(); ++j) {
     std::vector<double> column;
     for (const auto& [key, label] : stages) {
-      if (!fit[key].is_null() && !fit[key][j].is_null())
+      if (fit.contains(key) && !fit[key].is_null() && !fit[key][j].is_null())
         column.push_back(fit[key][j].get<double>());
     }
     decimals.push_back(common_decimals(column, 3));
   }
   std::vector<std::vector<std::string>> rows;
   for (const auto& [key, label] : stages) {
-    if (fit[key].is_null()) continue;
+    if (!fit.contains(key) || fit[key].is_null()) continue;
     std::vector<std::string> row{label};
     for (std::size_t j = 0; j < decimals.size(); ++j) {
       row.push_back(fit[key][j].is_null() ? "" : fixed(fit[key][j].get<double>(), decimals[j]));
@@ -85,7 +106,7 @@ void add_errors(const Json& report, HtmlReport& page) {
                      unit_text(plain_text(report["units"][j])) + "]");
   }
   page.table(header, rows);
-  page.paragraph("Verdict: " + plain_text(report["verdict"]) +
+  page.paragraph("Verdict: " + in_plain_words(plain_text(report["verdict"])) +
                  ". RMSE: root mean square of measured - simulated over the samples that were held "
                  "out of the fit, without the first and last 0.5 s of each recording.");
 }
@@ -113,8 +134,8 @@ void add_findings(const Json& report, HtmlReport& page) {
       alternatives += (alternatives.empty() ? "" : ", ") + words_of_effect(id);
       if (shared.contains(id)) alternatives += " (" + share_text(shared[id]) + ")";
     }
-    rows.push_back({words_of_effect(plain_text(f["effect"])), words_of_axis(plain_text(f["axis"])),
-                    parameters, share_text(f["confidence"]), share_text(f["holdout_gain"]),
+    rows.push_back({words_of_effect(plain_text(f["effect"])), place_of_finding(f), parameters,
+                    share_text(f["confidence"]), share_text(f["holdout_gain"]),
                     alternatives.empty() ? "nothing else" : alternatives});
   }
   std::string refuted;
@@ -140,7 +161,7 @@ void add_findings(const Json& report, HtmlReport& page) {
     page.paragraph("No effect is named.");
     return;
   }
-  page.table({"what is missing", "where", "size, with its 95 % interval", "confidence",
+  page.table({"what is missing", "where and when", "size, with its 95 % interval", "confidence",
               "hold-out gain", "cannot be excluded"},
              rows);
   page.paragraph(
@@ -164,7 +185,8 @@ void add_places(const Json& report, HtmlReport& page) {
   }
   for (const Json& s : report["where"]["segments"]) {
     rows.push_back({"time " + shown(s["interval_s"][0]) + " to " + shown(s["interval_s"][1]) + " s",
-                    share_text(s["share"]), shown(s["excess_rms"])});
+                    share_text(s["share"]),
+                    with_unit(s["excess_rms"].get<double>(), one_unit(report))});
   }
   for (const Json& r : report["where"]["regimes"]) {
     rows.push_back({words_of_signal(plain_text(r["signal"])) + ": " + plain_text(r["condition"]),

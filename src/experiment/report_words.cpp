@@ -34,6 +34,8 @@ const std::map<std::string, std::string>& stem_words() {
       {"k", "stiffness"},
       {"k2", "quadratic stiffness"},
       {"rest", "angle at rest"},
+      {"delta_c", "difference of the viscous coefficients by direction"},
+      {"k3", "cubic stiffness"},
       {"amp", "amplitude"},
       {"order", "periods per turn"},
       {"phase", "phase"},
@@ -95,6 +97,29 @@ std::pair<double, std::string> readable(double size, const std::string& unit) {
   return {1.0, typeset(unit)};
 }
 
+/// A number of a discovered law, by its stem: "scale_2" belongs to the second of its variables.
+std::string words_of_law(const std::string& stem) {
+  static const std::map<std::string, std::string> kWords{{"amplitude", "amplitude"},
+                                                         {"scale", "scale"},
+                                                         {"centre", "centre"},
+                                                         {"power", "exponent"},
+                                                         {"gain", "slope"},
+                                                         {"memory", "time constant"},
+                                                         {"vector_scale", "scale of the direction"},
+                                                         {"vector_lag", "delay of the direction"},
+                                                         {"lag", "delay"}};
+  static constexpr std::array kOrdinals{"first", "second", "third"};
+  std::string name = stem;
+  std::string of;
+  if (name.size() > 2 && name[name.size() - 2] == '_' && name.back() >= '1' && name.back() <= '3') {
+    of = std::string(" of the ") + kOrdinals[static_cast<std::size_t>(name.back() - '1')] +
+         " variable";
+    name.resize(name.size() - 2);
+  }
+  const auto found = kWords.find(name);
+  return found == kWords.end() ? "" : found->second + of;
+}
+
 std::string spaced(std::string text) {
   std::replace(text.begin(), text.end(), '_', ' ');
   return text;
@@ -153,7 +178,7 @@ std::string words_of_part(const std::string& part) {
                                                          {"state", "rates, angles"},
                                                          {"memory", "history"},
                                                          {"clock", "time"},
-                                                         {"event", "foreign forces"}};
+                                                         {"event", "external forces"}};
   const auto known = kWords.find(part);
   return known == kWords.end() ? part : known->second;
 }
@@ -176,9 +201,12 @@ std::string words_of_parameter(const std::string& name) {
   if (const std::string whole = look_up(name); !whole.empty()) return whole;
   const auto cut = name.rfind('_');
   if (cut != name.npos && !unit_of_parameter(name).empty()) {
-    if (const std::string stem = look_up(name.substr(0, cut)); !stem.empty()) return stem;
+    const std::string stem = name.substr(0, cut);
+    if (const std::string known = look_up(stem); !known.empty()) return known;
+    if (const std::string known = words_of_law(stem); !known.empty()) return known;
   }
-  return spaced(name);
+  const std::string known = words_of_law(name);
+  return known.empty() ? spaced(name) : known;
 }
 
 std::string unit_in_words(const std::string& name, const std::string& unit) {

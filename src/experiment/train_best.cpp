@@ -54,6 +54,20 @@ Json choice(const std::vector<Tried>& tried, const Tried& best) {
                       " % of that of predicting zero (mean over the targets); " + words}};
 }
 
+/// Trains one of them; nothing where the recordings suffice for an earlier one and not for it.
+std::optional<TrainingOutcome> attempt(const TrainingRequest& request, bool is_first,
+                                       const TrainingObserver& observer) {
+  try {
+    return train(request, observer);
+  } catch (const Error& error) {
+    if (is_first || error.exit() != Exit::kData) throw;
+    if (observer.note) {
+      observer.note(*request.configuration.model + " is left out: " + error.what());
+    }
+    return std::nullopt;
+  }
+}
+
 /// The rigid tool that stands beside every model: noise-free, a body that can exist. It has no
 /// limits of its training, so it does not run online.
 std::optional<Tried> rigid_tool(const TrainingRequest& request, const Tried& like) {
@@ -85,13 +99,14 @@ TrainingOutcome train_best(const TrainingRequest& request, const TrainingObserve
     if (std::string(model) == "rigid") one.configuration.epochs.reset();  // has none
     one.out = folder / (std::string(model) + "_tried.dcnn");
     if (observer.note) observer.note(std::string("trying ") + model);
-    TrainingOutcome outcome = train(one, observer);
-    if (!outcome.finished) return outcome;
-    require(outcome.summary.contains("references"), Exit::kUsage,
+    std::optional<TrainingOutcome> outcome = attempt(one, tried.empty(), observer);
+    if (!outcome) continue;
+    if (!outcome->finished) return *outcome;
+    require(outcome->summary.contains("references"), Exit::kUsage,
             "--model auto compares models on validation rows; give --valid, or a "
             "training.validation above 0");
-    const double error = relative_error(outcome.summary);
-    tried.push_back({model, one.out, std::move(outcome.summary), error});
+    const double error = relative_error(outcome->summary);
+    tried.push_back({model, one.out, std::move(outcome->summary), error});
   }
   if (auto tool = rigid_tool(request, tried.front())) tried.push_back(std::move(*tool));
   const Tried* best = &tried.front();

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/held_rows.h"
+
 namespace dcnn {
 namespace {
-
-bool is_constant(const Eigen::MatrixXd& values, Index column) {
-  return values.col(column).maxCoeff() == values.col(column).minCoeff();
-}
 
 /// Measured columns of all recordings, one below the other.
 Eigen::MatrixXd all_measured(const std::vector<Recording>& recordings, const Targets& targets) {
@@ -28,7 +26,7 @@ void check_measured(const std::vector<Recording>& recordings, const Targets& tar
   const Eigen::MatrixXd measured = all_measured(recordings, targets);
   std::vector<std::string> constant;
   for (Index j = 0; j < measured.cols(); ++j) {
-    if (!is_constant(measured, j)) continue;
+    if (!never_changes(measured.col(j))) continue;
     std::ostringstream words;
     words << targets.names[static_cast<std::size_t>(j)] << " = " << measured(0, j);
     constant.push_back(words.str());

@@ -1,4 +1,5 @@
-#include "dcnn/core/file.h"
+#include "data/urdf_text.h"
+#include "dcnn/core/error.h"
 #include "dcnn/identification/urdf.h"
 
 #ifdef DCNN_WITH_URDFDOM
@@ -9,8 +10,6 @@ namespace dcnn {
 
 #ifdef DCNN_WITH_URDFDOM
 namespace {
-
-constexpr std::size_t kMostUrdfBytes = std::size_t{16} << 20;
 
 struct Place {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
@@ -66,10 +65,7 @@ void farthest(const urdf::LinkConstSharedPtr& link, int joints, int& most, std::
 
 JointChain read_urdf_chain(const std::filesystem::path& path, const std::string& wanted) {
   const std::string file = path.string();
-  const std::string text = read_file(path, kMostUrdfBytes, Exit::kData);
-  require(text.find("<robot") != text.npos, Exit::kData, file,
-          ": is no URDF, for it has no <robot>; give the robot's description in XML");
-  const auto model = urdf::parseURDF(text);
+  const auto model = urdf::parseURDF(read_urdf_text(path));
   require(model != nullptr, Exit::kData, file, ": is no URDF that liburdfdom can read");
   std::string tip = wanted;
   int most = 0;

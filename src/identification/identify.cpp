@@ -4,6 +4,7 @@
 
 #include "dcnn/data/rotation.h"
 #include "identification/estimates.h"
+#include "physics/foreign_force.h"
 
 namespace dcnn {
 namespace {
@@ -16,7 +17,6 @@ using identification::WristState;
 constexpr int kDraws = 4000;        // 2.5 % quantiles to some 4 % of a deviation
 constexpr double kSmallest = 0.03;  // m: radius of gyration of what is taken for a tool's least
 constexpr double kOtherMounting = 20.0 * M_PI / 180.0;  // no assembly tolerance
-constexpr double kMostIsForeign = 0.5;  // share of the force's power that the fit leaves
 
 Eigen::Matrix3d least_inertia(double mass, const Eigen::Vector3d& com) {
   const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
@@ -67,19 +67,14 @@ Eigen::VectorXd measured_rms(const WristFit& fit) {
   return (squares / std::max(rows, 1.0)).cwiseSqrt();
 }
 
-/// Numbers fitted to a force that is mostly something else are not the tool's.
 void note_foreign_force(ToolIdentification& result) {
-  const double measured = result.measured_rms.head(3).squaredNorm();
-  const double share = result.residual_rms.head(3).squaredNorm() / std::max(measured, 1e-300);
-  if (share <= kMostIsForeign) return;
-  char line[300];
-  std::snprintf(
-      line, sizeof line,
-      "%.0f %% of what the force varies by is no rigid tool's: something was touched, the "
-      "weight is subtracted already (--payload KG adds it back), or force and pose do not "
-      "belong together; do not use these numbers before dcnn-check knows which",
-      100.0 * std::min(share, 1.0));
-  result.notes.push_back(line);
+  const std::string note = foreign_force_note(
+      foreign_share(result.residual_rms.head(3).squaredNorm(), 0.0,
+                    result.measured_rms.head(3).squaredNorm()),
+      "something was touched, the weight is subtracted already (--payload KG adds it back), or "
+      "force and pose do not belong together; do not use these numbers before dcnn-check knows "
+      "which");
+  if (!note.empty()) result.notes.push_back(note);
 }
 
 void add_notes(const std::vector<WristLog>& logs, const WristState& point, bool mounting_estimated,

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "data/text.h"
+#include "data/urdf_text.h"
 #include "dcnn/core/error.h"
-#include "dcnn/core/file.h"
 
 #ifdef DCNN_WITH_URDFDOM
 #include <urdf_parser/urdf_parser.h>
@@ -15,7 +15,6 @@ namespace dcnn {
 #ifdef DCNN_WITH_URDFDOM
 namespace {
 
-constexpr std::size_t kMostUrdfBytes = std::size_t{1} << 24;
 constexpr std::size_t kMostLinks = 1000;
 
 struct ChainJoint {
@@ -53,10 +52,7 @@ ChainJoint chain_joint(const urdf::Joint& joint, const std::string& file) {
 
 /// Joints from the base (the root where none is named) to the link.
 std::vector<ChainJoint> read_chain(const ArmRule& rule) {
-  const std::string text = read_file(rule.urdf, kMostUrdfBytes, Exit::kData);
-  require(text.find("<robot") != text.npos, Exit::kData, rule.urdf,
-          ": is no URDF, for it has no <robot>; give the robot's description in XML");
-  const auto model = urdf::parseURDF(text);
+  const auto model = urdf::parseURDF(read_urdf_text(rule.urdf));
   require(model != nullptr, Exit::kData, rule.urdf, ": is no URDF that liburdfdom can read");
   auto link = model->getLink(rule.link);
   std::string all;

@@ -30,11 +30,11 @@ constexpr std::uint32_t kArchitecture = AUDIT_ARCH_AARCH64;
 constexpr std::uint32_t kArchitecture = 0;  // no filter is known: nothing is read
 #endif
 
-#if defined(__SANITIZE_ADDRESS__)
-#define DCNN_ADDRESS_SANITIZER 1
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define DCNN_SHADOW_MEMORY 1
 #elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define DCNN_ADDRESS_SANITIZER 1
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define DCNN_SHADOW_MEMORY 1
 #endif
 #endif
 
@@ -111,8 +111,8 @@ void enter_confinement(int pipe) {
   limit(RLIMIT_FSIZE, 0);
   limit(RLIMIT_NOFILE, kMostDescriptors);
   limit(RLIMIT_CPU, kMostSeconds);
-#ifndef DCNN_ADDRESS_SANITIZER
-  limit(RLIMIT_AS, kMostMemory);  // AddressSanitizer maps terabytes as its shadow
+#ifndef DCNN_SHADOW_MEMORY
+  limit(RLIMIT_AS, kMostMemory);  // a sanitizer maps terabytes as its shadow
 #endif
   install_filter(true);
 }

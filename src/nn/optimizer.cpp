@@ -66,8 +66,9 @@ Adam::Adam(std::vector<NamedTensor> parameters, Settings settings)
 void Adam::step(double rate) {
   ++steps_;
   std::vector<AdamStep> coefficients;
+  std::vector<Real*> gradients;  // asked for once: the first call makes zeros, where nothing was
   for (const NamedTensor& parameter : parameters_) {
-    parameter.tensor.gradient_data();  // zeros, where nothing was
+    gradients.push_back(parameter.tensor.gradient_data());
     coefficients.push_back(
         coefficients_of(parameter, settings_, rate, static_cast<double>(steps_)));
   }
@@ -82,7 +83,7 @@ void Adam::step(double rate) {
       const Index first = std::max<Index>(begin - start, 0);
       const Index count = std::min(end - start, parameter.size()) - first;
       if (count > 0) {
-        adam(coefficients[i], count, parameter.gradient_data() + first, first_[i].data() + first,
+        adam(coefficients[i], count, gradients[i] + first, first_[i].data() + first,
              second_[i].data() + first, parameter.data() + first);
       }
       start += parameter.size();

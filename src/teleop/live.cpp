@@ -70,8 +70,7 @@ OnlineSample sample_of(SlaveSide& slave, double t) {
   OnlineSample sample;
   sample.t = t;
   sample.position = slave.body().x;
-  const Eigen::Quaterniond q(rotation_from_euler(slave.orientation()));
-  sample.quaternion = {q.w(), q.x(), q.y(), q.z()};
+  sample.quaternion = quaternion_from_euler(slave.orientation());
   sample.wrench.head<3>() = slave.measured();
   return sample;
 }

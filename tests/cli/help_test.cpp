@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <regex>
 #include <set>
 
@@ -80,6 +82,19 @@ TEST(Help, NamesAMistypedOptionBeforeWhatIsMissingWithoutIt) {
   EXPECT_NE(range.err.find("5000 is not between 1 and 1024"), std::string::npos) << range.err;
   const auto word = test::run("train", {"--train", "a", "--out", "b", "--preset", "quik"});
   EXPECT_NE(word.err.find("did you mean 'quick'?"), std::string::npos) << word.err;
+}
+
+TEST(Scripts, RefuseAMistypedOptionBeforeTheyDoAnything) {
+  int scripts = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(DCNN_SOURCE_DIR "/tools")) {
+    if (!entry.is_regular_file() || entry.path().has_extension()) continue;
+    const std::string script = entry.path();
+    const int status =
+        std::system(("timeout 20 " + script + " --nonsense < /dev/null > /dev/null 2>&1").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 2) << script;
+    ++scripts;
+  }
+  EXPECT_GT(scripts, 20);
 }
 
 TEST(Dispatch, ListsEveryProgramAndRunsIt) {

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include "dcnn/core/file.h"
+#include "dcnn/core/json.h"
 #include "support/process.h"
 
 namespace dcnn {
@@ -49,7 +50,27 @@ const Case kCases[] = {
     {"sim", {"--sim", "s.json", "--motion", "a.csv", "--out", "@b.csv"}, "b.csv", kKept},
     {"sim", {"--config", "c.json", "--out", "@set"}, "set/truth.json", kKept},
     {"train", {"--train", "@a.csv", "--out", "@a.csv", "--force"}, "a.csv", kInput},
+    {"train", {"--train", "@a.csv", "--out", "@new/../a.csv", "--force"}, "a.csv", kInput},
     {"train", {"--train", "a.csv", "--out", "@m.dcnn"}, "m.dcnn", kKept},
+    {"train", {"--train", "a.csv", "--out", "@new/../m.dcnn"}, "m.dcnn", kKept},
+    {"train", {"--train", "@a.csv", "@a.csv", "--out", "@m.dcnn"}, "a.csv", "is named twice"},
+    {"train",
+     {"--train", "@a.csv", "--valid", "@a.csv", "--out", "@m.dcnn"},
+     "a.csv",
+     "is learned from and judged by"},
+    {"diagnose",
+     {"--sim", "s.json", "--fit", "b.csv", "@a.csv", "--holdout", "@a.csv", "--out", "@r"},
+     "a.csv",
+     "is learned from and judged by"},
+    {"diagnose", {"--sim", "s.json", "--fit", "a.csv", "--out", "@b.csv"}, "b.csv", "is no folder"},
+    {"train", {"--train", "@a.csv", "--out", "/dev/stdout"}, "a.csv", "is no file"},
+    {"train", {"--train", "@a.csv", "--out", "-"}, "a.csv", "- is no file"},
+    {"check", {"-"}, "a.csv", "a log is read twice"},
+    {"check", {"@a.csv", "--out", "-"}, "a.csv", "- is standard output, which takes one file"},
+    {"predict",
+     {"m.dcnn", "--data", "@a.csv", "--out", "-", "--json"},
+     "a.csv",
+     "both go to standard output"},
     {"train", {"--train", "a.csv", "--out", "@m.dcnn"}, "m.run/checkpoint.safetensors", "--resume"},
     {"eval", {"m.dcnn", "--data", "a.csv", "--out", "@report"}, "report/report.html", kKept},
     {"bench", {"m.dcnn", "--out", "@bench"}, "bench/bench.json", kKept},
@@ -90,12 +111,24 @@ TEST_F(Outputs, OfAPredictionAreReplacedByANewerOneLinksFollowedStreamsWritten) 
       test::Process("predict", {kShippedTool, "--data", "-", "--out", "-"}, {.input = kLog}).wait();
   EXPECT_EQ(piped.exit_code, 0) << piped.err;
   EXPECT_EQ(piped.out, rows);
-  EXPECT_EQ(test::run("predict", {kShippedTool, "--data", kLog, "--out", "/dev/stdout"})
-                .out.substr(0, rows.size()),
-            rows);
+  EXPECT_EQ(test::run("predict", {kShippedTool, "--data", kLog, "--out", "/dev/stdout"}).out, rows);
   EXPECT_EQ(test::run("predict", {kShippedTool, "--data", kLog, "--out", "/dev/null"}).exit_code,
             0);
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST_F(Outputs, OnStandardOutputStandAlone) {
+  const std::string log = DCNN_SOURCE_DIR "/data/sample/test.csv";
+  for (const char* out : {"-", "/dev/stdout", "/dev/fd/1"}) {
+    const auto identified = test::run("identify", {log, "--out", out});
+    ASSERT_EQ(identified.exit_code, 0) << identified.err;
+    EXPECT_TRUE(parse_json(identified.out, out, Exit::kFailure).contains("tool"));
+    EXPECT_NE(identified.err.find("mass"), std::string::npos) << identified.err;
+    const auto predicted = test::run(
+        "predict", {DCNN_SOURCE_DIR "/data/sample/sim.json", "--data", log, "--out", out});
+    ASSERT_EQ(predicted.exit_code, 0) << predicted.err;
+    EXPECT_EQ(std::count(predicted.out.begin(), predicted.out.end(), '\n'), 4001) << out;
+  }
 }
 
 TEST_F(Outputs, OfAFolderThatAnotherProcessWritesToAreRefused) {

@@ -85,6 +85,20 @@ TEST_F(Poses, AreRefusedByModelsOfMotionWithTheNamesOfTheOthers) {
   }
 }
 
+TEST_F(Poses, TooFewForANetworkAreLearnedByTheRigidTool) {
+  Table few = read_csv(at("tool.csv"));
+  few.values.conservativeResize(51, Eigen::NoChange);
+  write_csv(at("few.csv"), few);
+  const auto best = run("train", {"--train", at("few.csv"), "--model", "auto", "--preset", "quick",
+                                  "--out", at("few.dcnn")});
+  ASSERT_EQ(best.exit_code, 0) << best.err;
+  EXPECT_TRUE(contains(best.out, "chosen: rigid")) << best.out;
+  EXPECT_TRUE(contains(best.err, "mlp is left out: only ")) << best.err;
+  const auto named = run("train", {"-q", "--train", at("few.csv"), "--model", "mlp", "--preset",
+                                   "quick", "--out", at("mlp.dcnn")});
+  EXPECT_EQ(named.exit_code, 3) << "what is asked for by its name is not left out";
+}
+
 TEST_F(Poses, OfJointsAreNotSaidToNeedNoTimeWhereTheyDo) {
   const auto diagnosed = run("diagnose", {"-q", "--system", at("arm.json"), "--fit", at("arm.csv"),
                                           "--out", at("report")});

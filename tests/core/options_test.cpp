@@ -29,6 +29,27 @@ TEST(Options, RefusesAnUnknownKeyAndSuggestsTheNearest) {
             "c.json: key 'batches' is unknown; did you mean 'batch'?");
 }
 
+TEST(NearestWord, IsASlipOfTheFingersAndNoOtherWord) {
+  const std::vector<std::string> options{"--fit",  "--out",     "--holdout", "--seed",
+                                         "--json", "--report",  "--train",   "--limits",
+                                         "--on",   "--resample"};
+  for (const auto& [typed, meant] : {std::pair{"--trian", "--train"},
+                                     {"--holdut", "--holdout"},
+                                     {"--ftt", "--fit"},
+                                     {"--output", "--out"},
+                                     {"--limit", "--limits"},
+                                     {"--sede", "--seed"},
+                                     {"-seed", "--seed"},
+                                     {"--resampel", "--resample"},
+                                     {"--hodlotu", "--holdout"}}) {
+    EXPECT_EQ(nearest_word(typed, options), meant) << typed;
+  }
+  for (const char* other : {"--root", "--peer", "--samples", "--join", "--repeat", "--export",
+                            "--seal", "--tip", "--onnx", "--a", "--", ""}) {
+    EXPECT_EQ(nearest_word(other, options), "") << other;
+  }
+}
+
 TEST(Options, NamesTheWholePathOfANestedKey) {
   Options options(Json{{"map", {{"sigma", "sd"}}}}, "c.json", Exit::kUsage);
   Options map = options.child("map");

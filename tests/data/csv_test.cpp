@@ -60,6 +60,7 @@ std::vector<BadCase> bad_inputs() {
       {"Utf16LittleEndian", "\xFF\xFEt" + nul + ",", {":1:", "UTF-16"}},
       {"Utf16BigEndian", "\xFE\xFF" + nul + "t", {":1:", "UTF-16"}},
       {"Gzip", "\x1F\x8B\x08", {":1:", "gzip"}},
+      {"Mcap", "\x89MCAP0\r\n\x01", {":1:", "log of another format", "dcnn-import"}},
       {"Latin1Header",
        "t,temp_\xB0"
        "C\n1,2\n",

@@ -64,5 +64,13 @@ TEST(HeldRows, KeepOneRateOfAllRecordings) {
   EXPECT_DOUBLE_EQ(three.dt, 0.012);
 }
 
+TEST(HeldRows, AColumnThatNeverChangesHasOneValue) {
+  Eigen::VectorXd column = Eigen::VectorXd::Constant(50, -0.3);
+  EXPECT_TRUE(never_changes(column));
+  column[49] = std::nextafter(-0.3, 0.0);
+  EXPECT_FALSE(never_changes(column));
+  EXPECT_TRUE(never_changes(column.head(1)));
+}
+
 }  // namespace
 }  // namespace dcnn

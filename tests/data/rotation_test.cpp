@@ -24,6 +24,20 @@ TEST(Rotation, EulerAnglesComeBack) {
   }
 }
 
+TEST(Rotation, QuaternionOfEulerAnglesIsThatOfTheirMatrix) {
+  Rng rng(2);
+  for (int k = 0; k < 1000; ++k) {
+    const Vector3d euler(rng.uniform(-4.0, 4.0), rng.uniform(-2.0, 2.0), rng.uniform(-4.0, 4.0));
+    const Matrix3d R = (Eigen::AngleAxisd(euler[0], Vector3d::UnitZ()) *
+                        Eigen::AngleAxisd(euler[1], Vector3d::UnitY()) *
+                        Eigen::AngleAxisd(euler[2], Vector3d::UnitX()))
+                           .toRotationMatrix();
+    const Eigen::Quaterniond q(R);
+    const Eigen::Vector4d got = quaternion_from_euler(euler);
+    EXPECT_NEAR(std::abs(got.dot(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()))), 1.0, 1e-14);
+  }
+}
+
 TEST(Rotation, SingularPitchKeepsTheRotation) {
   for (const double beta : {-std::numbers::pi / 2, std::numbers::pi / 2}) {
     const Matrix3d R = rotation_from_euler({0.4, beta, -0.9});

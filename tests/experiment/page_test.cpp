@@ -185,6 +185,26 @@ TEST(ReportWords, KnowEveryParameterOfTheCatalogue) {
   }
 }
 
+TEST(ReportWords, KnowTheNumbersOfDiscoveredLaws) {
+  EXPECT_EQ(words_of_parameter("amplitude_n"), "amplitude");
+  EXPECT_EQ(words_of_parameter("scale_1_m"), "scale of the first variable");
+  EXPECT_EQ(words_of_parameter("centre_2_rad"), "centre of the second variable");
+  EXPECT_EQ(words_of_parameter("power_1"), "exponent of the first variable");
+  EXPECT_EQ(words_of_parameter("gain_2"), "slope of the second variable");
+  EXPECT_EQ(words_of_parameter("memory_1_s"), "time constant of the first variable");
+  EXPECT_EQ(words_of_parameter("lag_s"), "delay");
+  EXPECT_EQ(words_of_parameter("vector_scale_n"), "scale of the direction");
+}
+
+TEST(DiagnosisPage, SaysWhenAContactActsAndInWhichRecording) {
+  Diagnosis diagnosis = example_diagnosis(2000);
+  Json& finding = diagnosis.report["findings"][0];
+  finding["interval_s"] = {12.34, 14.0};
+  finding["recording"] = "fit_0.csv";
+  EXPECT_NE(to_html(diagnosis).find("along the tool, from 12.3 to 14.0 s of fit_0.csv"),
+            std::string::npos);
+}
+
 TEST(DiagnosisPage, BeginsWithTheAnswerAPictureAndATable) {
   const std::string html = to_html(example_diagnosis(2000));
   const auto answer = html.find("class=\"answer\""), picture = html.find("<figure>", answer),

@@ -3,6 +3,7 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <array>
 
 #include "dcnn/core/ranks.h"
 
@@ -14,6 +15,14 @@ namespace fs = std::filesystem;
 bool same_file(const fs::path& a, const fs::path& b) {
   std::error_code missing;
   return fs::equivalent(a, b, missing);
+}
+
+/// "new/../log.csv" is log.csv once the folder is made.
+fs::path when_made(const fs::path& path) {
+  std::error_code error;
+  if (path == "-" || fs::exists(fs::symlink_status(path, error))) return path;
+  const fs::path plain = fs::weakly_canonical(path, error);
+  return error || !fs::exists(plain, error) ? path : plain;
 }
 
 /// The existing files of a folder that a command would write.
@@ -68,9 +77,18 @@ void Outputs::claim(bool force) {
   }
 }
 
+bool Outputs::take_standard_output() const {
+  constexpr std::array kNames{"-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"};
+  return std::any_of(rules_.begin(), rules_.end(), [&](const auto& rule) {
+    return !rule->is_folder() &&
+           std::find(kNames.begin(), kNames.end(), rule->path()) != kNames.end();
+  });
+}
+
 void Outputs::claim_file(const Output::Rule& rule, bool keep) const {
-  const Path path = rule.path();
-  require(!fs::is_directory(path), Exit::kFailure, path.string(), ": is a folder; name a file");
+  const Path path = when_made(rule.path());
+  require(path == "-" || !fs::is_directory(path), Exit::kFailure, path.string(),
+          ": is a folder; name a file");
   const auto existing = replaced_file(path);
   if (!existing) return;
   refuse_input(*existing);
@@ -81,6 +99,10 @@ void Outputs::claim_file(const Output::Rule& rule, bool keep) const {
 
 void Outputs::claim_folder(const Output::Rule& rule, bool keep) {
   const Path folder = rule.path();
+  require(folder != "-", Exit::kUsage,
+          "- is standard output, which takes one file, and a folder is written here; name one");
+  require(!fs::exists(folder) || fs::is_directory(folder), Exit::kUsage, folder.string(),
+          ": is no folder, and one is written here; name another");
   locks_.emplace_back(folder);
   const auto existing = present(folder, rule.contents);
   for (const Path& file : existing) refuse_input(file);

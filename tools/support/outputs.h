@@ -57,6 +57,8 @@ class Outputs {
   /// Error(kUsage) where an output is also an input, or where a result exists without `force`;
   /// then holds the output folders for this process alone.
   void claim(bool force);
+  /// Whether a file goes to standard output, which then holds nothing else.
+  bool take_standard_output() const;
 
  private:
   void claim_file(const Output::Rule& rule, bool keep) const;

@@ -214,6 +214,11 @@ int Tool::run(int argc, char** argv, const std::function<Exit()>& body) {
     for (const auto& check : checks_) check();
     check_inputs(expect_kind);
     outputs_.claim(common_.force);
+    if (outputs_.take_standard_output()) {
+      require(!common_.json, Exit::kUsage,
+              "--json and a result both go to standard output; name a file for the result");
+      std::cout.rdbuf(std::cerr.rdbuf());  // what is said beside the result
+    }
     check_inputs(expect_file);
     set_provenance({command_line(argc, argv), name_ + " " DCNN_VERSION, outputs_.inputs()});
     const Exit exit = body();

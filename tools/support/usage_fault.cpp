@@ -52,6 +52,10 @@ std::string usage_fault(const CLI::ParseError& error, const std::deque<OptionRow
     return at == words.npos ? std::pair<std::string, std::string>()
                             : std::pair(words.substr(0, at), words.substr(at + verb.size()));
   };
+  if (const auto [name, rest] = between(" is required"); !name.empty()) {
+    const OptionRow* row = row_of(name, rows);
+    return (row ? row->usage() : name) + " is missing";
+  }
   if (const auto [one, other] = between(" excludes "); !other.empty()) {
     return one + " and " + other + " exclude one another; give one of them";
   }

@@ -5,7 +5,7 @@
 
 namespace dcnn {
 
-/// Three significant digits: "0.0412", "1.2e+03".
+/// Three significant digits: "0.0412", "1230", "1.23e+06".
 std::string brief(double value);
 
 }  // namespace dcnn

@@ -3,6 +3,7 @@
 
 #include "check/rows.h"
 #include "core/elementary.h"
+#include "data/median.h"
 
 namespace dcnn::check {
 namespace {
@@ -27,7 +28,7 @@ double deviation_of_moving(const Eigen::VectorXd& far) {
   for (const double value : far) {
     if (value != 0.0) sizes.push_back(std::abs(value));
   }
-  return 1.4826 *
+  return kDeviationOfMedian *
          median(Eigen::Map<Eigen::VectorXd>(sizes.data(), static_cast<Eigen::Index>(sizes.size())));
 }
 

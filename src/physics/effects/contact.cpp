@@ -19,7 +19,7 @@ const EffectKind effect{
     .name = "contact",
     .stage = Stage::kForce,
     .kind = "external",
-    .meaning = "foreign force for some seconds, constant in base",
+    .meaning = "external force for some seconds, constant in base",
     .equation = "+ R^T f on [a,b]",
     .example = R"({"force_x_n": 1.0, "force_y_n": -2.0, "force_z_n": 0.5})",
     .interval = IntervalRule::kRequired,

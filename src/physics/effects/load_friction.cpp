@@ -46,7 +46,7 @@ const EffectKind effect{
     .stage = Stage::kForce,
     .kind = "structural",
     .meaning =
-        "dry friction that grows with the load: across the way of a tool, transmitted by "
+        "dry friction that grows with the load: across the path of a tool, transmitted by "
         "the drive of an axis",
     .equation = "-mu abs(F_load) tanh(v/v0) n",
     .example = R"({"mu": 0.1, "v0_mps": 0.01})",

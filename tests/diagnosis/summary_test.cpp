@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include "dcnn/diagnosis/diagnose.h"
+
+namespace dcnn {
+namespace {
+
+Json finding_of(const char* words, double gain) {
+  return {{"effect", "contact"},
+          {"axis", nullptr},
+          {"parameters", Json::object()},
+          {"words", words},
+          {"holdout_gain", gain}};
+}
+
+/// Of a tool whose fx and fy are measured and simulated.
+Json summary_report(const Json& findings) {
+  return {{"targets", {"fx", "fy"}},
+          {"units", {"N", "N"}},
+          {"verdict", "explained"},
+          {"findings", findings},
+          {"unnamed", {{"words", nullptr}}},
+          {"fit",
+           {{"holdout_rmse_before", {1.0, 0.5}},
+            {"holdout_rmse_after", {0.04, 0.5}},
+            {"holdout_rms_measured", {2.0, 2.0}},
+            {"holdout_explained_before", {0.75, 0.9}},
+            {"noise_floor", {0.04, 0.5}}}}};
+}
+
+TEST(Headline, BeginsWithWhatTheHeldOutErrorTellsOf) {
+  const Json report = summary_report(
+      Json::array({finding_of("a contact of 3 N", 0.0), finding_of("dry friction of 0.4 N", 0.9)}));
+  EXPECT_EQ(headline(report),
+            "Dry friction of 0.4 N. The hold-out error of fx falls from 1 to 0.04 N, the sensor's "
+            "noise is 0.04 N. In the fitted recordings, without effect on the held-out error: a "
+            "contact of 3 N.");
+}
+
+TEST(Headline, SaysThatAllItNamesIsWithoutEffectOnTheHeldOutError) {
+  const Json report = summary_report(Json::array({finding_of("a contact of 3 N", 0.004)}));
+  EXPECT_TRUE(headline(report).starts_with(
+      "A contact of 3 N, without effect on the held-out error. The hold-out error of fx"))
+      << headline(report);
+}
+
+TEST(Headline, BeginsWithASimulatorThatExplainsNothing) {
+  Json report = summary_report(Json::array({finding_of("dry friction of 0.4 N", 0.9)}));
+  report["fit"]["holdout_explained_before"] = {-0.1, -3.0};
+  EXPECT_TRUE(headline(report).starts_with(
+      "The given simulator explains nothing of how fx and fy vary on held-out data: a constant "
+      "errs no more. Check its units, signs, axes and clock first (dcnn-check). Dry friction"))
+      << headline(report);
+}
+
+TEST(Headline, EndsWithTheTargetsThatTheSimulatorExplainsNothingOf) {
+  Json report = summary_report(Json::array({finding_of("dry friction of 0.4 N", 0.9)}));
+  report["fit"]["holdout_explained_before"] = {0.9, -3.0};
+  EXPECT_TRUE(headline(report).starts_with("Dry friction")) << headline(report);
+  EXPECT_TRUE(headline(report).ends_with(
+      "The given simulator explains nothing of how fy varies on held-out data: a constant errs no "
+      "more."))
+      << headline(report);
+  report["fit"]["holdout_rms_measured"] = {2.0, 0.7};  // what is little above the noise of 0.5 N
+  EXPECT_EQ(headline(report).find("explains nothing"), std::string::npos) << headline(report);
+}
+
+}  // namespace
+}  // namespace dcnn

@@ -1,0 +1,14 @@
+// Recordings to judge by are none of those that were learned from.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace dcnn {
+
+/// Error(kUsage) where a recording is named twice, to be learned from or to be judged by or both:
+/// an error on rows that were fitted is no error on new data.
+void expect_apart(const std::vector<std::filesystem::path>& learned,
+                  const std::vector<std::filesystem::path>& judged);
+
+}  // namespace dcnn
