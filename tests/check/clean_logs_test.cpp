@@ -136,6 +136,22 @@ TEST(CleanLogs, ATorqueWhoseScaleSaysItsSignHasTheRightOne) {
   EXPECT_EQ(right.stopping({}), nullptr) << check::to_text(right);
 }
 
+// A joint whose encoder begins anew after each turn, at 1 rad/s: two jumps in 15 s.
+TEST(CleanLogs, AJointThatBeginsAnewAfterATurnWraps) {
+  Table table{{"t", "q_1", "qd_1", "tau_1"}, Eigen::MatrixXd(3000, 4)};
+  std::mt19937 random(8);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+    const double t = 0.005 * static_cast<double>(i);
+    table.values.row(i) << t, std::fmod(1.4 + t, 6.283185307179586), 1.0 + noise(random),
+        0.5 + noise(random);
+  }
+  const check::Report report = check::check(check::make_log("turns.csv", table, {}));
+  ASSERT_FALSE(report.faults.empty());
+  EXPECT_EQ(report.faults[0].id, "wrap") << check::to_text(report);
+  EXPECT_GE(report.faults[0].probability, check::kLikely);
+}
+
 /// A motor's shaft at `speed` [rad/s], or a joint that swings.
 check::Report shaft(double speed, bool swings, double unit) {
   Table table{{"t", "q_1", "tau_1"}, Eigen::MatrixXd(4000, 3)};
