@@ -17,6 +17,9 @@ class ChannelNoise {
   ChannelNoise(const Eigen::VectorXd& residual, const std::vector<Segment>& segments,
                double parameters);
 
+  /// Of the residual's size alone: rows that are independent of each other.
+  static ChannelNoise white(const Eigen::VectorXd& residual);
+
   /// Rows of unit variance, without correlation; (n, k) in place.
   void whiten(Eigen::Ref<Eigen::MatrixXd> rows, const std::vector<Segment>& segments) const;
   /// Standard deviation of one row.
@@ -24,8 +27,9 @@ class ChannelNoise {
   int order() const { return static_cast<int>(weights_.size()); }
 
  private:
-  std::vector<Eigen::VectorXd> weights_;  // of order 1 … p: of the row before, the one before that …
-  std::vector<double> variance_{1.0};     // of the errors of order 0 … p
+  std::vector<Eigen::VectorXd>
+      weights_;  // of order 1 … p: of the row before, the one before that …
+  std::vector<double> variance_{1.0};  // of the errors of order 0 … p
 };
 
 }  // namespace dcnn::identification

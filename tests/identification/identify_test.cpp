@@ -127,6 +127,25 @@ TEST(Identify, PosesAtRestWithIrregularTimesAreNoMotion) {
   EXPECT_EQ(id.model.com, Eigen::Vector3d::Zero());
 }
 
+// Seven poses of another day: their offset is theirs, and no noise.
+TEST(Identify, AFewPosesWithAnotherOffsetHaveOneOfTheirOwn) {
+  const test::TemporaryFolder folder;
+  const Table table = poses_with_times();
+  Table few = table;
+  few.values = table.values.topRows(7);
+  const auto at = std::find(few.columns.begin(), few.columns.end(), "fx") - few.columns.begin();
+  few.values.middleCols(at, 3).rowwise() += Eigen::RowVector3d(1.3, 1.9, 3.6);
+  write_csv(folder / "poses.csv", table);
+  write_csv(folder / "few.csv", few);
+  IdentifyRequest request;
+  request.logs = {folder / "poses.csv", folder / "few.csv"};
+  const ToolIdentification id = identify_tool(request);
+  ASSERT_FALSE(id.beside.empty()) << to_text(id);
+  EXPECT_EQ(id.beside.front().effect, "bias");
+  EXPECT_EQ(id.beside.front().axis, "few.csv");
+  EXPECT_NEAR(id.beside.front().parameters[2].value, 3.6, 0.05);
+}
+
 TEST(Identify, ABodyThatNoMotionShowsCanStillExist) {
   Setting setting;
   setting.path = identification_tests::trajectory(0.1);  // hardly any acceleration
