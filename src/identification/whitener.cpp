@@ -86,6 +86,12 @@ void ChannelNoise::whiten(Eigen::Ref<Eigen::MatrixXd> rows,
   }
 }
 
+double ChannelNoise::correlated_rows() const {
+  if (weights_.empty()) return 1.0;
+  const double gain = 1.0 - weights_.back().sum();
+  return std::max(1.0, variance_.back() / (gain * gain) / variance_.front());
+}
+
 ChannelNoise ChannelNoise::white(const Eigen::VectorXd& residual) {
   std::vector<Segment> alone;
   for (Index i = 0; i < residual.size(); ++i) alone.push_back({i, i + 1});

@@ -20,6 +20,10 @@ class ChannelNoise {
   /// Of the residual's size alone: rows that are independent of each other.
   static ChannelNoise white(const Eigen::VectorXd& residual);
 
+  /// Rows that tell as much as one independent row does, for a regressor that is slow: spectral
+  /// density at 0 Hz over the variance.
+  double correlated_rows() const;
+
   /// Rows of unit variance, without correlation; (n, k) in place.
   void whiten(Eigen::Ref<Eigen::MatrixXd> rows, const std::vector<Segment>& segments) const;
   /// Standard deviation of one row.

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/normal_equations.h"
 #include "identification/own_offset.h"
-#include "identification/scaled_inverse.h"
+#include "identification/plain_fit.h"
 #include "identification/wrist_prior.h"
 #include "identification/wrist_start.h"
 
@@ -18,23 +19,10 @@ constexpr int kIterations = 60, kNoiseRounds = 6, kMostLaws = 8, kDelayRounds = 
 constexpr double kConverged = 1e-8;  // of a standard deviation
 constexpr double kAlias = 1e-6;      // share of a column that other columns must leave
 
-/// White rows of every log, and their normal equations.
-struct White {
-  std::vector<MatrixXd> J;
-  std::vector<VectorXd> r;
-  MatrixXd inverse;
-  double rows = 0.0, chi2 = 0.0;
-};
-
-struct Normal {
-  MatrixXd information;
-  VectorXd gradient;
-  double rows = 0.0, chi2 = 0.0;
-};
-
 class Fitter {
  public:
-  Fitter(std::vector<WristLog>& logs, const FitOptions& options) : logs_(logs) {
+  Fitter(std::vector<WristLog>& logs, const FitOptions& options)
+      : logs_(logs), plain_(options.plain) {
     fit_.layout.torque = logs.front().measured.cols() == 6;
     fit_.layout.mounting = !options.R_ES;
     make_columns();
@@ -75,6 +63,7 @@ class Fitter {
     }
   }
 
+  const WristFit& fit() const { return fit_; }
   WristFit result() { return std::move(fit_); }
 
  private:
@@ -116,13 +105,17 @@ class Fitter {
         static_cast<double>(fit_.layout.size()) / static_cast<double>(fit_.layout.channels());
     const bool first = fit_.noise.empty();
     fit_.noise.assign(logs_.size(), {});
+    fit_.independent = VectorXd::Zero(fit_.layout.channels());
     for (std::size_t k = 0; k < logs_.size(); ++k) {
       const MatrixXd r = residual(k);
       const double share = each * static_cast<double>(r.rows()) / rows;
       for (Index c = 0; c < r.cols(); ++c) {
+        const ChannelNoise coloured(r.col(c), logs_[k].segments, share);
+        const double correlated = plain_ ? coloured.correlated_rows() : 1.0;
+        fit_.independent[c] += static_cast<double>(r.rows()) / correlated;
         // The first residual is not one of noise: its size alone is used.
-        fit_.noise[k].push_back(first ? ChannelNoise::white(r.col(c))
-                                      : ChannelNoise(r.col(c), logs_[k].segments, share));
+        fit_.noise[k].push_back(
+            first || plain_ ? ChannelNoise::white(std::sqrt(correlated) * r.col(c)) : coloured);
       }
     }
   }
@@ -281,16 +274,25 @@ class Fitter {
   }
 
   std::vector<WristLog>& logs_;
+  bool plain_;
   WristFit fit_;
 };
 
 }  // namespace
 
 WristFit fit_wrist(std::vector<WristLog>& logs, const FitOptions& options) {
-  Fitter fitter(logs, options);
-  fitter.refine();
-  if (options.laws) fitter.choose_laws();
-  return fitter.result();
+  FitOptions with = options;
+  with.plain = true;
+  Fitter plain(logs, with);
+  plain.refine();
+  const Advances before(logs);
+  Fitter coloured(logs, options);
+  coloured.refine();
+  if (options.laws) coloured.choose_laws();
+  if (!leaves_more(coloured.fit(), plain.fit())) return coloured.result();
+  before.restore(logs);
+  if (options.laws) plain.choose_laws();
+  return plain.result();
 }
 
 }  // namespace dcnn::identification

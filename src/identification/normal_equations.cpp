@@ -1,4 +1,4 @@
-#include "identification/scaled_inverse.h"
+#include "identification/normal_equations.h"
 
 #include "core/linear_algebra.h"
 
