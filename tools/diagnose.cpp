@@ -31,6 +31,18 @@ Json with_check(const std::vector<std::string>& lines, const Json& report) {
   return out;
 }
 
+/// Of a description of axes; none of anything else, which is refused where it is read.
+std::vector<std::string> names_of_axes(const std::filesystem::path& system) {
+  const Json json = read_json(system, Exit::kData);
+  std::vector<std::string> names;
+  if (!json.is_object() || !json.contains("axes") || !json["axes"].is_array()) return names;
+  for (const Json& axis : json["axes"]) {
+    if (axis.is_object() && axis.contains("name") && axis["name"].is_string())
+      names.push_back(axis["name"]);
+  }
+  return names;
+}
+
 /// Lines for the report; recordings that were likely zeroed are taken for such.
 std::vector<std::string> checked(const Tool& tool, const Doctor& doctor,
                                  DiagnosisRequest& request) {
@@ -101,7 +113,9 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     request.read = read.options();
-    if (!urdf.empty()) request.arm = to_json(read_urdf_chain(urdf, tip));
+    if (!urdf.empty()) {
+      request.arm = to_json(read_urdf_chain(urdf, tip, names_of_axes(*request.system)));
+    }
     if (zeroed) request.zeroed = request.fit;
     if (zeroed)
       request.zeroed.insert(request.zeroed.end(), request.holdout.begin(), request.holdout.end());

@@ -41,13 +41,24 @@ double motion_weight(const Log& log, const Kinematics& motion, const Reading& re
   return sum;
 }
 
+/// The shaft of a motor or a wheel: in degrees, too, it turns farther than the cables of an arm's
+/// joint allow, or farther than once without turning back. Its size tells no unit.
+bool turns_endlessly(const Eigen::VectorXd& angle) {
+  const double range = angle.maxCoeff() - angle.minCoeff();
+  const double path =
+      (angle.tail(angle.size() - 1) - angle.head(angle.size() - 1)).cwiseAbs().sum();
+  constexpr double kTurnDegrees = 360.0, kMostTurns = 4.0;  // of a joint, end to end
+  constexpr double kNoise = 1.05;  // path over range where nothing turns back
+  return range > kMostTurns * kTurnDegrees || (range > kTurnDegrees && path < kNoise * range);
+}
+
 double angle_weight(const Log& log, const Reading& reading) {
   double most = 0.0;
   if (log.has_all(kEuler) && !log.has_quaternion()) {
     most = rms(centred(log.block(kEuler))) / std::sqrt(3.0);
   }
   for (const Joint& joint : log.joints) {
-    if (joint.turns && !joint.position.empty()) {
+    if (joint.turns && !joint.position.empty() && !turns_endlessly(log.column(joint.position))) {
       most = std::max(most, rms(centred(log.column(joint.position))));
     }
   }

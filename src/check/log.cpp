@@ -22,9 +22,23 @@ std::vector<Joint> declared_joints(const System& system) {
   std::vector<Joint> joints;
   for (const Axis& axis : system.axes) {
     const bool turns = axis.position_unit.empty() ? axis.unit != "N" : axis.position_unit != "m";
-    joints.push_back({axis.name, axis.position, axis.velocity, axis.measured, turns});
+    joints.push_back({axis.name, axis.position, axis.velocity, axis.measured, turns,
+                      axis.scale < 0.0 ? -1.0 : 1.0});
   }
   return joints;
+}
+
+/// q_elbow with qd_elbow or tau_elbow, as dcnn-import writes them.
+void add_named_joints(const Log& log, std::vector<Joint>& joints) {
+  for (const std::string& column : log.table.columns) {
+    if (!column.starts_with("q_")) continue;
+    const std::string name = column.substr(2), rate = "qd_" + name, torque = "tau_" + name;
+    const bool known = std::any_of(joints.begin(), joints.end(),
+                                   [&](const Joint& joint) { return joint.position == column; });
+    if (known || (!log.has(rate) && !log.has(torque))) continue;
+    joints.push_back(
+        {name, column, log.has(rate) ? rate : "", log.has(torque) ? torque : "", true});
+  }
 }
 
 /// q_1 or q1 with qd_1 and tau_1, as arms are logged.
@@ -43,6 +57,7 @@ std::vector<Joint> recognised_joints(const Log& log) {
     joints.push_back({"joint " + number, q, first({"qd_", "qd", "dq_", "dq"}, number),
                       first({"tau_", "tau", "i_A_"}, number), true});
   }
+  add_named_joints(log, joints);
   return joints;
 }
 
@@ -59,7 +74,8 @@ double neighbours_ratio(const Log& log) {
     ratios.push_back(steps.head(steps.size() - steps.size() / 50).sum() / spread);
   }
   if (ratios.empty()) return 0.0;
-  return median(Eigen::Map<Eigen::VectorXd>(ratios.data(), static_cast<Eigen::Index>(ratios.size())));
+  return median(
+      Eigen::Map<Eigen::VectorXd>(ratios.data(), static_cast<Eigen::Index>(ratios.size())));
 }
 
 std::vector<Segment> segments_of(const Log& log) {

@@ -63,8 +63,9 @@ Design design_of(const Log& log, const Sampled& rows, const Kinematics& motion,
     if (with_friction && options.columns) {
       A.rightCols(7) = options.columns->row(i).reshaped(3, 7);
     } else if (with_friction) {
-      const Eigen::Vector3d v =
-          rate * reading.position * (reading.position_axes * motion.velocity.row(i).transpose());
+      // Along the axes as they are declared: the order and the signs of positions are told by the
+      // inertia alone, for friction, whose direction is free here, may look like any of them.
+      const Eigen::Vector3d v = rate * reading.position * motion.velocity.row(i).transpose();
       A.rightCols(7) = friction_columns(R, v, kFrictionSpeed);
     }
     design.rows.push_back(std::move(A));

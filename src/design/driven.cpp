@@ -66,7 +66,9 @@ Json next_motion(const DiagnosisRequest& request, const Diagnosis& diagnosis) {
   constexpr double kSeconds = 30.0;
   constexpr int kEvaluations = 60;  // half a second
   if (!request.simulator || request.system) return nullptr;
-  const Recording first = read_recording(request.fit.front(), request.read, System());
+  ReadOptions read = request.read;
+  read.static_list = true;  // as the diagnosis reads it
+  const Recording first = read_recording(request.fit.front(), read, System());
   try {
     const auto limits = driven_limits({first}, diagnosis.corrected.model);
     if (!limits) return nullptr;

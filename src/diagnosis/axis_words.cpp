@@ -76,7 +76,11 @@ const std::map<std::string, Sentence>& sentences() {
       {"bias", [](auto& n) { return "a constant offset of " + n("delta_bias"); }},
       {"gain", [](auto& n) { return "a scale that is off by " + n.plain("gain", 100.0) + " %"; }},
       {"time_delay",
-       [](auto& n) { return "a delay of " + n.plain("delay", 1e3) + " ms after the position"; }},
+       [](auto& n) {
+         const std::string size = brief(1e3 * std::abs(n.value("delay"))) + " ms";
+         return n.value("delay") < 0.0 ? "a lead of " + size + " before the position"
+                                       : "a delay of " + size + " after the position";
+       }},
       {"lowpass",
        [](auto& n) { return "a lag with a time constant of " + n.plain("tau", 1e3) + " ms"; }},
       {"thermal_drift",

@@ -58,7 +58,8 @@ double most_changed(const Wrench& with, const Wrench& without, bool torque) {
   return both ? std::max(force, rms(with.torque, without.torque)) : force;
 }
 
-Recording first_rows(const std::filesystem::path& path, const ReadOptions& read) {
+Recording first_rows(const std::filesystem::path& path, ReadOptions read) {
+  read.static_list = true;  // as the diagnosis reads it
   Recording recording = read_recording(path, read, System());
   if (recording.samples() > kMostRows) {
     recording.table.values.conservativeResize(kMostRows, Eigen::NoChange);

@@ -23,7 +23,9 @@ JointChain chain_for(const ArmRequest& request, const System& system) {
           ": describes a wrist; an arm needs \"kind\": \"axes\"");
   JointChain chain;
   if (!request.urdf.empty()) {
-    chain = read_urdf_chain(request.urdf, request.tip);
+    std::vector<std::string> names;
+    for (const Axis& axis : system.axes) names.push_back(axis.name);
+    chain = read_urdf_chain(request.urdf, request.tip, names);
   } else {
     require(system.arm.is_object(), Exit::kData, request.system.string(),
             ": has no key 'arm' with the DH table; add it, or give --urdf robot.urdf");

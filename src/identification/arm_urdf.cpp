@@ -1,3 +1,5 @@
+#include <set>
+
 #include "data/urdf_text.h"
 #include "dcnn/core/error.h"
 #include "dcnn/identification/urdf.h"
@@ -35,14 +37,50 @@ BodyVector body_of(const urdf::Link& link) {
   return body_in_frame(body, at.R.transpose(), -(at.R.transpose() * at.p));
 }
 
-/// What a joint carries: its link and all that is fixed to it, but for the branch that goes on.
-void lump(const urdf::Link& link, const Place& at, BodyVector& body) {
+/// Which joints move; empty: all that are not fixed.
+using Moving = std::set<std::string>;
+
+bool is_held(const urdf::Joint& joint, const Moving& moving) {
+  return joint.type == urdf::Joint::FIXED || (!moving.empty() && !moving.contains(joint.name));
+}
+
+/// What a joint carries: its link and all that is held to it, but for the branch that goes on.
+void lump(const urdf::Link& link, const Place& at, const Moving& moving, BodyVector& body) {
   body += body_in_frame(body_of(link), at.R.transpose(), -(at.R.transpose() * at.p));
   for (const auto& child : link.child_links) {
-    if (child->parent_joint->type != urdf::Joint::FIXED) continue;
+    if (!is_held(*child->parent_joint, moving)) continue;
     const Place step = place_of(child->parent_joint->parent_to_joint_origin_transform);
-    lump(*child, {at.R * step.R, at.p + at.R * step.p}, body);
+    lump(*child, {at.R * step.R, at.p + at.R * step.p}, moving, body);
   }
+}
+
+/// The names of axes that are joints of the model; none where no axis is called as a joint is.
+Moving moving_joints(const urdf::ModelInterface& model, const std::vector<std::string>& axes,
+                     const std::string& file) {
+  Moving moving;
+  std::string unknown;
+  for (const std::string& axis : axes) {
+    if (model.getJoint(axis) != nullptr) {
+      moving.insert(axis);
+    } else if (unknown.empty()) {
+      unknown = axis;
+    }
+  }
+  require(moving.empty() || unknown.empty(), Exit::kData, file, ": has no joint '", unknown,
+          "'; call the axes of --system as its joints are called");
+  return moving;
+}
+
+void check_order(const JointChain& chain, const std::vector<std::string>& axes,
+                 const std::string& file, const std::string& tip) {
+  std::string names;
+  bool same = chain.joints.size() == axes.size();
+  for (std::size_t k = 0; k < chain.joints.size(); ++k) {
+    same = same && chain.joints[k].name == axes[k];
+    names += (k == 0 ? "" : ", ") + chain.joints[k].name;
+  }
+  require(same, Exit::kData, file, ": the joints to link '", tip, "' are ", names,
+          ", and the axes of --system are not these in this order");
 }
 
 /// The link farthest from the root behind movable joints, by the number of those.
@@ -63,14 +101,20 @@ void farthest(const urdf::LinkConstSharedPtr& link, int joints, int& most, std::
 
 }  // namespace
 
-JointChain read_urdf_chain(const std::filesystem::path& path, const std::string& wanted) {
+JointChain read_urdf_chain(const std::filesystem::path& path, const std::string& wanted,
+                           const std::vector<std::string>& axes) {
   const std::string file = path.string();
   const auto model = urdf::parseURDF(read_urdf_text(path));
   require(model != nullptr, Exit::kData, file, ": is no URDF that liburdfdom can read");
+  const Moving moving = moving_joints(*model, axes, file);
   std::string tip = wanted;
   int most = 0;
   bool tied = false;
   if (tip.empty()) farthest(model->getRoot(), 0, most, tip, tied);
+  if (tied && !moving.empty()) {
+    tip = model->getJoint(axes.back())->child_link_name;
+    tied = false;
+  }
   require(!tied, Exit::kData, file, ": has several ends; name the arm's last link: --tip LINK");
   auto link = model->getLink(tip);
   require(link != nullptr, Exit::kData, file, ": has no link '", tip, "'; name one: --tip LINK");
@@ -82,7 +126,7 @@ JointChain read_urdf_chain(const std::filesystem::path& path, const std::string&
     const urdf::Joint& joint = **it;
     const Place step = place_of(joint.parent_to_joint_origin_transform);
     at = {at.R * step.R, at.p + at.R * step.p};
-    if (joint.type == urdf::Joint::FIXED) continue;
+    if (is_held(joint, moving)) continue;
     ChainJoint next;
     next.slides = joint.type == urdf::Joint::PRISMATIC;
     require(
@@ -95,12 +139,13 @@ JointChain read_urdf_chain(const std::filesystem::path& path, const std::string&
     require(next.axis.norm() > 1e-9, Exit::kData, file, ": joint '", joint.name, "' has no axis");
     next.axis.normalize();
     BodyVector body = BodyVector::Zero();
-    lump(*model->getLink(joint.child_link_name), Place(), body);
+    lump(*model->getLink(joint.child_link_name), Place(), moving, body);
     if (body[0] > 0.0) next.body = body;
     chain.joints.push_back(next);
     at = Place();
   }
   require(!chain.joints.empty(), Exit::kData, file, ": no joint moves link '", tip, "'");
+  if (!moving.empty()) check_order(chain, axes, file, tip);
   chain.flange_R = at.R;
   chain.flange_p = at.p;
   return chain;
@@ -108,7 +153,8 @@ JointChain read_urdf_chain(const std::filesystem::path& path, const std::string&
 
 #else
 
-JointChain read_urdf_chain(const std::filesystem::path& path, const std::string&) {
+JointChain read_urdf_chain(const std::filesystem::path& path, const std::string&,
+                           const std::vector<std::string>&) {
   fail(Exit::kData, path.string(),
        ": this build reads no URDF; install liburdfdom-dev and build again, or give the arm's DH "
        "table: --system");

@@ -37,8 +37,8 @@ VectorXd autocovariance(const VectorXd& x, const std::vector<Segment>& segments,
 ChannelNoise::ChannelNoise(const VectorXd& residual, const std::vector<Segment>& segments,
                            double parameters) {
   const auto n = static_cast<double>(residual.size());
-  const Index most = std::min({kMostOrder, residual.size() / kRowsPerOrder,
-                               longest_of(segments) - 1});
+  const Index most =
+      std::min({kMostOrder, residual.size() / kRowsPerOrder, longest_of(segments) - 1});
   const VectorXd c = autocovariance(residual, segments, std::max<Index>(most, 0));
   const double freedom = n / std::max(1.0, n - parameters);
   variance_ = {std::max(c[0], 1e-300)};
@@ -84,6 +84,18 @@ void ChannelNoise::whiten(Eigen::Ref<Eigen::MatrixXd> rows,
       }
     }
   }
+}
+
+double ChannelNoise::correlated_rows() const {
+  if (weights_.empty()) return 1.0;
+  const double gain = 1.0 - weights_.back().sum();
+  return std::max(1.0, variance_.back() / (gain * gain) / variance_.front());
+}
+
+ChannelNoise ChannelNoise::white(const Eigen::VectorXd& residual) {
+  std::vector<Segment> alone;
+  for (Index i = 0; i < residual.size(); ++i) alone.push_back({i, i + 1});
+  return {residual, alone, 0.0};
 }
 
 }  // namespace dcnn::identification

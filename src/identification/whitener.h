@@ -17,6 +17,13 @@ class ChannelNoise {
   ChannelNoise(const Eigen::VectorXd& residual, const std::vector<Segment>& segments,
                double parameters);
 
+  /// Of the residual's size alone: rows that are independent of each other.
+  static ChannelNoise white(const Eigen::VectorXd& residual);
+
+  /// Rows that tell as much as one independent row does, for a regressor that is slow: spectral
+  /// density at 0 Hz over the variance.
+  double correlated_rows() const;
+
   /// Rows of unit variance, without correlation; (n, k) in place.
   void whiten(Eigen::Ref<Eigen::MatrixXd> rows, const std::vector<Segment>& segments) const;
   /// Standard deviation of one row.
@@ -24,8 +31,9 @@ class ChannelNoise {
   int order() const { return static_cast<int>(weights_.size()); }
 
  private:
-  std::vector<Eigen::VectorXd> weights_;  // of order 1 … p: of the row before, the one before that …
-  std::vector<double> variance_{1.0};     // of the errors of order 0 … p
+  std::vector<Eigen::VectorXd>
+      weights_;  // of order 1 … p: of the row before, the one before that …
+  std::vector<double> variance_{1.0};  // of the errors of order 0 … p
 };
 
 }  // namespace dcnn::identification

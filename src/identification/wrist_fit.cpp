@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/linear_algebra.h"
+#include "identification/normal_equations.h"
+#include "identification/own_offset.h"
+#include "identification/plain_fit.h"
 #include "identification/wrist_prior.h"
 #include "identification/wrist_start.h"
 
@@ -14,26 +16,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kIterations = 60, kNoiseRounds = 6, kMostLaws = 8, kDelayRounds = 3;
-constexpr double kConverged = 1e-8;   // of a standard deviation
-constexpr double kAlias = 1e-6;       // share of a column that other columns must leave
-
-/// White rows of every log, and their normal equations.
-struct White {
-  std::vector<MatrixXd> J;
-  std::vector<VectorXd> r;
-  MatrixXd inverse;
-  double rows = 0.0, chi2 = 0.0;
-};
-
-struct Normal {
-  MatrixXd information;
-  VectorXd gradient;
-  double rows = 0.0, chi2 = 0.0;
-};
+constexpr double kConverged = 1e-8;  // of a standard deviation
+constexpr double kAlias = 1e-6;      // share of a column that other columns must leave
 
 class Fitter {
  public:
-  Fitter(std::vector<WristLog>& logs, const FitOptions& options) : logs_(logs) {
+  Fitter(std::vector<WristLog>& logs, const FitOptions& options)
+      : logs_(logs), plain_(options.plain) {
     fit_.layout.torque = logs.front().measured.cols() == 6;
     fit_.layout.mounting = !options.R_ES;
     make_columns();
@@ -74,6 +63,7 @@ class Fitter {
     }
   }
 
+  const WristFit& fit() const { return fit_; }
   WristFit result() { return std::move(fit_); }
 
  private:
@@ -85,8 +75,8 @@ class Fitter {
   void start_bias_torque() {
     if (!fit_.layout.torque) return;
     for (const WristColumns& c : fit_.columns) {
-      fit_.state.bias_torque += c.y.rightCols(3).colwise().mean().transpose() /
-                                static_cast<double>(fit_.columns.size());
+      fit_.state.bias_torque +=
+          c.y.rightCols(3).colwise().mean().transpose() / static_cast<double>(fit_.columns.size());
     }
   }
 
@@ -115,21 +105,19 @@ class Fitter {
         static_cast<double>(fit_.layout.size()) / static_cast<double>(fit_.layout.channels());
     const bool first = fit_.noise.empty();
     fit_.noise.assign(logs_.size(), {});
+    fit_.independent = VectorXd::Zero(fit_.layout.channels());
     for (std::size_t k = 0; k < logs_.size(); ++k) {
       const MatrixXd r = residual(k);
       const double share = each * static_cast<double>(r.rows()) / rows;
       for (Index c = 0; c < r.cols(); ++c) {
+        const ChannelNoise coloured(r.col(c), logs_[k].segments, share);
+        const double correlated = plain_ ? coloured.correlated_rows() : 1.0;
+        fit_.independent[c] += static_cast<double>(r.rows()) / correlated;
         // The first residual is not one of noise: its size alone is used.
-        fit_.noise[k].push_back(first ? sized(r.col(c)) : ChannelNoise(r.col(c), logs_[k].segments,
-                                                                       share));
+        fit_.noise[k].push_back(
+            first || plain_ ? ChannelNoise::white(std::sqrt(correlated) * r.col(c)) : coloured);
       }
     }
-  }
-
-  static ChannelNoise sized(const VectorXd& r) {
-    std::vector<Segment> alone;
-    for (Index i = 0; i < r.size(); ++i) alone.push_back({i, i + 1});
-    return ChannelNoise(r, alone, 0.0);
   }
 
   /// (channels·n, k) of a log, white.
@@ -173,23 +161,14 @@ class Fitter {
       all.rows += static_cast<double>(all.r.back().size());
       all.chi2 += all.r.back().squaredNorm();
     }
-    all.inverse = inverse(normal().information);
+    all.inverse = scaled_inverse(normal().information);
     return all;
-  }
-
-  static MatrixXd inverse(const MatrixXd& information) {
-    const VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
-    const MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
-    const auto [values, vectors] = spectrum_of(scaled);
-    const VectorXd safe = values.cwiseMax(1e-13).cwiseInverse();
-    return scale.asDiagonal() * vectors * safe.asDiagonal() * vectors.transpose() *
-           scale.asDiagonal();
   }
 
   void descend() {
     for (int iteration = 0; iteration < kIterations; ++iteration) {
       const Normal sums = normal();
-      const VectorXd step = inverse(sums.information) * sums.gradient;
+      const VectorXd step = scaled_inverse(sums.information) * sums.gradient;
       fit_.state = moved(fit_.state, fit_.layout, step);
       fit_.state.mass = std::max(fit_.state.mass, 1e-6);
       if (step.dot(sums.gradient) < kConverged) return;
@@ -199,7 +178,7 @@ class Fitter {
   void finish() {
     const Normal sums = normal();
     fit_.information = sums.information;
-    fit_.covariance = inverse(sums.information);
+    fit_.covariance = scaled_inverse(sums.information);
     fit_.freedom = std::max(1.0, sums.rows - static_cast<double>(fit_.layout.size()));
     fit_.residual_rms = VectorXd::Zero(fit_.layout.channels());
     double rows = 0.0;
@@ -231,10 +210,21 @@ class Fitter {
     }
     const MatrixXd left = own - shared.transpose() * now.inverse * shared;
     if ((left.diagonal().array() <= kAlias * own.diagonal().array()).any()) return 0.0;
-    const VectorXd amplitudes = inverse(left) * match;
+    const VectorXd amplitudes = scaled_inverse(left) * match;
     if (law.dissipates && (amplitudes.array() <= 0.0).any()) return 0.0;
-    return amplitudes.dot(match) * now.rows / std::max(now.chi2, now.rows) -
-           static_cast<double>(q) * std::log(now.rows);
+    double gain = amplitudes.dot(match) * now.rows / std::max(now.chi2, now.rows);
+    if (law.effect == "bias") gain = std::max(gain, gain_of_offset(law));
+    return gain - static_cast<double>(q) * std::log(now.rows);
+  }
+
+  /// Of an offset that one list of poses has alone.
+  double gain_of_offset(const Law& law) const {
+    double gain = 0.0;
+    for (std::size_t k = 0; k < logs_.size(); ++k) {
+      if (!logs_[k].at_rest || logs_[k].recording.name != law.axis) continue;
+      gain += own_offset_gain(residual(k), least_deviations(fit_.noise, k));
+    }
+    return gain;
   }
 
   /// Dry friction with the width that gains most.
@@ -284,16 +274,25 @@ class Fitter {
   }
 
   std::vector<WristLog>& logs_;
+  bool plain_;
   WristFit fit_;
 };
 
 }  // namespace
 
 WristFit fit_wrist(std::vector<WristLog>& logs, const FitOptions& options) {
-  Fitter fitter(logs, options);
-  fitter.refine();
-  if (options.laws) fitter.choose_laws();
-  return fitter.result();
+  FitOptions with = options;
+  with.plain = true;
+  Fitter plain(logs, with);
+  plain.refine();
+  const Advances before(logs);
+  Fitter coloured(logs, options);
+  coloured.refine();
+  if (options.laws) coloured.choose_laws();
+  if (!leaves_more(coloured.fit(), plain.fit())) return coloured.result();
+  before.restore(logs);
+  if (options.laws) plain.choose_laws();
+  return plain.result();
 }
 
 }  // namespace dcnn::identification

@@ -65,11 +65,22 @@ void guess_unit(const LogChannel& channel, ClockRule* rule) {
   rule->why = words.str();
 }
 
+/// A channel by the letter of time and another word (t_ADC) is a clock where its values increase:
+/// it may be a temperature.
+bool may_count_time(const LogChannel& channel) {
+  if (words_of_name(channel.name).size() == 1 || clock_rank(channel.name) > 1) return true;
+  const auto falls = [](double a, double b) { return !(b > a); };
+  return channel.values.size() > 1 &&
+         std::adjacent_find(channel.values.begin(), channel.values.end(), falls) ==
+             channel.values.end();
+}
+
 const LogChannel* best_clock(const LogStream& stream) {
   const LogChannel* best = nullptr;
   int rank = 0;
   for (const LogChannel& channel : stream.channels) {
-    if (channel.finite == 0 || clock_rank(channel.name) <= rank) continue;
+    if (channel.finite == 0 || clock_rank(channel.name) <= rank || !may_count_time(channel))
+      continue;
     best = &channel;
     rank = clock_rank(channel.name);
   }

@@ -120,11 +120,15 @@ void propose_units(const ForeignLog& log, const ImportWishes& wishes, Proposal* 
     list += (list.empty() ? "" : ",") + rule.to;
   }
   for (const auto& [unit, columns] : guessed) {
-    const std::string ask =
-        unit == "counts"
-            ? columns + " look like counts (large whole numbers): say --gain " + columns +
-                  "=NEWTONS_PER_COUNT, or --unit " + columns + "=mN"
-            : columns + " look like " + unit + " by their size: say --unit " + columns + "=" + unit;
+    const std::string ask = unit == "counts"
+                                ? columns + " look like counts (large whole numbers): say --gain " +
+                                      columns + "=NEWTONS_PER_COUNT, or --unit " + columns + "=mN"
+                                : columns + " look like " + unit + " by their size: say --unit " +
+                                      columns + "=" + unit +
+                                      (columns.starts_with("q:")
+                                           ? ", or =rad of shafts that turn on (and --gain, where "
+                                             "these are motors behind a gear)"
+                                           : "");
     proposal->guesses.push_back(ask);
   }
 }

@@ -21,9 +21,11 @@ std::size_t LogBuilder::add_stream(const std::string& key, LogStream stream) {
   for (const LogStream& other : log_.streams) channels += other.channels.size();
   require(channels <= kMostLogChannels, Exit::kData, log_.file, ": more than ", kMostLogChannels,
           " channels of numbers; cut the log to the topics of interest");
+  if (stream.type == "text" || stream.type == "array") stream.source = stem_;
   // Names go to terminals and messages.
   constexpr std::size_t kLongestName = 200;
-  for (std::string* name : {&stream.name, &stream.type, &stream.frame, &stream.child}) {
+  for (std::string* name :
+       {&stream.name, &stream.type, &stream.frame, &stream.child, &stream.source}) {
     *name = excerpt(*name, kLongestName);
   }
   for (LogChannel& channel : stream.channels) channel.name = excerpt(channel.name, kLongestName);
@@ -34,6 +36,14 @@ std::size_t LogBuilder::add_stream(const std::string& key, LogStream stream) {
   keep_.push_back(std::move(keep));
   log_.streams.push_back(std::move(stream));
   return streams_[key] = log_.streams.size() - 1;
+}
+
+std::vector<std::string> LogBuilder::next_columns(std::size_t count) {
+  const std::vector<std::string>& given = options_.text.columns;
+  if (taken_ + count > given.size()) return {};
+  const auto begin = given.begin() + static_cast<std::ptrdiff_t>(taken_);
+  taken_ += count;
+  return {begin, begin + static_cast<std::ptrdiff_t>(count)};
 }
 
 void LogBuilder::add(std::size_t index, double stamped, double received,

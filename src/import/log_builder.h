@@ -22,6 +22,17 @@ class LogBuilder {
     return found != streams_.end() ? found->second : add_stream(key, make());
   }
 
+  /// What is read from now on is of this file, the `number`-th of the log (from 1).
+  void begin_file(const std::string& stem, std::size_t number) {
+    stem_ = stem;
+    number_ = number;
+  }
+  std::size_t file_number() const { return number_; }
+
+  /// The next `count` of the names that are given for the columns of all texts of the log.
+  std::vector<std::string> next_columns(std::size_t count);
+  std::size_t columns_taken() const { return taken_; }
+
   /// Times in s; NaN where the log has none of that kind.
   void add(std::size_t stream, double stamped, double received, std::span<const double> row);
 
@@ -35,6 +46,8 @@ class LogBuilder {
   const ReadLogOptions& options_;
   std::map<std::string, std::size_t> streams_;
   std::vector<std::vector<char>> keep_;
+  std::string stem_;
+  std::size_t number_ = 1, taken_ = 0;
 };
 
 }  // namespace dcnn

@@ -19,7 +19,7 @@ struct NumberArray {
 std::string element_name(const std::string& array, Index column, Index columns);
 
 /// Arrays of one length are one stream, called `name` or, where that is empty, by their length's
-/// rank ("arrays1": the longest), which the next log has, too.
+/// rank ("arrays1": the longest, "file2/arrays1" in the second file), which the next log has, too.
 void add_number_arrays(const std::vector<NumberArray>& arrays, const std::string& name,
                        LogBuilder& builder);
 

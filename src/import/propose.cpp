@@ -7,6 +7,7 @@
 #include "import/candidates.h"
 #include "import/clocks.h"
 #include "import/column_units.h"
+#include "import/joint_columns.h"
 #include "import/roles.h"
 
 namespace dcnn {
@@ -207,21 +208,8 @@ class Proposer {
   /// Joint angles, rates and torques: of an arm, or for a pose by --urdf.
   void take_joints() {
     if (has("fx") && has_any({"qw", "quat0", "r11", "alpha", "rot1", "rvx"})) return;
-    std::set<std::string> streams;
-    for (const LogStream& stream : log_.streams) {
-      if (!may_use(stream)) continue;
-      for (const LogChannel& channel : stream.channels) {
-        const std::string role = role_of(stream, channel.name);
-        if (!role.starts_with("q:") && !role.starts_with("qd:") && !role.starts_with("tau:"))
-          continue;
-        if (channel.finite == 0 || has(role)) continue;
-        streams.insert(stream.name);
-        take(role, {.to = role, .stream = stream.name, .channel = channel.name});
-      }
-    }
-    if (streams.size() > 1) {
-      proposal_.questions.push_back("several streams have joints: say --use " + *streams.begin() +
-                                    " or " + *streams.rbegin());
+    for (const ColumnRule& rule : find_joints(log_, recipe().columns, wishes_.use, &proposal_)) {
+      take(rule.to, rule);
     }
   }
 

@@ -82,13 +82,17 @@ ForeignLog read_log(const std::vector<fs::path>& paths, const ReadLogOptions& op
   for (const fs::path& path : paths) {
     for (const fs::path& file : files_of(path)) {
       log.file = file.string();
-      read_one(file, ++number, builder);
+      builder.begin_file(file.stem().string(), ++number);
+      read_one(file, number, builder);
       if (formats.find(log.format) == std::string::npos) {
         formats += (formats.empty() ? "" : "; ") + log.format;
       }
     }
   }
   log.format = formats;
+  const std::size_t given = options.text.columns.size(), taken = builder.columns_taken();
+  require(taken == 0 || taken == given, Exit::kData, log.file, ": ", given,
+          " names are given for the ", taken, " columns of ", number, " texts");
   if (paths.size() > 1) log.file = paths.front().string() + " and others";
   return log;
 }

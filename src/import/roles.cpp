@@ -5,6 +5,7 @@
 #include <cctype>
 #include <utility>
 
+#include "import/joint_names.h"
 #include "import/units.h"
 
 namespace dcnn {
@@ -192,14 +193,23 @@ std::string role_of(const LogStream& stream, const std::string& full_name) {
   if (words.size() == 1) {
     if (const std::string role = by_unit(channel, words[0]); !role.empty()) return role;
     const std::string column = single_word(words[0]);
-    if (column.empty() && is_frame_of_kuka(stream)) return kuka_angle(words[0]);
-    return column.empty() ? joint_word(words[0]) : column;
+    if (!column.empty()) return column;
+    if (is_frame_of_kuka(stream)) return kuka_angle(words[0]);
+    const std::string of_file = joint_quantity_of_file(words_of_name(stream.source));
+    const std::string role = of_file.empty() ? "" : joint_role(words, of_file);
+    return role.empty() ? joint_word(words[0]) : role;
   }
-  if (const std::string role = by_words(words); !role.empty()) return role;
+  const std::string of_file = joint_quantity_of_file(words_of_name(stream.source));
+  const bool joint = names_joint(words) && !is_no_measurement(words);
+  if (const std::string role = joint ? joint_role(words, of_file) : ""; !role.empty()) return role;
+  if (const std::string role = by_words(words); !role.empty()) {
+    return joint && role.size() == 1 ? "" : role;  // no position of a tool
+  }
   const bool indexed =
       words.size() == 2 && words[1].find_first_not_of("0123456789") == std::string::npos;
   if (indexed) return joint_word(words[0] + words[1]);  // tau[3]
   if (is_no_measurement(words)) return "";
+  if (const std::string role = joint_role(words, ""); !role.empty()) return role;
   // "sensor.fx", "/ft/Fx", "tool_roll": the last word alone, where it is one of a vector's names.
   return words.back().size() > 1 ? single_word(words.back()) : by_unit(channel, words.back());
 }
@@ -211,6 +221,8 @@ int clock_rank(const std::string& channel) {
   if (words.size() <= 2 && is_one_of(words.back(), {"time", "timestamp", "stamp", "clock"}))
     return 2;
   if (words.size() == 2 && words[0] == "time") return 2;  // time_ms
+  if (words.size() == 2 && words[0] == "t" && words[1].size() > 1 && axis_of(words[1]) < 0)
+    return 1;
   return words.size() == 1 && words[0] == "t" ? 1 : 0;
 }
 

@@ -217,16 +217,18 @@ bool is_aside(std::string_view line) {
   return line[0] == '#' || line[0] == '%' || line.substr(0, 2) == "//";
 }
 
-TextLayout find_layout(const Lines& lines, const TextDialect& given, const std::string& file) {
+TextLayout find_layout(const Lines& lines, const TextDialect& given, const std::string& file,
+                       const NextColumns& next) {
   const Reading reading = best_reading(lines, given, file);
   TextLayout layout;
   layout.separator = reading.separator;
   layout.decimal = reading.decimal;
   read_heading(lines, reading, &layout);
   if (!given.columns.empty()) {
-    require(given.columns.size() == reading.cells, Exit::kData, file, ": ", given.columns.size(),
+    const bool one = given.columns.size() == reading.cells;
+    layout.names = one ? given.columns : next(reading.cells);
+    require(!layout.names.empty(), Exit::kData, file, ": ", given.columns.size(),
             " names are given for ", reading.cells, " columns (", layout.words(), ")");
-    layout.names = given.columns;
     layout.headed = true;
   }
   if (!layout.headed) {

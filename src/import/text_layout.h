@@ -1,6 +1,7 @@
 // The dialect of a text of numbers, found from its first lines.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,9 +25,13 @@ struct TextLayout {
 /// A line that holds no row: blank or a comment (#, %, //).
 bool is_aside(std::string_view line);
 
+/// The names of a text's `count` columns where those that are given are of several texts in their
+/// order; empty where too few are left.
+using NextColumns = std::function<std::vector<std::string>(std::size_t count)>;
+
 /// From the first lines of a file (without line ends, byte order mark removed). What two dialects
 /// could have written is an Error(kData) that asks.
 TextLayout find_layout(const std::vector<std::string>& lines, const TextDialect& given,
-                       const std::string& file);
+                       const std::string& file, const NextColumns& next);
 
 }  // namespace dcnn

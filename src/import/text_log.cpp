@@ -108,7 +108,9 @@ void read_text_log(const std::filesystem::path& path, const std::string& name,
     sample.emplace_back(line);
   }
   require(!sample.empty(), Exit::kData, reader.name(), ": is empty");
-  const TextLayout layout = find_layout(sample, builder.options().text, reader.name());
+  const TextLayout layout =
+      find_layout(sample, builder.options().text, reader.name(),
+                  [&](std::size_t count) { return builder.next_columns(count); });
   ForeignLog& log = builder.log();
   log.format = layout.words();
   log.notes.insert(log.notes.end(), layout.notes.begin(), layout.notes.end());

@@ -80,6 +80,13 @@ const std::array kUnits = {UnitRow{"s", "time"},
                                    "temperature"},
                            UnitRow{"K", "temperature", 1.0, -273.15},
                            UnitRow{"degF", "temperature", 5.0 / 9.0, -160.0 / 9.0},
+                           UnitRow{"Pa", "pressure"},
+                           UnitRow{"kPa", "pressure", 1e3},
+                           UnitRow{"MPa", "pressure", 1e6},
+                           UnitRow{"mbar", "pressure", 1e2},
+                           UnitRow{"bar", "pressure", 1e5},
+                           UnitRow{"psi", "pressure", kPoundForce / (kInch * kInch)},
+                           UnitRow{"W", "power"},
                            UnitRow{"V", "voltage"},
                            UnitRow{"mV", "voltage", 1e-3},
                            UnitRow{"A", "current"},
@@ -92,7 +99,7 @@ const std::array kUnits = {UnitRow{"s", "time"},
                            UnitRow{"ticks", "counts"}};
 
 /// Units written out, in any case, with or without an s behind.
-constexpr std::array<std::pair<std::string_view, const char*>, 14> kWrittenOut = {
+constexpr std::array<std::pair<std::string_view, const char*>, 15> kWrittenOut = {
     {{"radian", "rad"},
      {"meter", "m"},
      {"metre", "m"},
@@ -106,6 +113,7 @@ constexpr std::array<std::pair<std::string_view, const char*>, 14> kWrittenOut =
      {"newtonmetre", "Nm"},
      {"millisecond", "ms"},
      {"microsecond", "us"},
+     {"rpm", "rpm"},
      {"nanosecond", "ns"}}};
 
 /// "N*m", "N.m", "N m", "N·m" are "Nm"; "m/s^2" and "m/s²" are "m/s2".

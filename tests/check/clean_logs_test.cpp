@@ -97,5 +97,85 @@ TEST(CleanLogs, AToolThatHardlyTurnsIsNotCompensated) {
   }
 }
 
+/// Two joints with friction, called as dcnn-import calls them; the drive of the second reads the
+/// other way round, and `scale` is what its description says.
+check::Report two_joints(double scale, bool described) {
+  Table table{{"t", "q_elbow", "tau_elbow", "q_wrist", "tau_wrist"}, Eigen::MatrixXd(6000, 5)};
+  std::mt19937 random(6);
+  std::normal_distribution<double> noise(0.0, 0.05);
+  for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+    const double t = 0.005 * static_cast<double>(i);
+    const auto torque = [&](double v) { return 0.5 * std::tanh(v / 0.01) + v + noise(random); };
+    table.values.row(i) << t, std::sin(1.3 * t), torque(1.3 * std::cos(1.3 * t)), std::sin(0.9 * t),
+        -torque(0.9 * std::cos(0.9 * t));
+  }
+  check::Declared declared;
+  if (described) {
+    Json axes = Json::array();
+    for (const char* name : {"elbow", "wrist"}) {
+      axes.push_back({{"name", name},
+                      {"measured", std::string("tau_") + name},
+                      {"unit", "N*m"},
+                      {"scale", name == std::string("wrist") ? scale : 1.0},
+                      {"position", std::string("q_") + name},
+                      {"base", Json::array()}});
+    }
+    declared.system = parse_system(Json{{"kind", "axes"}, {"axes", axes}}, "system.json");
+  }
+  return check::check(check::make_log("arm.csv", table, declared));
+}
+
+TEST(CleanLogs, ATorqueWhoseScaleSaysItsSignHasTheRightOne) {
+  for (const bool described : {true, false}) {
+    const check::Report wrong = two_joints(1.0, described);
+    ASSERT_NE(wrong.stopping({}), nullptr) << check::to_text(wrong);
+    EXPECT_EQ(wrong.stopping({})->id, "power_sign");
+    EXPECT_EQ(wrong.stopping({})->channel, "tau_wrist");
+  }
+  const check::Report right = two_joints(-20.0, true);
+  EXPECT_EQ(right.stopping({}), nullptr) << check::to_text(right);
+}
+
+// A joint whose encoder begins anew after each turn, at 1 rad/s: two jumps in 15 s.
+TEST(CleanLogs, AJointThatBeginsAnewAfterATurnWraps) {
+  Table table{{"t", "q_1", "qd_1", "tau_1"}, Eigen::MatrixXd(3000, 4)};
+  std::mt19937 random(8);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+    const double t = 0.005 * static_cast<double>(i);
+    table.values.row(i) << t, std::fmod(1.4 + t, 6.283185307179586), 1.0 + noise(random),
+        0.5 + noise(random);
+  }
+  const check::Report report = check::check(check::make_log("turns.csv", table, {}));
+  ASSERT_FALSE(report.faults.empty());
+  EXPECT_EQ(report.faults[0].id, "wrap") << check::to_text(report);
+  EXPECT_GE(report.faults[0].probability, check::kLikely);
+}
+
+/// A motor's shaft at `speed` [rad/s], or a joint that swings.
+check::Report shaft(double speed, bool swings, double unit) {
+  Table table{{"t", "q_1", "tau_1"}, Eigen::MatrixXd(4000, 3)};
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+    const double t = 0.005 * static_cast<double>(i);
+    const double q = swings ? std::sin(t) : speed * t - std::cos(t);
+    table.values.row(i) << t, unit * q, 0.3 + 0.2 * std::cos(t) + noise(random);
+  }
+  return check::check(check::make_log("shaft.csv", table, {}));
+}
+
+// The size of an angle that only grows tells no unit: no cable goes round with a motor.
+TEST(CleanLogs, AShaftThatTurnsAndTurnsIsNotInDegrees) {
+  for (const double speed : {30.0, 200.0}) {
+    const check::Report report = shaft(speed, false, 1.0);
+    EXPECT_EQ(report.stopping({}), nullptr) << check::to_text(report);
+  }
+  const check::Report degrees = shaft(0.0, true, 57.3);
+  ASSERT_FALSE(degrees.faults.empty());
+  EXPECT_EQ(degrees.faults[0].id, "angle_unit") << check::to_text(degrees);
+  EXPECT_GE(degrees.faults[0].probability, check::kLikely);
+}
+
 }  // namespace
 }  // namespace dcnn

@@ -54,7 +54,9 @@ class ArmPrograms : public ::testing::Test {
  protected:
   void SetUp() override {
     write_file(folder_ / "robot.urdf", kUrdf);
-    write_file(folder_ / "joints.json", two_axes().dump(1));
+    Json joints = two_axes();  // as dcnn-import describes them
+    for (Json& axis : joints["axes"]) axis["base"] = Json::array();
+    write_file(folder_ / "joints.json", joints.dump(1));
     write_csv(folder_ / "motion.csv", motion());
   }
   std::string at(const std::string& name) { return (folder_ / name).string(); }

@@ -99,6 +99,27 @@ TEST_F(Poses, TooFewForANetworkAreLearnedByTheRigidTool) {
   EXPECT_EQ(named.exit_code, 3) << "what is asked for by its name is not left out";
 }
 
+TEST_F(Poses, OfAToolAreDiagnosedWithAndWithoutTimes) {
+  write_file(
+      folder_ / "sim.json",
+      R"({"tool": {"mass_kg": 0.6, "com_m": [0, 0, 0.1], "inertia_kgm2": [0.01, 0.01, 0.01, 0, 0, 0]}})");
+  Table timed = read_csv(folder_ / "tool.csv");
+  timed.columns.insert(timed.columns.begin(), "t");
+  Eigen::MatrixXd rows(timed.values.rows(), timed.values.cols() + 1);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {  // one every ten seconds, and not on a clock
+    rows.row(i) << 10.0 * static_cast<double>(i) + 3.0 * std::sin(static_cast<double>(i)),
+        timed.values.row(i);
+  }
+  timed.values = rows;
+  write_csv(folder_ / "timed.csv", timed);
+  for (const char* log : {"tool.csv", "timed.csv"}) {
+    const auto diagnosed = run("diagnose", {"-q", "--sim", at("sim.json"), "--fit", at(log),
+                                            "--out", at("report"), "--force"});
+    EXPECT_EQ(diagnosed.exit_code, 0) << log << ": " << diagnosed.err;
+    EXPECT_TRUE(contains(diagnosed.out, "mass")) << diagnosed.out;
+  }
+}
+
 TEST_F(Poses, OfJointsAreNotSaidToNeedNoTimeWhereTheyDo) {
   const auto diagnosed = run("diagnose", {"-q", "--system", at("arm.json"), "--fit", at("arm.csv"),
                                           "--out", at("report")});

@@ -210,6 +210,16 @@ TEST(JointChain, OfAUrdfLumpsWhatIsFixed) {
   EXPECT_NEAR(body[4], 0.02 + 2.0 * 0.01 + 0.25, 1e-12);  // turned by 90 degrees about z
   EXPECT_FALSE(chain.joints[1].body.has_value());
   EXPECT_THROW(read_urdf_chain(file, "nowhere"), Error);
+  // What no axis is called by is held at zero, and carried.
+  const JointChain first = read_urdf_chain(file, "tool0", {"a"});
+  ASSERT_EQ(first.joints.size(), 1U);
+  EXPECT_NEAR(first.flange_p.z(), 0.5, 1e-15);
+  const JointChain second = read_urdf_chain(file, "", {"b"});
+  ASSERT_EQ(second.joints.size(), 1U);
+  EXPECT_TRUE(second.joints[0].slides);
+  EXPECT_EQ(read_urdf_chain(file, "tool0", {"joint1", "joint2"}).joints.size(), 2U);
+  EXPECT_THROW(read_urdf_chain(file, "tool0", {"b", "a"}), Error);
+  EXPECT_THROW(read_urdf_chain(file, "tool0", {"a", "c"}), Error);
   EXPECT_THROW(read_urdf_chain(testing::temporary_file("bad.urdf", "<robot"), ""), Error);
 }
 

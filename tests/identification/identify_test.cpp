@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "dcnn/core/random.h"
+#include "dcnn/data/rotation.h"
 #include "dcnn/physics/simulator.h"
 #include "identification/support.h"
 
@@ -127,6 +129,25 @@ TEST(Identify, PosesAtRestWithIrregularTimesAreNoMotion) {
   EXPECT_EQ(id.model.com, Eigen::Vector3d::Zero());
 }
 
+// Seven poses of another day: their offset is theirs, and no noise.
+TEST(Identify, AFewPosesWithAnotherOffsetHaveOneOfTheirOwn) {
+  const test::TemporaryFolder folder;
+  const Table table = poses_with_times();
+  Table few = table;
+  few.values = table.values.topRows(7);
+  const auto at = std::find(few.columns.begin(), few.columns.end(), "fx") - few.columns.begin();
+  few.values.middleCols(at, 3).rowwise() += Eigen::RowVector3d(1.3, 1.9, 3.6);
+  write_csv(folder / "poses.csv", table);
+  write_csv(folder / "few.csv", few);
+  IdentifyRequest request;
+  request.logs = {folder / "poses.csv", folder / "few.csv"};
+  const ToolIdentification id = identify_tool(request);
+  ASSERT_FALSE(id.beside.empty()) << to_text(id);
+  EXPECT_EQ(id.beside.front().effect, "bias");
+  EXPECT_EQ(id.beside.front().axis, "few.csv");
+  EXPECT_NEAR(id.beside.front().parameters[2].value, 3.6, 0.05);
+}
+
 TEST(Identify, ABodyThatNoMotionShowsCanStillExist) {
   Setting setting;
   setting.path = identification_tests::trajectory(0.1);  // hardly any acceleration
@@ -138,6 +159,45 @@ TEST(Identify, ABodyThatNoMotionShowsCanStillExist) {
   EXPECT_GT(number(id, "inertia_zz_kgm2").low, 0.0);
   ASSERT_TRUE(id.model.inertia.has_value());
   EXPECT_GT(id.model.inertia->determinant(), 0.0);
+}
+
+// Turned by hand from pose to pose at 10 Hz, the force a mean over the last second: what the tool's
+// model leaves is made by the turns and is no noise.
+TEST(Identify, ASensorThatFiltersLeavesTheMassRight) {
+  constexpr Index kRows = 1800, kHeld = 60, kMean = 10;
+  Rng rng({4});
+  Table table{{"t", "x", "y", "z", "alpha", "beta", "gamma", "fx", "fy", "fz"},
+              Eigen::MatrixXd(kRows, 10)};
+  Eigen::MatrixXd force(kRows, 3);
+  Eigen::Vector3d from(0.1, 0.7, 2.9), to = from;
+  for (Index i = 0; i < kRows; ++i) {
+    if (i % kHeld == 0) {
+      from = to;
+      to = Eigen::Vector3d(0.3 * rng.normal(), 0.6 + 0.2 * rng.normal(), 2.9 + 0.3 * rng.normal());
+    }
+    const double s = std::min(1.0, static_cast<double>(i % kHeld) / 20.0);
+    const Eigen::Vector3d angles = from + s * s * (3.0 - 2.0 * s) * (to - from);
+    force.row(i) =
+        rotation_from_euler(angles).transpose() * Eigen::Vector3d(0.0, 0.0, -1.16 * 9.81);
+    const Index last = std::min(i + 1, kMean);
+    const Eigen::RowVector3d mean = force.middleRows(i + 1 - last, last).colwise().mean();
+    const Eigen::RowVector3d noise(rng.normal(), rng.normal(), rng.normal());
+    table.values.row(i) << 0.1 * static_cast<double>(i), 0.3, 0.1, 0.4, angles.transpose(),
+        mean + Eigen::RowVector3d(-3.0, -4.8, -16.9) + 0.005 * noise;
+  }
+  const test::TemporaryFolder folder;
+  write_csv(folder / "log.csv", table);
+  IdentifyRequest request;
+  request.logs = {folder / "log.csv"};
+  for (const bool laws : {false, true}) {
+    request.laws = laws;
+    const ToolIdentification id = identify_tool(request);
+    EXPECT_NEAR(number(id, "mass_kg").value, 1.16, 0.023) << to_text(id);
+    if (!laws) continue;
+    ASSERT_EQ(id.beside.size(), 1U) << to_text(id);
+    EXPECT_EQ(id.beside.front().effect, "time_delay") << to_text(id);
+    EXPECT_NEAR(id.beside.front().parameters.front().value, 0.45, 0.1);
+  }
 }
 
 TEST(Identify, TheReactionIsOneLineWithItsRemedy) {

@@ -157,7 +157,9 @@ ImportWishes ImportFlags::wishes() const {
   wishes.wrench = {wrench_frame_, vector_of(turn_), vector_of(origin_), zeroed_,
                    payload_of(payload_)};
   wishes.arm = {urdf_, base_link_, link_};
-  require(urdf_.empty() == link_.empty(), Exit::kUsage, "--urdf and --link belong together");
+  require(urdf_.empty() == link_.empty(), Exit::kUsage,
+          "--urdf makes the pose of --link from joint angles: say both; an arm's own torques need "
+          "neither here: give the URDF to dcnn-diagnose and dcnn-identify");
   return wishes;
 }
 

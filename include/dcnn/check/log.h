@@ -15,7 +15,8 @@ namespace dcnn::check {
 /// Columns of one joint or machine axis; empty names mean "not there".
 struct Joint {
   std::string name, position, velocity, measured;
-  bool turns = true;  ///< position in rad, else in m
+  bool turns = true;    ///< position in rad, else in m
+  double sense = 1.0;  ///< sign of the declared scale of the measured column
 };
 
 /// What the user declares about the log.

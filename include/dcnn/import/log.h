@@ -28,11 +28,12 @@ struct LogChannel {
 
 /// Channels that are sampled together: a text file, a topic, arrays of one length.
 struct LogStream {
-  std::string name;   ///< the topic or variable; the file's stem for a text
-  std::string type;   ///< "geometry_msgs/WrenchStamped", "text", "array"
-  std::string frame;  ///< header.frame_id
-  std::string child;  ///< child_frame_id
-  bool si = false;    ///< the type's definition says SI units (ROS, REP 103)
+  std::string name;    ///< the topic or variable; the file's stem for a text
+  std::string type;    ///< "geometry_msgs/WrenchStamped", "text", "array"
+  std::string frame;   ///< header.frame_id
+  std::string child;   ///< child_frame_id
+  std::string source;  ///< the file's stem, of texts and arrays
+  bool si = false;     ///< the type's definition says SI units (ROS, REP 103)
   std::vector<LogChannel> channels;
   std::vector<double> stamped;   ///< s, the sender's stamp in the message
   std::vector<double> received;  ///< s, when the recorder wrote it

@@ -20,7 +20,7 @@ Power power_of(const Log& log, const Joint& joint, const Sampled& rows, double d
   const Eigen::VectorXd q = log.column(joint.position);
   const Eigen::VectorXd place = rows.smoothed(q, rows.value), v = rows.smoothed(q, rows.first) / dt,
                         a = rows.smoothed(q, rows.second) / (dt * dt),
-                        y = rows.smoothed(log.column(joint.measured), rows.value);
+                        y = joint.sense * rows.smoothed(log.column(joint.measured), rows.value);
   const Index n = v.size();
   const double slow = 0.05 * std::sqrt(v.squaredNorm() / static_cast<double>(n)) + 1e-12;
   Eigen::MatrixXd A(n, 6);
@@ -74,7 +74,8 @@ std::vector<Fault> find_power_sign(const Evidence& e) {
 }  // namespace
 
 const FaultKind power_sign_fault{"power_sign", true,
-                                 "turn the sign of the column, or of the joint's position", "",
-                                 find_power_sign};
+                                 "turn the sign of the column, of its scale in the system's "
+                                 "description, or of the joint's position",
+                                 "", find_power_sign};
 
 }  // namespace dcnn::check

@@ -7,15 +7,25 @@
 namespace dcnn::check {
 namespace {
 
-constexpr double kEdge = 0.15;     // of the range: a register wraps from one end to the other
-constexpr double kOrdinary = 0.2;  // of the range: other steps are smaller
-constexpr double kTravels = 0.02;  // of the range beyond an end, once unwrapped
+constexpr double kEdge = 0.15;       // of the range: a register wraps from one end to the other
+constexpr double kOrdinary = 0.2;    // of the range: other steps are smaller
+constexpr double kTravels = 0.02;    // of the range beyond an end, once unwrapped
+constexpr double kTurnError = 1e-3;  // of a full turn: what a row's motion changes by
 
 struct Wrap {
   double range = 0.0;
   int jumps = 0;
   Eigen::Index first = 0;
+  bool turns = true;  ///< each jump is a full turn beside the steps before and after it
 };
+
+/// Whether step `i` is a full turn, in rad or degrees, but for what the angle moves in that row.
+bool is_full_turn(const Eigen::VectorXd& steps, Eigen::Index i) {
+  if (i == 0 || i + 1 == steps.size()) return false;
+  const double own = std::abs(steps[i] - 0.5 * (steps[i - 1] + steps[i + 1]));
+  const auto is = [&](double turn) { return std::abs(own - turn) < kTurnError * turn; };
+  return is(2.0 * std::numbers::pi) || is(360.0);
+}
 
 /// Nothing unless every large step leads from one end of the range to the other, and what follows
 /// goes on there.
@@ -33,6 +43,7 @@ Wrap wrap_of(const Eigen::VectorXd& x) {
       if (from > kEdge * range || to > kEdge * range) return {};
       if (wrap.jumps++ == 0) wrap.first = i;
       turns += step > 0 ? -1.0 : 1.0;
+      wrap.turns = wrap.turns && is_full_turn(steps, i);
       size = std::max(size, std::abs(step));
     }
     unwrapped = x[i + 1] - low + turns * range;
@@ -43,7 +54,7 @@ Wrap wrap_of(const Eigen::VectorXd& x) {
   return wrap;
 }
 
-/// The power of two (of counts) or the full turn that the range is just below.
+/// The power of two (of counts) that the range is just below.
 bool is_register(double range) {
   for (int bits = 8; bits <= 32; ++bits) {
     const double full = std::ldexp(1.0, bits);
@@ -57,14 +68,17 @@ void find_wrap_in(const Log& log, const std::string& name, std::vector<Fault>& o
   const Wrap wrap = wrap_of(x);
   if (wrap.jumps == 0) return;
   // Each end is met within kEdge of the range by chance in the square of that; a range that is a
-  // power of two by chance in 3 % of a factor of two.
-  const double once = kEdge * kEdge * (is_register(wrap.range) ? 0.04 : 1.0);
+  // power of two by chance in 3 % of a factor of two, a jump a full turn in kTurnError on either
+  // side of it.
+  const double size = wrap.turns ? 2.0 * kTurnError : is_register(wrap.range) ? 0.04 : 1.0;
+  const double once = kEdge * kEdge * size;
   double p = 1.0;
   for (int k = 0; k < std::min(wrap.jumps, 20); ++k) p *= once;
-  Fault fault = fault_of(wrap_fault, posterior_of_p(p), name,
-                         name + " jumps " + std::to_string(wrap.jumps) +
-                             " times from one end of its range of " + brief(wrap.range) +
-                             " to the other: a register that wraps");
+  Fault fault = fault_of(
+      wrap_fault, posterior_of_p(p), name,
+      name + " jumps " + std::to_string(wrap.jumps) + " times from one end of its range of " +
+          brief(wrap.range) + " to the other: " +
+          (wrap.turns ? "an angle that begins anew after each turn" : "a register that wraps"));
   set_interval(log, wrap.first, wrap.first + 2, fault);
   out.push_back(fault);
 }
@@ -82,8 +96,9 @@ std::vector<Fault> find_wrap(const Evidence& e) {
 
 }  // namespace
 
-const FaultKind wrap_fault{"wrap", true,
-                           "unwrap the column (add the range after each jump) and write it again",
-                           "", find_wrap};
+const FaultKind wrap_fault{
+    "wrap", true,
+    "unwrap the column: dcnn-import LOG --wrap COLUMN=RANGE, or add the range after each jump", "",
+    find_wrap};
 
 }  // namespace dcnn::check

@@ -1,0 +1,148 @@
+#include "import/joint_columns.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "data/text.h"
+#include "import/roles.h"
+
+namespace dcnn {
+namespace {
+
+using Names = std::vector<std::string>;
+
+constexpr std::size_t kMostDigits = 6;
+
+bool is_joint(const std::string& to) {
+  return to.starts_with("q:") || to.starts_with("qd:") || to.starts_with("tau:");
+}
+
+/// A name around its last number: "Joint_3" is {"Joint_", 3, ""}.
+struct Counted {
+  std::string before, after;
+  int number = 0;
+};
+
+std::optional<Counted> counted(const std::string& name) {
+  const std::size_t last = name.find_last_of("0123456789");
+  if (last == std::string::npos) return std::nullopt;
+  const std::size_t before = name.find_last_not_of("0123456789", last);
+  const std::size_t first = before == std::string::npos ? 0 : before + 1;
+  if (last + 1 - first > kMostDigits) return std::nullopt;
+  return Counted{name.substr(0, first), name.substr(last + 1),
+                 std::stoi(name.substr(first, last + 1 - first))};
+}
+
+class JointFinder {
+ public:
+  JointFinder(const ForeignLog& log, const std::vector<ColumnRule>& taken, const Names& use,
+              Proposal* proposal)
+      : log_(log), said_(taken), use_(use), proposal_(proposal) {}
+
+  std::vector<ColumnRule> run() {
+    for (const ColumnRule& rule : said_) {
+      if (is_joint(rule.to)) count_on(rule);
+    }
+    by_name();
+    ask();
+    return found_;
+  }
+
+ private:
+  bool has(const std::string& to) const {
+    const auto is = [&](const ColumnRule& rule) { return rule.to == to; };
+    return std::any_of(said_.begin(), said_.end(), is) ||
+           std::any_of(found_.begin(), found_.end(), is);
+  }
+
+  bool is_used(const std::string& stream, const std::string& channel) const {
+    const auto is = [&](const ColumnRule& rule) {
+      return rule.stream == stream && rule.channel == channel;
+    };
+    return std::any_of(said_.begin(), said_.end(), is) ||
+           std::any_of(found_.begin(), found_.end(), is);
+  }
+
+  /// The channels that differ from a said one by their number alone, where that one is the first
+  /// of them and none of the others was said.
+  void count_on(const ColumnRule& said) {
+    const auto column = counted(said.to), channel = counted(said.channel);
+    if (!column || !channel) return;
+    std::map<int, std::string> others;
+    for (const LogStream& stream : log_.streams) {
+      if (stream.name != said.stream) continue;
+      for (const LogChannel& other : stream.channels) {
+        const auto name = counted(other.name);
+        if (!name || name->before != channel->before || name->after != channel->after) continue;
+        if (name->number < channel->number) return;
+        if (name->number == channel->number) continue;
+        if (is_used(stream.name, other.name)) return;
+        if (other.finite > 0) others[name->number] = other.name;
+      }
+    }
+    for (const auto& [number, name] : others) {
+      const std::string to = column->before +
+                             std::to_string(column->number + number - channel->number) +
+                             column->after;
+      if (!has(to)) found_.push_back({.to = to, .stream = said.stream, .channel = name});
+    }
+  }
+
+  void by_name() {
+    std::map<std::string, std::string> stream_of;
+    for (const LogStream& stream : log_.streams) {
+      if (!use_.empty() && std::find(use_.begin(), use_.end(), stream.name) == use_.end()) continue;
+      for (const LogChannel& channel : stream.channels) {
+        const std::string role = role_of(stream, channel.name);
+        if (!is_joint(role) || channel.finite == 0) continue;
+        if (is_used(stream.name, channel.name)) continue;
+        const auto other = stream_of.find(role);
+        if (other != stream_of.end() && other->second != stream.name) {
+          twice_ = {other->second, stream.name};
+        }
+        if (has(role)) continue;
+        stream_of[role] = stream.name;
+        found_.push_back({.to = role, .stream = stream.name, .channel = channel.name});
+      }
+    }
+  }
+
+  void ask() {
+    if (!twice_.empty()) {
+      proposal_->questions.push_back("several streams have joints: say --use " + twice_[0] +
+                                     " or " + twice_[1]);
+    }
+    std::set<std::string> angles;
+    bool torques = false;
+    const auto count = [&](const std::vector<ColumnRule>& rules) {
+      for (const ColumnRule& rule : rules) {
+        if (rule.to.starts_with("q:")) angles.insert(rule.to);
+        torques = torques || rule.to.starts_with("tau:");
+      }
+    };
+    count(said_);
+    count(found_);
+    if (angles.empty() || torques) return;
+    const std::string torque = "tau" + angles.begin()->substr(1);
+    proposal_->notes.push_back("joints without torques: say --map " + torque +
+                               "=CHANNEL for torques or currents; those counted on from it follow");
+  }
+
+  const ForeignLog& log_;
+  const std::vector<ColumnRule>& said_;
+  const Names& use_;
+  Proposal* proposal_;
+  std::vector<ColumnRule> found_;
+  Names twice_;  ///< two streams that have one joint
+};
+
+}  // namespace
+
+std::vector<ColumnRule> find_joints(const ForeignLog& log, const std::vector<ColumnRule>& taken,
+                                    const std::vector<std::string>& use, Proposal* proposal) {
+  return JointFinder(log, taken, use, proposal).run();
+}
+
+}  // namespace dcnn

@@ -1,0 +1,21 @@
+// Columns of an arm's joints by their names.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace dcnn {
+
+/// "q:", "qd:" or "tau:" by a file's name, in words: {pos, read, data}; empty where it says
+/// nothing or two things.
+std::string joint_quantity_of_file(const std::vector<std::string>& words);
+
+/// True where a word says that the name is one of a joint: {joint, 3}, {joint3}, {axis, 2, speed}.
+bool names_joint(const std::vector<std::string>& words);
+
+/// "q:NAME", "qd:NAME", "tau:NAME" by words in any order: {pos, panda, joint1}, {actual, q, 0},
+/// {arm, 2, joint, effort}. A name without a quantity has that of its file, `of_file`. Empty where
+/// the words are no joint's.
+std::string joint_role(const std::vector<std::string>& words, const std::string& of_file);
+
+}  // namespace dcnn

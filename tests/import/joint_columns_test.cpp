@@ -1,0 +1,164 @@
+// Arms as others log them: names of joints in words of any order, one file per quantity.
+#include <gtest/gtest.h>
+
+#include "import/log_builder.h"
+#include "import/logs.h"
+#include "import/number_arrays.h"
+#include "import/roles.h"
+#include "import/units.h"
+
+namespace dcnn {
+namespace {
+
+using test::cell;
+using test::data_error;
+using test::has_column;
+using test::import_log;
+using test::import_text;
+using test::spill;
+using test::TemporaryFolder;
+
+LogStream text_stream(const std::string& source) {
+  LogStream stream;
+  stream.name = "file1";
+  stream.type = "text";
+  stream.source = source;
+  return stream;
+}
+
+TEST(JointColumns, AreKnownByWordsInAnyOrder) {
+  const LogStream stream = text_stream("log");
+  const std::pair<const char*, const char*> kNames[] = {
+      {"pos_panda_joint1", "q:panda_joint1"},
+      {"eff_panda_joint7", "tau:panda_joint7"},
+      {"- arm_2_joint_velocity", "qd:arm_2_joint"},
+      {"tau_measured[3]", "tau:3"},
+      {"actual_q_0", "q:0"},
+      {"actual_qd_5", "qd:5"},
+      {"joint_position_0", "q:0"},
+      {"JointTorque4", "tau:4"},
+      {"joint3_vel", "qd:3"},
+      {"Joint_2", "q:2"},
+      {"q1", "q:1"},
+      {"target_q_0", ""},
+      {"qdd[2]", ""},
+      {"tau_friction[0]", ""},
+      {"joint_position_error_2", ""},
+      {"tcp_position_0", "x"},
+      {"position_1", "y"},
+      {"position_axis_x", "x"},
+      {"axis_2_speed", "qd:2"},
+      {"joint_temperature_1", ""}};
+  for (const auto& [name, role] : kNames) EXPECT_EQ(role_of(stream, name), role) << name;
+}
+
+TEST(JointColumns, WithoutAQuantityHaveThatOfTheirFile) {
+  EXPECT_EQ(role_of(text_stream("curr_data"), "Joint_1"), "tau:1");
+  EXPECT_EQ(role_of(text_stream("run_torques"), "joint2"), "tau:2");
+  EXPECT_EQ(role_of(text_stream("pos_read_data"), "Joint_1"), "q:1");
+  EXPECT_EQ(role_of(text_stream("velocity"), "Joint_1"), "qd:1");
+  EXPECT_EQ(role_of(text_stream("torque"), "q1"), "q:1");
+}
+
+TEST(JointColumns, OfOneFilePerQuantityAreOneRecording) {
+  const TemporaryFolder folder;
+  spill(folder / "angles.csv", "t,Joint_1,Joint_2\n0,0.1,0.2\n0.01,0.3,0.4\n0.02,0.5,0.6\n");
+  spill(folder / "torques.csv", "t,Joint_1,Joint_2\n0,1,2\n0.01,3,4\n0.02,5,6\n");
+  const Imported imported = import_log({folder / "angles.csv", folder / "torques.csv"});
+  EXPECT_EQ(cell(imported, "q_2", 1), 0.4);
+  EXPECT_EQ(cell(imported, "tau_2", 1), 4.0);
+}
+
+TEST(JointColumns, OfTwoStreamsThatHaveOneJointAreAskedAbout) {
+  const TemporaryFolder folder;
+  spill(folder / "left.csv", "t,q1\n0,0.1\n0.01,0.3\n0.02,0.5\n");
+  spill(folder / "right.csv", "t,q1\n0,1\n0.01,3\n0.02,5\n");
+  const std::string words = data_error([&] {
+    import_log({folder / "left.csv", folder / "right.csv"});
+  });
+  EXPECT_NE(words.find("--use file1 or file2"), std::string::npos) << words;
+}
+
+TEST(JointColumns, ThatAreCountedOnFromASaidOneFollow) {
+  const std::string text = "t,q1,q2,drive_a,drive_b,amp1,amp2\n0,1,2,9,9,3,4\n0.01,1,2,9,9,5,6\n";
+  ImportWishes wishes;
+  wishes.map = {{"tau:1", "amp1"}};
+  const Imported imported = import_text(text, wishes);
+  EXPECT_EQ(cell(imported, "tau_2", 1), 6.0);
+  // What is said of one in the middle says nothing of the others.
+  wishes.map = {{"tau:2", "amp2"}};
+  EXPECT_FALSE(has_column(import_text(text, wishes), "tau_1"));
+}
+
+TEST(JointColumns, WithoutTorquesSayHowToNameThem) {
+  const TemporaryFolder folder;
+  spill(folder / "log.csv", "t,q1,amp1\n0,1,2\n0.01,1,3\n");
+  const Proposal proposal = propose(read_log({folder / "log.csv"}, {}), {});
+  ASSERT_EQ(proposal.notes.size(), 1U);
+  EXPECT_NE(proposal.notes[0].find("--map tau:1=CHANNEL"), std::string::npos) << proposal.notes[0];
+}
+
+TEST(JointColumns, ArraysOfTwoFilesAreNotStrungTogether) {
+  ForeignLog log;
+  const ReadLogOptions options;
+  LogBuilder builder(log, options);
+  const std::vector<NumberArray> arrays = {
+      {.channels = {"q"}, .columns = {{1.0, 2.0, 3.0}}, .rows = 3}};
+  builder.begin_file("a", 1);
+  add_number_arrays(arrays, "", builder);
+  builder.begin_file("b", 2);
+  add_number_arrays(arrays, "", builder);
+  ASSERT_EQ(log.streams.size(), 2U);
+  EXPECT_EQ(log.streams[0].name, "arrays1");
+  EXPECT_EQ(log.streams[1].name, "file2/arrays1");
+  EXPECT_EQ(log.streams[1].rows, 3);
+}
+
+TEST(JoinedTexts, WithoutHeadersShareTheGivenNames) {
+  const TemporaryFolder folder;
+  spill(folder / "poses.txt", "0.1,0.2,0.3,0,0,0,1\n0.1,0.2,0.4,0,0,0,1\n0.1,0.2,0.5,0,0,0,1\n");
+  spill(folder / "forces.txt", "1,2,3\n4,5,6\n7,8,9\n");
+  ReadLogOptions read;
+  read.text.columns = {"x", "y", "z", "qx", "qy", "qz", "qw", "fx", "fy", "fz"};
+  ImportWishes wishes;
+  wishes.rate_hz = 100.0;
+  const Imported imported = import_log({folder / "poses.txt", folder / "forces.txt"}, wishes, read);
+  EXPECT_EQ(cell(imported, "z", 1), 0.4);
+  EXPECT_EQ(cell(imported, "fz", 1), 6.0);
+  read.text.columns.emplace_back("more");
+  const std::string words = data_error([&] {
+    import_log({folder / "poses.txt", folder / "forces.txt"}, wishes, read);
+  });
+  EXPECT_NE(words.find("11 names are given for the 10 columns"), std::string::npos) << words;
+}
+
+TEST(JoinedTexts, OfPosesWithoutAClockAreJoinedRowByRow) {
+  const TemporaryFolder folder;
+  spill(folder / "poses.txt", "qw,qx,qy,qz\n1,0,0,0\n0,1,0,0\n0,0,1,0\n");
+  spill(folder / "forces.txt", "fx,fy,fz\n1,2,3\n4,5,6\n7,8,9\n");
+  const Imported imported = import_log({folder / "poses.txt", folder / "forces.txt"});
+  EXPECT_EQ(cell(imported, "qx", 1), 1.0);
+  EXPECT_EQ(cell(imported, "fz", 1), 6.0);
+  spill(folder / "forces.txt", "fx,fy,fz\n1,2,3\n4,5,6\n");
+  const std::string words = data_error([&] {
+    import_log({folder / "poses.txt", folder / "forces.txt"});
+  });
+  EXPECT_NE(words.find("3 rows"), std::string::npos) << words;
+}
+
+TEST(Clocks, OfALetterAndAWordIncrease) {
+  ImportWishes wishes;
+  wishes.also = {"F"};
+  EXPECT_EQ(cell(import_text("t_ADC,F\n5,1\n5.1,2\n5.2,3\n", wishes), "t", 2), 5.2);
+  EXPECT_FALSE(has_column(import_text("t_ambient,F\n20,1\n21,2\n20,3\n", wishes), "t"));
+}
+
+TEST(Units, OfMachinesInAnyCase) {
+  ASSERT_TRUE(find_unit("RPM").has_value());
+  EXPECT_EQ(find_unit("RPM")->quantity, std::string("rate"));
+  ASSERT_TRUE(find_unit("bar").has_value());
+  EXPECT_EQ(find_unit("bar")->factor, 1e5);
+}
+
+}  // namespace
+}  // namespace dcnn
