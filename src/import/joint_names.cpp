@@ -8,7 +8,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-bool is_one_of(const std::string& word, std::initializer_list<const char*> list) {
+bool stands_in(const std::string& word, std::initializer_list<const char*> list) {
   return std::any_of(list.begin(), list.end(), [&](const char* other) { return word == other; });
 }
 
@@ -23,21 +23,21 @@ std::string stem_of(const std::string& word) {
 }
 
 std::string quantity_of(const std::string& stem) {
-  if (is_one_of(stem, {"q", "pos", "position", "positions", "angle", "angles", "theta"}))
+  if (stands_in(stem, {"q", "pos", "position", "positions", "angle", "angles", "theta"}))
     return "q:";
-  if (is_one_of(stem, {"qd", "dq", "qdot", "vel", "velocity", "velocities", "speed", "speeds"}))
+  if (stands_in(stem, {"qd", "dq", "qdot", "vel", "velocity", "velocities", "speed", "speeds"}))
     return "qd:";
-  if (is_one_of(stem, {"tau", "torque", "torques", "effort", "efforts", "eff"})) return "tau:";
+  if (stands_in(stem, {"tau", "torque", "torques", "effort", "efforts", "eff"})) return "tau:";
   return "";
 }
 
 bool is_joint_word(const std::string& stem) {
-  return is_one_of(stem, {"joint", "joints", "jnt", "j", "axis"});
+  return stands_in(stem, {"joint", "joints", "jnt", "j", "axis"});
 }
 
 /// Quantities that no column of a joint is, and what is no joint.
 bool is_foreign(const std::string& stem) {
-  return is_one_of(
+  return stands_in(
       stem, {"qdd",      "ddq", "acc",      "acceleration", "error",  "err",     "offset",
              "limit",    "min", "max",      "twist",        "linear", "angular", "wrench",
              "force",    "ee",  "tcp",      "tool",         "base",   "imu",     "wheel",
@@ -45,7 +45,7 @@ bool is_foreign(const std::string& stem) {
 }
 
 bool says_nothing(const std::string& word) {
-  return is_one_of(word, {"actual", "measured", "meas", "msr", "state", "states", "current"});
+  return stands_in(word, {"actual", "measured", "meas", "msr", "state", "states", "current"});
 }
 
 /// "joint_3" and "joint3" are joint 3; "panda_joint3" is a name of its own.
@@ -63,7 +63,7 @@ std::string joint_quantity_of_file(const Words& words) {
   std::string found;
   for (const std::string& word : words) {
     std::string kind = quantity_of(stem_of(word));
-    if (is_one_of(word, {"tor", "torq", "curr", "current", "currents"})) kind = "tau:";
+    if (stands_in(word, {"tor", "torq", "curr", "current", "currents"})) kind = "tau:";
     if (kind.empty() || kind == found) continue;
     if (!found.empty()) return "";
     found = kind;
@@ -74,7 +74,7 @@ std::string joint_quantity_of_file(const Words& words) {
 bool names_joint(const Words& words) {
   for (std::size_t k = 0; k < words.size(); ++k) {
     const std::string stem = stem_of(words[k]);
-    if (is_one_of(stem, {"joint", "joints", "jnt"})) return true;
+    if (stands_in(stem, {"joint", "joints", "jnt"})) return true;
     // An axis and a j alone may be anything's: "axis x".
     const bool numbered =
         stem.size() < words[k].size() || (k + 1 < words.size() && is_number(words[k + 1]));
