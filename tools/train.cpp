@@ -163,9 +163,10 @@ int main(int argc, char** argv) {
       .unless(resume);
   tool.check([&] {
     expect_apart(request.training, request.validation);
-    const bool stream = request.out == "-" || (std::filesystem::exists(request.out) &&
-                                               !std::filesystem::is_regular_file(request.out) &&
-                                               !std::filesystem::is_directory(request.out));
+    const bool stream =
+        is_standard_output(request.out) ||
+        (std::filesystem::exists(request.out) && !std::filesystem::is_regular_file(request.out) &&
+         !std::filesystem::is_directory(request.out));
     require(!stream, Exit::kUsage, request.out.string(),
             " is no file, and the training's folder stands beside its model; name a file");
   });

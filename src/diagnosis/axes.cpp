@@ -149,6 +149,9 @@ void translate(Diagnosis& diagnosis, const AxisPlan& plan) {
   for (const char* key : {"refuted", "not_detected", "not_testable"}) {
     for (Json& entry : diagnosis.report[key]) entry["axis"] = axis.name;
   }
+  if (axis.has_base && axis.base.empty()) {  // nothing was said to be known of it
+    for (Json& share : diagnosis.report["fit"]["holdout_explained_before"]) share = nullptr;
+  }
   for (HeldOut& record : diagnosis.holdout) {
     for (auto* signal : {&record.measured, &record.before, &record.after}) *signal *= -plan.sense;
   }

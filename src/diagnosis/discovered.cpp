@@ -87,13 +87,27 @@ Json law_finding(Discovered found, const AxisPlan* plan) {
   return entry;
 }
 
+/// The laws of a residual. Where a number costs more, for laws err by more than the noise (a
+/// machine), so does all that a law must gain, and a form that is not established may be that
+/// error.
+std::vector<Discovered> worthy_laws(const Setting& setting, const JointFit& fit) {
+  auto laws = laws_in(setting, fit);
+  const double dearer = setting.price / kNumberPrice;
+  std::erase_if(laws, [&](const Discovered& law) {
+    const double paid = law.gain - law.score;
+    return law.gain < dearer * (discovery::prior::kAccepted + paid) ||
+           (dearer > 1.0 && !law.established);
+  });
+  return laws;
+}
+
 /// Laws and the members that they are, where the chain bears out what each promised; else none.
 struct Laws {
   std::vector<Discovered> found;
   std::vector<Member> members;
 };
 Laws borne_out(const Setting& setting, const JointFit& names) {
-  Laws laws{laws_in(setting, names), {}};
+  Laws laws{worthy_laws(setting, names), {}};
   double promised = 0.0;
   std::vector<Member> all = names.members;
   for (const Discovered& found : laws.found) {
@@ -118,10 +132,7 @@ void name_beside(Search& search, Laws& laws) {
   }
 }
 
-/// Of a law, those that have a deviation.
-int fitted_numbers(const Discovered& law) {
-  return static_cast<int>((law.deviation.array() > 0.0).count());
-}
+int fitted_numbers(const Discovered& law) { return (law.deviation.array() > 0.0).count(); }
 
 /// Numbers that were fitted, of laws and of names.
 int numbers_of(const Laws& laws, const std::vector<Member>& members) {
@@ -208,7 +219,7 @@ Laws in_place_of_names(Search& search, const HoldOut& holdout) {
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(*m));
     }
     if (numbers <= kFewestNumbers) continue;
-    Laws laws{laws_in(setting, joint_fit(setting, rest)), {}};
+    Laws laws{worthy_laws(setting, joint_fit(setting, rest)), {}};
     if (laws.found.size() != 1 || !laws.found.front().established) continue;
     laws.members.push_back(member_of(laws.found.front().law, law_json(laws.found.front())));
     std::vector<Member> other = rest;

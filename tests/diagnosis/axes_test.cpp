@@ -137,6 +137,8 @@ TEST(DiagnoseAxes, ASpringBesideAConstantHasNoRest) {
   ASSERT_NE(spring, nullptr) << report["findings"].dump(1);
   EXPECT_NEAR(std::abs(number(*spring, "k", "N*m/rad")), 1.5, 0.01);
   EXPECT_EQ((*spring)["parameters"]["rest"]["value"], 0.0);
+  // An empty base says that nothing is known: no share of it is held against a simulator.
+  EXPECT_TRUE(report["fit"]["holdout_explained_before"][0].is_null()) << report["fit"].dump(1);
 }
 
 // Another recording may be noisier: its error is compared with its own noise.

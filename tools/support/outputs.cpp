@@ -77,11 +77,14 @@ void Outputs::claim(bool force) {
   }
 }
 
-bool Outputs::take_standard_output() const {
+bool is_standard_output(const std::filesystem::path& path) {
   constexpr std::array kNames{"-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"};
+  return std::find(kNames.begin(), kNames.end(), path) != kNames.end();
+}
+
+bool Outputs::take_standard_output() const {
   return std::any_of(rules_.begin(), rules_.end(), [&](const auto& rule) {
-    return !rule->is_folder() &&
-           std::find(kNames.begin(), kNames.end(), rule->path()) != kNames.end();
+    return !rule->is_folder() && is_standard_output(rule->path());
   });
 }
 

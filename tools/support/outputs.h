@@ -12,6 +12,9 @@
 
 namespace dcnn {
 
+/// Whether a path is standard output, which may be a file.
+bool is_standard_output(const std::filesystem::path& path);
+
 /// An option that names a file, or a folder of files, that the command writes.
 class Output {
  public:

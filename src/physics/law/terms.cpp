@@ -11,7 +11,6 @@ struct AxisTerm {
 constexpr AxisTerm kAxisTerms[] = {
     {"alpha", "q", "P", "the position"},
     {"v_base_x", "dq", "P/s", "the velocity"},
-    {"a_base_x", "ddq", "P/s^2", "the acceleration"},
     {"speed", "speed", "P/s", "the speed"},
     {"load", "load", "U", "the size of the predicted effort"},
     {"t", "t", "s", "the time"},
