@@ -87,6 +87,8 @@ Json law_finding(Discovered found, const AxisPlan* plan) {
   return entry;
 }
 
+int fitted_numbers(const Discovered& law) { return (law.deviation.array() > 0.0).count(); }
+
 /// The laws of a residual. Where a number costs more, for laws err by more than the noise (a
 /// machine), so does all that a law must gain, and a form that is not established may be that
 /// error.
@@ -94,7 +96,7 @@ std::vector<Discovered> worthy_laws(const Setting& setting, const JointFit& fit)
   auto laws = laws_in(setting, fit);
   const double dearer = setting.price / kNumberPrice;
   std::erase_if(laws, [&](const Discovered& law) {
-    const double paid = law.gain - law.score;
+    const double paid = discovery::prior::kNumber * fitted_numbers(law);
     return law.gain < dearer * (discovery::prior::kAccepted + paid) ||
            (dearer > 1.0 && !law.established);
   });
@@ -131,8 +133,6 @@ void name_beside(Search& search, Laws& laws) {
     laws = std::move(again);
   }
 }
-
-int fitted_numbers(const Discovered& law) { return (law.deviation.array() > 0.0).count(); }
 
 /// Numbers that were fitted, of laws and of names.
 int numbers_of(const Laws& laws, const std::vector<Member>& members) {
