@@ -147,11 +147,11 @@ int numbers_of(const Laws& laws, const std::vector<Member>& members) {
 /// Leaves out names without which laws, looked for again, explain as much for their numbers: what
 /// had no name may have been taken for one in part.
 void leave_needless_names(Search& search, Laws& laws) {
-  const Setting& setting = search.setting();
   for (std::size_t m = search.names().size(); m-- > 0;) {
     std::vector<Member> rest = search.names();
     if (rest[m].fixed) continue;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(m));
+    const Setting& setting = search.setting();  // another one after each change
     const Laws again = borne_out(setting, joint_fit(setting, rest));
     if (again.found.empty() || again.found.size() > laws.found.size()) continue;
     rest.insert(rest.end(), again.members.begin(), again.members.end());

@@ -298,6 +298,17 @@ TEST(DiagnoseAxes, OneLawStandsInThePlaceOfTwoNames) {
   EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 1.05 * kAxisNoise);
 }
 
+// A force that grows with the square of the speed and has one sign begins as friction that differs
+// between the directions; beside the law nothing is left of that.
+TEST(DiagnoseAxes, ANameThatALawMakesNeedlessGoes) {
+  const Json report =
+      AxisBench([](const State& s) { return 4.0 * s.v * s.v; }).diagnose(one_axis()).report;
+  ASSERT_EQ(report["findings"].size(), 1U) << report["findings"].dump(1);
+  EXPECT_EQ(report["findings"][0]["effect"], "discovered");
+  EXPECT_NEAR(number(report["findings"][0], "power_1", ""), 2.0, 0.02);
+  EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 1.05 * kAxisNoise);
+}
+
 // A log of torques that come 0.3 s before the motion has no lead of 0.2 s, where its range ends.
 TEST(DiagnoseAxes, NoLeadEndsWhereItsRangeDoes) {
   const Json report =
