@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/elementary.h"
-#include "diagnosis/median.h"
+#include "data/median.h"
 
 namespace dcnn {
 namespace {

@@ -12,12 +12,6 @@ constexpr int kPointsAcross = 5;      // of the grid of points, each way
 constexpr double kReach = 1.5;        // of it, in half ranges of the positions
 constexpr double kLeastRange = 1e-3;  // m
 
-std::size_t direction_named(const std::string& name) {
-  std::size_t d = 0;
-  while (law::directions()[d].name != name) ++d;
-  return d;
-}
-
 bool in_base(std::size_t direction) {
   return std::string(law::directions()[direction].name).starts_with("base_");
 }

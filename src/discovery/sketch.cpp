@@ -14,7 +14,7 @@ std::size_t place_named(const List& list, const char* name) {
   for (std::size_t k = 0; k < list.size(); ++k) {
     if (std::string(name) == list[k].name) return k;
   }
-  assert(false && "a shape or coordinate of this name");
+  assert(false && "a shape, coordinate or direction of this name");
   return 0;
 }
 
@@ -55,6 +55,7 @@ void each_number(AnySketch& sketch, const Visit& visit) {
 
 std::size_t shape_named(const char* name) { return place_named(law::shapes(), name); }
 std::size_t coordinate_named(const char* name) { return place_named(law::coordinates(), name); }
+std::size_t direction_named(const char* name) { return place_named(law::directions(), name); }
 
 int own_numbers(const Sketch& sketch) { return law::own_numbers(direction_of(sketch)); }
 

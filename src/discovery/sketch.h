@@ -33,9 +33,10 @@ Sketch with_axis(Sketch sketch, const law::Vector3d& e);
 law::Law law_of(const Sketch& sketch);
 Sketch sketch_of(const law::Law& law);
 
-/// Place of a shape or coordinate by its name.
+/// Place of a shape, coordinate or direction by its name.
 std::size_t shape_named(const char* name);
 std::size_t coordinate_named(const char* name);
+std::size_t direction_named(const char* name);
 
 /// The same law with the numbers at which its amplitude is told rounded to one digit.
 Sketch with_round_references(Sketch sketch);
