@@ -129,6 +129,15 @@ class Transform {
   Index step_;
 };
 
+Index largest_factor(Index n) {
+  Index largest = 1;
+  for (Index p = 2; n > 1; ++p) {
+    if (p * p > n) p = n;
+    for (; n % p == 0; n /= p) largest = p;
+  }
+  return largest;
+}
+
 }  // namespace
 
 Index fast_length(Index n) {
@@ -141,7 +150,49 @@ Index fast_length(Index n) {
   }
 }
 
-Fourier::Fourier(Index n) : n_(n), roots_(roots_of_unity(n)) {}
+/// The transform of one length N by a convolution (Bluestein 1970), since j k = (j^2 + k^2 - (k -
+/// j)^2)/2: X_k = c_k sum_j (x_j c_j) conj(c_(k-j)) with c_j = exp(-pi i j^2/N).
+class Fourier::Chirp {
+ public:
+  explicit Chirp(Index n) : n_(n), m_(fast_length(2 * n - 1)), roots_(roots_of_unity(m_)) {
+    const Signal half = roots_of_unity(2 * n);
+    for (Index j = 0; j < n; ++j) chirp_.push_back(at(half, j * j % (2 * n)));
+    Signal kernel(static_cast<std::size_t>(m_));
+    for (Index j = 0; j < n; ++j)
+      at(kernel, j) = at(kernel, (m_ - j) % m_) = std::conj(at(chirp_, j));
+    kernel_ = Transform(m_, roots_, 1)(kernel);
+  }
+  Signal operator()(const Signal& x) const {
+    Signal padded(static_cast<std::size_t>(m_));
+    for (Index j = 0; j < n_; ++j) at(padded, j) = product(at(x, j), at(chirp_, j));
+    Signal spectrum = Transform(m_, roots_, 1)(padded);
+    // The inverse by the transform of the conjugate.
+    for (Index k = 0; k < m_; ++k) {
+      at(spectrum, k) = std::conj(product(at(spectrum, k), at(kernel_, k)));
+    }
+    const Signal sum = Transform(m_, roots_, 1)(spectrum);
+    Signal X(static_cast<std::size_t>(n_));
+    for (Index k = 0; k < n_; ++k) {
+      at(X, k) = product(std::conj(at(sum, k)), at(chirp_, k)) / static_cast<double>(m_);
+    }
+    return X;
+  }
+
+ private:
+  Index n_, m_;
+  Signal roots_, chirp_, kernel_;
+};
+
+Fourier::Fourier(Index n) : n_(n), roots_(roots_of_unity(n)) {
+  constexpr Index kMostFactor = 61;  // about as quick as a convolution
+  const Index length = n % 2 ? n : n / 2;
+  if (largest_factor(length) > kMostFactor) chirp_ = std::make_shared<const Chirp>(length);
+}
+
+std::vector<std::complex<double>> Fourier::transformed(const Signal& x) const {
+  if (chirp_) return (*chirp_)(x);
+  return Transform(static_cast<Index>(x.size()), roots_, n_ % 2 ? 1 : 2)(x);
+}
 
 // A real signal of even length n = 2h is transformed as the complex signal z_j = x_2j + i x_2j+1 of
 // length h, since X_k = E_k + w^k O_k with w = exp(-2 pi i/n) and Z_k = E_k + i O_k, E and O being
@@ -149,13 +200,13 @@ Fourier::Fourier(Index n) : n_(n), roots_(roots_of_unity(n)) {}
 
 Eigen::VectorXcd Fourier::operator()(const Eigen::VectorXd& x) const {
   if (n_ % 2 || n_ == 0) {
-    const Signal whole = Transform(n_, roots_, 1)(Signal(x.data(), x.data() + n_));
+    const Signal whole = transformed(Signal(x.data(), x.data() + n_));
     return Eigen::Map<const Eigen::VectorXcd>(whole.data(), std::min(n_, n_ / 2 + 1));
   }
   const Index h = n_ / 2;
   Signal z(static_cast<std::size_t>(h));
   for (Index j = 0; j < h; ++j) at(z, j) = {x(2 * j), x(2 * j + 1)};
-  const Signal Z = Transform(h, roots_, 2)(z);
+  const Signal Z = transformed(z);
   Eigen::VectorXcd X(h + 1);
   for (Index k = 0; k <= h; ++k) {
     const Complex a = at(Z, k % h), b = std::conj(at(Z, (h - k) % h));
@@ -172,7 +223,7 @@ Eigen::VectorXd Fourier::inverse(const Eigen::VectorXcd& X) const {
       at(whole, k) = std::conj(X(k));
       at(whole, n_ - k) = X(k);
     }
-    const Signal x = Transform(n_, roots_, 1)(whole);
+    const Signal x = transformed(whole);
     return Eigen::Map<const Eigen::VectorXcd>(x.data(), n_).real() / static_cast<double>(n_);
   }
   const Index h = n_ / 2;
@@ -182,7 +233,7 @@ Eigen::VectorXd Fourier::inverse(const Eigen::VectorXcd& X) const {
     const Complex odd = product(std::conj(at(roots_, k)), a - b);
     at(Z, k) = std::conj(a + b + product({0.0, 1.0}, odd));
   }
-  const Signal z = Transform(h, roots_, 2)(Z);
+  const Signal z = transformed(Z);
   Eigen::VectorXd x(n_);
   for (Index j = 0; j < h; ++j) {
     x(2 * j) = at(z, j).real() / static_cast<double>(n_);

@@ -42,7 +42,7 @@ TEST_P(FourierOfLength, IsUndoneByItsInverse) {
 // Every radix, products of them, primes and powers of a prime that has no step of its own.
 INSTANTIATE_TEST_SUITE_P(Lengths, FourierOfLength,
                          testing::Values(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 13, 14, 15, 16, 22, 25,
-                                         49, 60, 97, 98, 360, 1000));
+                                         49, 60, 67, 97, 98, 134, 360, 1000, 4003, 8006));
 
 }  // namespace
 }  // namespace dcnn

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <complex>
+#include <memory>
 #include <vector>
 
 #include "dcnn/core/parallel.h"
@@ -23,8 +24,12 @@ class Fourier {
   Eigen::VectorXd inverse(const Eigen::VectorXcd& X) const;
 
  private:
+  class Chirp;
+  std::vector<std::complex<double>> transformed(const std::vector<std::complex<double>>& x) const;
+
   Index n_;
   std::vector<std::complex<double>> roots_;  // exp(-2 pi i k/n)
+  std::shared_ptr<const Chirp> chirp_;       // where the length has a large prime factor
 };
 
 /// The same for one signal.
