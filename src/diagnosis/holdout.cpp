@@ -183,7 +183,7 @@ std::vector<Floor> HoldOut::floors(const Search& search) const {
   for (std::size_t j = 0; j < floors.size(); ++j) {
     const double share = std::min(1.0, errors[j] / std::max(1e-300, floors[j].deviation()));
     for (double* part : {&floors[j].white, &floors[j].coloured, &floors[j].flicker,
-                         &floors[j].markov, &floors[j].lines}) {
+                         &floors[j].markov, &floors[j].lines, &floors[j].rounding}) {
       *part *= share * share;
     }
   }
@@ -214,6 +214,7 @@ std::vector<Floor> HoldOut::own_floors(const Search& search) const {
   std::vector<Floor> floors = noise_floor(study, left, levels);
   bound_by_residual(study, left, levels, floors);
   add_pose_noise(study, floors);
+  add_rounding(study, floors);
   return floors;
 }
 

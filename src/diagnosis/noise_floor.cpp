@@ -152,10 +152,20 @@ double log_likelihood(const Eigen::VectorXd& density, const Eigen::VectorXd& hz,
 }  // namespace
 
 double Floor::deviation() const {
-  if (lowpass_hz == 0.0 && !is_slow() && bounds.empty()) return std::sqrt(white + coloured + lines);
+  if (lowpass_hz == 0.0 && !is_slow() && bounds.empty())
+    return std::sqrt(white + coloured + lines + rounding);
   double sum = 0.0;
   for (int i = 0; i < kFloorPoints; ++i) sum += density((i + 0.5) / kFloorPoints * 0.5 / dt);
-  return std::sqrt(sum / kFloorPoints + lines);
+  return std::sqrt(sum / kFloorPoints + lines + rounding);
+}
+
+void add_rounding(const Case& study, std::vector<Floor>& floors) {
+  const double q = study.rounding_step, s = study.rounding_noise;
+  for (Floor& floor : floors) {
+    floor.rounding = 0.0;
+    const double known = floor.deviation();
+    if (q > 0.0) floor.rounding = std::max(0.0, q * q / 12.0 + s * s - known * known);
+  }
 }
 
 double Floor::whole_deviation() const {

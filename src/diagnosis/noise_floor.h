@@ -23,6 +23,9 @@ struct Floor {
   /// Slow first-order Gauss-Markov part: its density at 0 Hz and its corner [Hz].
   double markov = 0.0, corner_hz = 1.0;
   double lines = 0.0;  ///< variance of lines above the motion's band, part of no density
+  /// Variance of rounding to a step beyond what the density holds of it: the error of a reading
+  /// that moves slowly is as slow, and no part of a spectrum above the motion.
+  double rounding = 0.0;
   /// Spectral density of what the pose's noise adds through accelerations and gravity:
   /// (static_part + moving_part·w^4)·|H|, per sample, with |H| the gain of the pose's filter in
   /// even steps up to half the rate. Behind a Wiener filter that is the variance of its error.
@@ -75,6 +78,10 @@ void bound_by_residual(const Case& study, const Signals& residual, const Signals
 /// Of poses at rest: what a free matrix on the direction of gravity and an offset leave, which
 /// holds every linear fault of tool and sensor. Error(kData) for fewer than 7 poses.
 std::vector<Floor> floor_at_rest(const Case& study, const Signals& residual);
+
+/// Completes floors of readings that are rounded to a step q: as deviates a reading, q^2/12 beside
+/// the noise before it.
+void add_rounding(const Case& study, std::vector<Floor>& floors);
 
 /// Adds what the pose's own noise, read from the raw pose above the motion's band, puts into the
 /// prediction: through accelerations (mass and lever) and through gravity.

@@ -122,5 +122,31 @@ TEST(NoiseFloor, ExceedsWhatIsLeftOnlyWhereItDoes) {
   EXPECT_GE(rightly, 95);
 }
 
+// The error of a reading in steps is as slow as the reading: above the motion's band little of it
+// shows.
+TEST(NoiseFloor, OfRoundedReadingsHoldsTheirRounding) {
+  constexpr double kStep = 1.0, kNoise = 0.09;
+  Case study = recordings_of(2);
+  study.rounding_step = kStep;
+  study.rounding_noise = kNoise;
+  Rng rng(7);
+  Signals left;
+  double square = 0.0;
+  for (int k = 0; k < 2; ++k) {
+    Eigen::MatrixXd x(kRows, 1);
+    for (Index i = 0; i < kRows; ++i) {
+      const double turn = 2.0 * std::numbers::pi * kDt * double(i);
+      const double force = 2.0 * std::sin(0.1 * turn + k) + 1.5 * std::sin(0.17 * turn);
+      x(i, 0) = kStep * std::round((force + kNoise * rng.normal()) / kStep) - force;
+    }
+    square += x.squaredNorm() / (2.0 * kRows);
+    left.push_back(x);
+  }
+  std::vector<Floor> floors = noise_floor(study, left, ones(2));
+  EXPECT_LT(floors.front().deviation(), 0.8 * std::sqrt(square));
+  add_rounding(study, floors);
+  EXPECT_NEAR(floors.front().deviation() / std::sqrt(square), 1.0, 0.05);
+}
+
 }  // namespace
 }  // namespace dcnn
