@@ -79,7 +79,10 @@ Misfit linear_misfit(const Case& study, const std::vector<Member>& members) {
   Case unsmoothed = study;  // its whitener must not depend on the cut-off
   unsmoothed.derivative.kind = DerivativeSpec::Kind::kSavitzkyGolay;
   const Whitener whitener(unsmoothed, floors, levels);
-  Setting setting{unsmoothed, whitener, unsmoothed, whitener, measured, {}, {}};
+  const Index stride = whitener.coarse_stride();
+  Setting setting{
+      unsmoothed, whitener, thinned(unsmoothed, stride), whitener.at_stride(stride), measured,
+      {},         {}};
   setting.mask = Eigen::VectorXd::Ones(setting.whitener.rows());
   setting.nuisance.resize(setting.whitener.rows(), 0);
   for (const auto& column : lag_columns(study, prediction)) {
@@ -102,7 +105,8 @@ Misfit linear_misfit(const Case& study, const std::vector<Member>& members) {
   for (const char* name : {"mass", "com", "gain", "crosstalk", "bias"}) {
     const EffectKind& kind = *find_effect(name);
     if (!is_listed(study, kind) || !is_testable(study, kind)) continue;
-    A = appended(A, scan.columns(make_member(study, kind, kind.fits[0], "", Eigen::VectorXd(0))));
+    const Member member = make_member(study, kind, kind.fits[0], "", Eigen::VectorXd(0));
+    A = appended(A, scan.columns(member, Detail::kCoarse));
   }
   const Eigen::VectorXd left = empty.residual - A * least_squares(A, empty.residual);
   return {left.squaredNorm(), static_cast<double>(left.size())};
