@@ -187,7 +187,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   if (!without.empty()) report["without"] = without;
   report["findings"] = findings_json(search, holdout, alternatives);
   report["refuted"] = refuted_names;
-  report["search"] = {{"passes", search.passes()}, {"complete", !search.is_spent()}};
+  report["search"] = {{"passes", search.passes()}, {"complete", search.is_complete()}};
   report["rivals"] = rivals_json(search, alternatives);
   report["clock_end_s"] =
       study.shared_clock && study.has_clock() ? Json(study.end_of_clock) : Json();

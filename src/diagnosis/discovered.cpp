@@ -1,22 +1,18 @@
 #include "diagnosis/discovered.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
-#include "diagnosis/confidence.h"
-#include "diagnosis/law_search.h"
+#include "diagnosis/laws.h"
 #include "discovery/priors.h"
 
 namespace dcnn {
-namespace {
 
 using discovery::Discovered;
-using Eigen::VectorXd;
 
-constexpr double kLawInterval = 1.96;  // of a standard deviation: 95 %
-constexpr int kFewestNumbers = 2;      // of a law: its size, and a scale or a power
-constexpr double kStillGained = 0.5;   // of a law's gain, once all are fitted through the chain
+namespace {
+
+constexpr int kFewestNumbers = 2;  // of a law: its size, and a scale or a power
 
 bool can_hold_laws(const Case& study) {
   if (study.is_static() || !study.axis_moves) return false;
@@ -24,101 +20,6 @@ bool can_hold_laws(const Case& study) {
     return log.motion.v_B.rows() == log.motion.samples() &&
            log.motion.a_B.rows() == log.motion.samples();
   });
-}
-
-Member member_of(const law::Law& law, const Json& told) {
-  static const EffectFit form{.parameters = [](const VectorXd&, const VectorXd&) {
-    return Json::object();  // its numbers stand in law_parameters
-  }};
-  Member member;
-  member.kind = find_effect("discovered");
-  member.form = &form;
-  member.fixed = true;
-  member.law = told;
-  member.law_parameters = law::parameters_json(law);
-  return member;
-}
-
-Json law_json(const Discovered& found, const law::Terms& terms = law::tool_terms()) {
-  Json json = law::to_json(found.law, terms);
-  json["established"] = found.established;
-  json["rivals"] = found.rivals;
-  return json;
-}
-
-Json law_numbers(const Discovered& found, const law::Terms& terms) {
-  const auto numbers = law::numbers_of(found.law.structure, terms);
-  Json json = Json::object();
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    const auto at = static_cast<Index>(k);
-    const double value = found.law.numbers(at), half = kLawInterval * found.deviation(at);
-    json[numbers[k].name] = {
-        {"value", value}, {"ci95", {value - half, value + half}}, {"unit", numbers[k].unit}};
-  }
-  return json;
-}
-
-/// As it is told of a tool, or of an axis: what adds to its reading.
-Json law_finding(Discovered found, const AxisPlan* plan) {
-  law::Terms terms = law::tool_terms();
-  if (plan != nullptr) {
-    const Axis& axis = plan->axis();
-    terms = law::axis_terms(axis.name, axis.unit, axis.position_unit, plan->sense);
-    found.law.numbers(0) *= -plan->sense;
-  }
-  const Json law = law_json(found, terms);
-  const auto words = law["words"].get<std::string>();
-  Json entry{
-      {"effect", "discovered"},
-      {"kind", "structural"},
-      {"axis", nullptr},
-      {"interval_s", nullptr},
-      {"law", law},
-      {"parameters", law_numbers(found, terms)},
-      {"words",
-       found.established ? words : "approximate formula, its form not established: " + words}};
-  if (!plan && law::is_axis(found.law.structure.direction) && !found.law.structure.oblique) {
-    entry["axis"] = law["axis"];
-  }
-  entry.update({{"confidence", nullptr},
-                {"p_value", nullptr},
-                {"alternatives", Json::array()},
-                {"holdout_gain", nullptr}});
-  return entry;
-}
-
-int fitted_numbers(const Discovered& law) { return (law.deviation.array() > 0.0).count(); }
-
-/// The laws of a residual. Where a number costs more, for laws err by more than the noise (a
-/// machine), so does all that a law must gain, and a form that is not established may be that
-/// error.
-std::vector<Discovered> worthy_laws(const Setting& setting, const JointFit& fit) {
-  auto laws = laws_in(setting, fit);
-  const double dearer = setting.price / kNumberPrice;
-  std::erase_if(laws, [&](const Discovered& law) {
-    const double paid = discovery::prior::kNumber * fitted_numbers(law);
-    return law.gain < dearer * (discovery::prior::kAccepted + paid) ||
-           (dearer > 1.0 && !law.established);
-  });
-  return laws;
-}
-
-/// Laws and the members that they are, where the chain bears out what each promised; else none.
-struct Laws {
-  std::vector<Discovered> found;
-  std::vector<Member> members;
-};
-Laws borne_out(const Setting& setting, const JointFit& names) {
-  Laws laws{worthy_laws(setting, names), {}};
-  double promised = 0.0;
-  std::vector<Member> all = names.members;
-  for (const Discovered& found : laws.found) {
-    laws.members.push_back(member_of(found.law, law_json(found)));
-    all.push_back(laws.members.back());
-    promised += found.gain;
-  }
-  if (names.chi2 - joint_fit(setting, all).chi2 < kStillGained * promised) return {};
-  return laws;
 }
 
 /// Looks for names beside laws; those that are found stand where both, fitted again, leave nothing.
@@ -132,16 +33,6 @@ void name_beside(Search& search, Laws& laws) {
   } else if (!again.found.empty()) {
     laws = std::move(again);
   }
-}
-
-/// Numbers that were fitted, of laws and of names.
-int numbers_of(const Laws& laws, const std::vector<Member>& members) {
-  int sum = 0;
-  for (const Discovered& law : laws.found) sum += fitted_numbers(law);
-  for (const Member& member : members) {
-    if (member.law.is_null()) sum += member.parameters();
-  }
-  return sum;
 }
 
 /// Leaves out names without which laws, looked for again, explain as much for their numbers: what
@@ -219,9 +110,8 @@ Laws in_place_of_names(Search& search, const HoldOut& holdout) {
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(*m));
     }
     if (numbers <= kFewestNumbers) continue;
-    Laws laws{worthy_laws(setting, joint_fit(setting, rest)), {}};
+    Laws laws = worthy_laws(setting, joint_fit(setting, rest));
     if (laws.found.size() != 1 || !laws.found.front().established) continue;
-    laws.members.push_back(member_of(laws.found.front().law, law_json(laws.found.front())));
     std::vector<Member> other = rest;
     other.push_back(laws.members.front());
     const int more = std::max(0, fitted_numbers(laws.found.front()) - numbers);
@@ -237,64 +127,64 @@ Laws in_place_of_names(Search& search, const HoldOut& holdout) {
   return {};
 }
 
+/// -2 ln of the likelihood, and the price of all numbers.
+double unlikely(const Search& search, const Laws& laws) {
+  return search.unlikely() + search.setting().price * numbers_of(laws, {});
+}
+
+/// Laws beside the names that stand; where those leave something, also from the beginning: beside
+/// none, and beside each name that gains most next to those before it. (Names that were found
+/// without laws may imitate one, and are then taken back with those that act.) The likeliest stays.
+Laws laws_of_the_rest(Search& search) {
+  constexpr int kMostNames = 5;  // a limit of computation
+  Laws best = borne_out(search.setting(), search.fit());
+  search.put_beside(best.members);
+  std::vector<Member> members = search.fit().members;
+  double least = unlikely(search, best);
+  if (!search.is_alarming_now()) return best;
+  search.begin_anew();
+  for (int names = 0; names < kMostNames; ++names) {
+    const std::vector<Member> before = search.fit().members;
+    Laws laws = borne_out(search.setting(), search.fit());
+    if (!laws.found.empty()) {
+      search.put_beside(laws.members);
+      if (unlikely(search, laws) < least) {
+        least = unlikely(search, laws);
+        members = search.fit().members;
+        best = std::move(laws);
+      }
+      if (!search.is_alarming_now()) break;
+      search.hold(before);
+    }
+    const auto trials = search.additions(/*events=*/false);
+    if (trials.empty()) break;
+    const Trial& next = trials.front();
+    if (next.gain < least_gain(search.setting(), next.member.parameters(), names == 0)) break;
+    std::vector<Member> more = before;
+    more.push_back(next.member);
+    search.settle(more);
+  }
+  search.hold(members);
+  return best;
+}
+
 }  // namespace
 
 std::vector<Discovered> add_discovered(Search& search, const HoldOut& holdout) {
   if (!can_hold_laws(search.study())) return {};
   Laws laws = in_place_of_names(search, holdout);
-  if (laws.found.empty() && search.remains()) laws = borne_out(search.setting(), search.fit());
+  if (!laws.found.empty()) {
+    search.put_beside(laws.members);
+  } else if (search.remains()) {
+    laws = laws_of_the_rest(search);
+  }
   if (laws.found.empty()) return {};
-  search.put_beside(laws.members);
   leave_needless_names(search, laws);
   name_beside(search, laws);
   constexpr int kMostRounds = 5;  // a limit of computation: each round searches all places again
   for (int round = 0; round < kMostRounds && name_in_place_of_one(search, laws); ++round) {
   }
   return laws.found;
-}
-
-Json leave_refuted_laws(Search& search, const HoldOut& holdout, double unnamed,
-                        std::vector<Discovered>& laws) {
-  Json refuted = Json::array();
-  while (!laws.empty()) {
-    const std::vector<Member> members = search.fit().members;
-    const Signals with = holdout.prediction(members, search.fit().base);
-    std::vector<std::size_t> places;  // of the laws among the members
-    std::vector<std::optional<double>> likely;
-    for (std::size_t m = 0; m < members.size(); ++m) {
-      if (members[m].law.is_null()) continue;
-      places.push_back(m);
-      likely.emplace_back(supported(unnamed, search, holdout, with, m));
-    }
-    const auto worst = refuted_of(likely);
-    if (!worst) break;
-    const std::size_t place = places[*worst];
-    refuted.push_back({{"effect", "discovered"},
-                       {"axis", law_finding(laws[*worst], nullptr)["axis"]},
-                       {"confidence", *likely[*worst]}});
-    laws.erase(laws.begin() + static_cast<std::ptrdiff_t>(*worst));
-    search.hold(search.members_without(place));
-  }
-  return refuted;
-}
-
-Json law_findings(const Search& search, const std::vector<Discovered>& laws,
-                  const HoldOut& holdout) {
-  const JointFit& fit = search.fit();
-  const double error = holdout.empty() ? 0.0 : holdout.mean_rmse(fit.members, fit.base);
-  Json list = Json::array();
-  std::size_t next = 0;
-  for (std::size_t m = 0; m < fit.members.size(); ++m) {
-    if (fit.members[m].law.is_null()) continue;
-    Json entry = law_finding(laws[next++], search.study().axis.get());
-    if (!holdout.empty()) {
-      std::vector<Member> others = fit.members;
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
-      entry["holdout_gain"] = 1.0 - error / std::max(1e-300, holdout.mean_rmse(others, fit.base));
-    }
-    list.push_back(entry);
-  }
-  return list;
 }
 
 }  // namespace dcnn

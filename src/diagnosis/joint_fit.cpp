@@ -27,7 +27,7 @@ struct Coordinate {
 std::vector<Coordinate> coordinates_of(const std::vector<Member>& members) {
   std::vector<Coordinate> list;
   for (std::size_t m = 0; m < members.size(); ++m) {
-    if (members[m].fixed) continue;
+    if (members[m].coordinates() == 0) continue;
     for (Index i = 0; i < members[m].amplitudes.size(); ++i) list.push_back({m, false, i});
     for (Index i = 0; i < members[m].shapes.size(); ++i) list.push_back({m, true, i});
   }

@@ -36,11 +36,10 @@ Eigen::MatrixXd normal_inverse(const Eigen::MatrixXd& gram) {
 std::pair<Index, Index> tangent_columns(const JointFit& fit, std::size_t member) {
   Index first = 0;
   for (std::size_t m = 0; m < member; ++m) {
-    if (fit.members[m].fixed) continue;
-    first += fit.members[m].amplitudes.size() + fit.members[m].shapes.size();
+    first += fit.members[m].coordinates();
   }
   const Member& own = fit.members[member];
-  return {first, own.fixed ? 0 : own.amplitudes.size() + own.shapes.size()};
+  return {first, own.fixed ? 0 : own.coordinates()};
 }
 
 std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& residual) {

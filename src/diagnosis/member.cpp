@@ -53,7 +53,9 @@ bool is_degenerate(const Member& member) {
 
 EffectSpec spec_of(const Member& member) {
   if (!member.law.is_null()) {
-    return {member.kind->name, "", std::nullopt, member.law_parameters, "", member.law};
+    Json parameters = member.law_parameters;
+    parameters["amplitude_n"] = member.amplitudes(0) * parameters["amplitude_n"].get<double>();
+    return {member.kind->name, "", std::nullopt, parameters, "", member.law};
   }
   return {member.kind->name, member.axis, member.interval_s,
           member.form->parameters(member.amplitudes, member.shapes), member.recording};

@@ -24,10 +24,15 @@ struct Member {
   /// knocks): the joint fit leaves it as it is.
   bool fixed = false;
   Eigen::VectorXd fixed_deviation;  ///< then: of amplitudes and shapes, from that test
-  /// Of a discovered law, which is fixed: its form and its numbers (dcnn/physics/law.h).
+  /// Of a discovered law, which is fixed but for its size: its form and its numbers
+  /// (dcnn/physics/law.h). Its one amplitude multiplies that size.
   Json law = nullptr, law_parameters = nullptr;
 
   std::string name() const { return kind->name; }
+  /// Numbers that a joint fit moves.
+  Eigen::Index coordinates() const {
+    return fixed && law.is_null() ? 0 : amplitudes.size() + shapes.size();
+  }
   /// Numbers that were fitted: amplitudes, shapes and the ends of an interval; and one for the
   /// choice of a special law.
   int parameters() const;

@@ -18,7 +18,6 @@ bool Search::depends_on_motion() const { return most_of_a_term(*setting_, fit_) 
 /// Nothing is left, in no band and of no product of what moves.
 bool Search::is_independent() { return !is_alarming_now() && !depends_on_motion(); }
 
-/// -2 ln of the likelihood, and the price of all numbers.
 double Search::unlikely() const {
   double numbers = 0.0;
   for (const Member& m : fit_.members) numbers += m.fixed ? 0.0 : m.parameters();
@@ -60,7 +59,9 @@ bool Search::admit_colour() {
 
 /// Searches from nothing in slow noise, which is estimated again beside whatever is found, and
 /// keeps what that finds where it leaves nothing and is likelier than all names that gain without
-/// such noise.
+/// such noise. Else these names are the better beginning where they are likelier without it too:
+/// noise as loud as what is left weighs every band alike, and an event is no first guess in it.
+/// True where either is kept.
 bool Search::admit_slow_noise() {
   if (tried_slow_noise_ || study_.is_static() || study_.axis || study_.without.coloured_floor) {
     return false;
@@ -81,10 +82,13 @@ bool Search::admit_slow_noise() {
   settle(apart_);
   explore();
   if (unlikely() < plain && are_constant() && is_independent()) return true;
+  const std::vector<Member> found = fit_.members;
   in_slow_noise_ = false;
   events_allowed_ = true;
   study_ = study, smoothed_ = smoothed, other_filter_ = other_filter;
   tuned_ = tuned, ringing_ = ringing;
+  settle(found);
+  if (unlikely() < plain) return true;
   settle(members);
   is_alarming_now();
   return false;

@@ -41,12 +41,10 @@ class Search {
 
   void run();
 
-  /// Most passes() after which effects are still added and exchanged: some hundred times what a
-  /// search for one effect takes, so that a search among laws none of which fits ends too.
-  static constexpr double kMostPasses = 100'000.0;
   /// Times that the recordings have been predicted, once for each effect of the prediction.
   double passes() const;
-  bool is_spent() const { return passes() >= kMostPasses; }
+  /// Whether all exchanges were tried, among names alone and beside laws.
+  bool is_complete() const { return !ended_early_ && !is_spent(); }
 
   const Case& study() const { return study_; }
   const JointFit& fit() const { return fit_; }
@@ -69,6 +67,12 @@ class Search {
   void leave_out(const std::vector<std::size_t>& members);
   /// Takes another model, whose members were fitted, and judges what it leaves.
   void adopt(const std::vector<Member>& members);
+  /// Leaves out all but what tests of their own found.
+  void begin_anew();
+  /// Whether a band holds more than noise and the error of the laws that were found leave.
+  bool is_alarming_now();
+  /// -2 ln of the likelihood, and the price of all numbers of the names.
+  double unlikely() const;
   /// Fits laws without a name beside the names, in place of those that were there.
   void put_beside(const std::vector<Member>& laws);
   /// Looks for names beside the laws: whether there are more than before.
@@ -141,13 +145,11 @@ class Search {
   void drop_coincidences();
   void drop_unconfirmed();
   void let_ring();
-  bool is_alarming_now();
   bool are_constant() const;
   bool noise_suffices();
   /// A product of pose, rates, force or time gains in what is left.
   bool depends_on_motion() const;
   bool is_independent();
-  double unlikely() const;
   bool may_be_slow_noise(const Member& member) const;
   bool admit_slow_noise();
   bool admit_colour();
@@ -166,6 +168,10 @@ class Search {
   /// What the weighed structures say of something that no name explains.
   void judge_rest();
   void say(const std::string& text) const;
+  /// Passes after which effects are no more added and exchanged: some fifty times what a search for
+  /// one effect takes, so that a search among laws none of which fits ends too.
+  static constexpr double kMostPasses = 50'000.0;
+  bool is_spent() const { return passes() - begun_ >= kMostPasses; }
 
   Case study_;
   std::vector<Case>
@@ -188,6 +194,8 @@ class Search {
   bool tried_slow_noise_ = false;
   std::vector<SlowPart> slow_;  // of each channel, beside the floor from above the motion
   bool events_allowed_ = true, remains_ = false;
+  double begun_ = 0.0;  // passes before the search among names alone, or beside laws, began
+  bool ended_early_ = false;
   Index samples_ = 0;     // of the recordings
   bool tuned_ = false;    // the smoother, to a mode
   bool ringing_ = false;  // what shakes the motion unseen rings in the modes that were found

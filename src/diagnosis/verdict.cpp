@@ -122,7 +122,11 @@ void Search::judge() {
   drop_unconfirmed();
   if (study_.axis) keep_what_carries_over();
   remains_ = is_alarming_now();
-  if (remains_ && (admit_slow_noise() || admit_colour())) remains_ = false;
+  if (remains_ && admit_slow_noise()) {
+    if (!in_slow_noise_) explore();
+    remains_ = is_alarming_now();
+  }
+  if (remains_ && admit_colour()) remains_ = false;
   if (keep_bystanders()) {
     remains_ = true;
     bands_ = band_tests(*setting_, fit_.residual);

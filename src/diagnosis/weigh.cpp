@@ -93,6 +93,12 @@ void Search::adopt(const std::vector<Member>& members) {
   if (!study_.axis) judge_rest();
 }
 
+void Search::begin_anew() {
+  std::vector<Member> members = apart_;
+  std::erase_if(members, [](const Member& m) { return !m.law.is_null(); });
+  hold(members);
+}
+
 std::vector<Member> Search::names() const {
   std::vector<Member> members = fit_.members;
   std::erase_if(members, [](const Member& m) { return !m.law.is_null(); });
@@ -100,6 +106,10 @@ std::vector<Member> Search::names() const {
 }
 
 void Search::put_beside(const std::vector<Member>& laws) {
+  if (names().size() == fit_.members.size()) {  // the first laws
+    ended_early_ = ended_early_ || is_spent();
+    begun_ = passes();
+  }
   std::vector<Member> members = names();
   members.insert(members.end(), laws.begin(), laws.end());
   hold(members);

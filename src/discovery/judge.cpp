@@ -137,8 +137,10 @@ Discovered judged(const Data& data, const Trial& trial) {
   Discovered found;
   found.law = law_of(trial.sketch);
   found.gain = trial.gain;
-  found.score = trial.score;
   found.inflation = inflation_of(data, residual - amplitude * trial.column, trial.column);
+  // The model's error is a share of gains, which a residual that is not white inflates as well.
+  const double numbers = penalty(trial.sketch, 0.0);
+  found.score = (trial.score + numbers) / found.inflation - numbers;
   found.held_out_gain = held_out_gain(residual, tangent, blocks);
   found.disagreement = disagreement_of(residual, trial.column, amplitude, blocks);
   found.established = found.disagreement <= prior::kConstant;
@@ -147,10 +149,8 @@ Discovered judged(const Data& data, const Trial& trial) {
 }
 
 bool is_accepted(const Discovered& found) {
-  const double paid = found.gain - found.score;
   const double share = found.established ? prior::kHeldOutShare : prior::kHeldOutApproximate;
-  return found.gain / found.inflation - paid >= prior::kAccepted &&
-         found.held_out_gain >= share * found.gain;
+  return found.score >= prior::kAccepted && found.held_out_gain >= share * found.gain;
 }
 
 }  // namespace dcnn::discovery

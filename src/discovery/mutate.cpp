@@ -107,6 +107,7 @@ std::vector<Sketch> variants(const Data& data, const Trial& trial) {
   }
   if (!data.of_axis()) {
     for (const Sketch& oblique : made_oblique(from)) list.push_back(oblique);
+    for (const Sketch& along : made_along(from)) list.push_back(along);
   }
   Sketch sketch = from;
   if (!(sketch.lag > 0.0)) {

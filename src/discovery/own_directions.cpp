@@ -148,6 +148,22 @@ std::vector<Sketch> made_oblique(const Sketch& from) {
   return {sketch};
 }
 
+std::vector<Sketch> made_along(const Sketch& from) {
+  std::vector<Sketch> list;
+  if (!from.oblique || !law::is_axis(from.direction)) return list;
+  for (std::size_t k = 0; k < from.pieces.size(); ++k) {
+    for (const Along& along : kAlong) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t first = from.direction - from.direction % 3;
+        if (plain_of(along, first + axis) != from.pieces[k].factor.coordinate) continue;
+        list.push_back(from);
+        list.back().pieces[k].factor.coordinate = coordinate_named(along.own);
+      }
+    }
+  }
+  return list;
+}
+
 std::vector<Sketch> made_plain(const Sketch& from) {
   if (!from.oblique) return {};
   Sketch sketch = from;

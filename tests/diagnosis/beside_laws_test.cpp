@@ -75,6 +75,64 @@ TEST(BesideLaws, TwoNamesThatActStayTwo) {
   EXPECT_TRUE(report["refuted"].empty());
 }
 
+/// The held-out error over the noise, in the worst channel.
+double worst_ratio(const Json& report) {
+  double worst = 0.0;
+  for (std::size_t j = 0; j < 3; ++j) {
+    worst = std::max(worst, report["fit"]["holdout_rmse_after"][j].get<double>() /
+                                report["fit"]["noise_floor"][j].get<double>());
+  }
+  return worst;
+}
+
+// Names that imitate the law come first where it is not looked for, and all are taken back.
+TEST(BesideLaws, ADriftIsFoundBesideADragOfOneDirection) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  Json drag = hidden("discovered", nullptr,
+                     {{"amplitude_n", -2.5}, {"scale_1_mps", 0.1}, {"ratio_1", 0.0}});
+  drag["law"] = {{"axis", "base_z"}, {"factors", {{{"shape", "asymmetric"}, {"of", "v_base_z"}}}}};
+  const Bench bench(configuration(
+      {drag, hidden("linear_drift", nullptr,
+                    {{"rate_x_nps", 0.0}, {"rate_y_nps", 0.004}, {"rate_z_nps", -0.03}})}));
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(test::names(report), std::vector<std::string>{"linear_drift"})
+      << report["findings"].dump(1);
+  ASSERT_EQ(report["findings"].size(), 2u);
+  EXPECT_EQ(report["findings"][1]["axis"], "base_z");
+  EXPECT_LT(worst_ratio(report), 1.05);
+}
+
+// c n (n·v), with n no axis of any frame, is one law and no sum of three; what a scale of the
+// sensor does beside it is no mass.
+TEST(BesideLaws, AScaleIsFoundBesideAnObliqueDrag) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  Json drag =
+      hidden("discovered", nullptr,
+             {{"amplitude_n", -0.6}, {"axis_x", 0.12}, {"axis_y", 0.07}, {"scale_1_mps", 0.05}});
+  drag["law"] = {{"axis", "tool_z"},
+                 {"oblique", true},
+                 {"factors", {{{"shape", "linear"}, {"of", "v_along"}}}}};
+  const Bench bench(configuration(
+      {hidden("gain", nullptr, {{"gain_x", 0.03}, {"gain_y", 0.0}, {"gain_z", 0.05}}), drag}));
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(test::names(report), std::vector<std::string>{"gain"}) << report["findings"].dump(1);
+  ASSERT_EQ(report["findings"].size(), 2u);
+  EXPECT_NEAR(report["findings"][1]["parameters"]["axis_x"]["value"].get<double>(), 0.12, 0.01);
+  EXPECT_LT(worst_ratio(report), 1.05);
+}
+
+// The size of a law is fitted with the names beside it: a mass would else make up for it.
+TEST(BesideLaws, AScaleBesideALawComesWithoutAMass) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Bench bench(configuration(
+      {hidden("gain", nullptr, {{"gain_x", 0.03}, {"gain_y", 0.0}, {"gain_z", 0.05}}),
+       drag("asymmetric", {{"amplitude_n", -0.8}, {"scale_1_mps", 0.1}, {"ratio_1", 0.0}})}));
+  const Json report = bench.diagnose().report;
+  EXPECT_FALSE(test::found(report).count("mass")) << report["findings"].dump(1);
+  EXPECT_TRUE(test::found(report).count("gain"));
+  EXPECT_LT(worst_ratio(report), 1.05);
+}
+
 // A scale of all axes and a mass make the same force: each is as likely as the other.
 TEST(SharedConfidence, IsThatOfAliases) {
   const Bench bench(configuration(Json::array(

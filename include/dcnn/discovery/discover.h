@@ -40,7 +40,7 @@ struct Discovered {
   Eigen::VectorXd deviation;   ///< of its numbers, 0 where they are references
   double gain = 0.0;           ///< of chi-square
   double inflation = 1.0;      ///< of the variance of its score by coloured residuals, at least 1
-  double score = 0.0;          ///< gain less the complexity penalty
+  double score = 0.0;          ///< gain over the inflation, less the complexity penalty
   double held_out_gain = 0.0;  ///< of chi-square, over folds that its numbers were not fitted to
   double disagreement = 0.0;   ///< variance of its strength over blocks of time; 1 if constant
   bool established = false;    ///< the form holds in all blocks; else it is an approximation

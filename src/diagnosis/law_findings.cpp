@@ -1,0 +1,106 @@
+// Laws of the fit as findings, and what held-out data say of them.
+#include <cmath>
+
+#include "diagnosis/confidence.h"
+#include "diagnosis/discovered.h"
+#include "diagnosis/laws.h"
+
+namespace dcnn {
+
+using discovery::Discovered;
+
+namespace {
+
+constexpr double kLawInterval = 1.96;  // of a standard deviation: 95 %
+
+Json law_numbers(const Discovered& found, const law::Terms& terms) {
+  const auto numbers = law::numbers_of(found.law.structure, terms);
+  Json json = Json::object();
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const auto at = static_cast<Index>(k);
+    const double value = found.law.numbers(at), half = kLawInterval * found.deviation(at);
+    json[numbers[k].name] = {
+        {"value", value}, {"ci95", {value - half, value + half}}, {"unit", numbers[k].unit}};
+  }
+  return json;
+}
+
+/// As it is told of a tool, or of an axis: what adds to its reading.
+Json law_finding(Discovered found, const AxisPlan* plan) {
+  law::Terms terms = law::tool_terms();
+  if (plan != nullptr) {
+    const Axis& axis = plan->axis();
+    terms = law::axis_terms(axis.name, axis.unit, axis.position_unit, plan->sense);
+    found.law.numbers(0) *= -plan->sense;
+  }
+  const Json law = law_json(found, terms);
+  const auto words = law["words"].get<std::string>();
+  Json entry{
+      {"effect", "discovered"},
+      {"kind", "structural"},
+      {"axis", nullptr},
+      {"interval_s", nullptr},
+      {"law", law},
+      {"parameters", law_numbers(found, terms)},
+      {"words",
+       found.established ? words : "approximate formula, its form not established: " + words}};
+  if (!plan && law::is_axis(found.law.structure.direction) && !found.law.structure.oblique) {
+    entry["axis"] = law["axis"];
+  }
+  entry.update({{"confidence", nullptr},
+                {"p_value", nullptr},
+                {"alternatives", Json::array()},
+                {"holdout_gain", nullptr}});
+  return entry;
+}
+
+}  // namespace
+
+Json leave_refuted_laws(Search& search, const HoldOut& holdout, double unnamed,
+                        std::vector<Discovered>& laws) {
+  Json refuted = Json::array();
+  while (!laws.empty()) {
+    const std::vector<Member> members = search.fit().members;
+    const Signals with = holdout.prediction(members, search.fit().base);
+    std::vector<std::size_t> places;  // of the laws among the members
+    std::vector<std::optional<double>> likely;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      if (members[m].law.is_null()) continue;
+      places.push_back(m);
+      likely.emplace_back(supported(unnamed, search, holdout, with, m));
+    }
+    const auto worst = refuted_of(likely);
+    if (!worst) break;
+    const std::size_t place = places[*worst];
+    refuted.push_back({{"effect", "discovered"},
+                       {"axis", law_finding(laws[*worst], nullptr)["axis"]},
+                       {"confidence", *likely[*worst]}});
+    laws.erase(laws.begin() + static_cast<std::ptrdiff_t>(*worst));
+    search.hold(search.members_without(place));
+  }
+  return refuted;
+}
+
+Json law_findings(const Search& search, const std::vector<Discovered>& laws,
+                  const HoldOut& holdout) {
+  const JointFit& fit = search.fit();
+  const double error = holdout.empty() ? 0.0 : holdout.mean_rmse(fit.members, fit.base);
+  Json list = Json::array();
+  std::size_t next = 0;
+  for (std::size_t m = 0; m < fit.members.size(); ++m) {
+    if (fit.members[m].law.is_null()) continue;
+    Discovered law = laws[next++];
+    law.law.numbers(0) *= fit.members[m].amplitudes(0);
+    law.deviation(0) *= std::abs(fit.members[m].amplitudes(0));
+    Json entry = law_finding(std::move(law), search.study().axis.get());
+    if (!holdout.empty()) {
+      std::vector<Member> others = fit.members;
+      others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
+      entry["holdout_gain"] = 1.0 - error / std::max(1e-300, holdout.mean_rmse(others, fit.base));
+    }
+    list.push_back(entry);
+  }
+  return list;
+}
+
+}  // namespace dcnn

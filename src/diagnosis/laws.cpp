@@ -1,0 +1,72 @@
+#include "diagnosis/laws.h"
+
+#include "diagnosis/law_search.h"
+#include "discovery/priors.h"
+
+namespace dcnn {
+
+using discovery::Discovered;
+
+namespace {
+
+constexpr double kStillGained = 0.5;  // of a law's gain, once all are fitted through the chain
+
+Member member_of(const law::Law& law, const Json& told) {
+  static const EffectFit form{.parameters = [](const Eigen::VectorXd&, const Eigen::VectorXd&) {
+    return Json::object();  // its numbers stand in law_parameters
+  }};
+  Member member;
+  member.kind = find_effect("discovered");
+  member.form = &form;
+  member.fixed = true;
+  member.amplitudes = Eigen::VectorXd::Ones(1);
+  member.law = told;
+  member.law_parameters = law::parameters_json(law);
+  return member;
+}
+
+}  // namespace
+
+Json law_json(const Discovered& found, const law::Terms& terms) {
+  Json json = law::to_json(found.law, terms);
+  json["established"] = found.established;
+  json["rivals"] = found.rivals;
+  return json;
+}
+
+int fitted_numbers(const Discovered& law) { return (law.deviation.array() > 0.0).count(); }
+
+Laws worthy_laws(const Setting& setting, const JointFit& fit) {
+  Laws laws{laws_in(setting, fit), {}};
+  const double dearer = setting.price / kNumberPrice;
+  std::erase_if(laws.found, [&](const Discovered& law) {
+    const double paid = discovery::prior::kNumber * fitted_numbers(law);
+    return law.gain < dearer * (discovery::prior::kAccepted + paid) ||
+           (dearer > 1.0 && !law.established);
+  });
+  for (const Discovered& found : laws.found) {
+    laws.members.push_back(member_of(found.law, law_json(found)));
+  }
+  return laws;
+}
+
+Laws borne_out(const Setting& setting, const JointFit& names) {
+  const Laws laws = worthy_laws(setting, names);
+  double promised = 0.0;
+  for (const Discovered& found : laws.found) promised += found.gain;
+  std::vector<Member> all = names.members;
+  all.insert(all.end(), laws.members.begin(), laws.members.end());
+  if (names.chi2 - joint_fit(setting, all).chi2 < kStillGained * promised) return {};
+  return laws;
+}
+
+int numbers_of(const Laws& laws, const std::vector<Member>& members) {
+  int sum = 0;
+  for (const Discovered& law : laws.found) sum += fitted_numbers(law);
+  for (const Member& member : members) {
+    if (member.law.is_null()) sum += member.parameters();
+  }
+  return sum;
+}
+
+}  // namespace dcnn

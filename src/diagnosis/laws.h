@@ -1,0 +1,29 @@
+// Laws without a name, as members of a fit.
+#pragma once
+
+#include "dcnn/discovery/discover.h"
+#include "diagnosis/scan.h"
+
+namespace dcnn {
+
+/// Laws and the members that they are.
+struct Laws {
+  std::vector<discovery::Discovered> found;
+  std::vector<Member> members;
+};
+
+Json law_json(const discovery::Discovered& found, const law::Terms& terms = law::tool_terms());
+
+/// The laws of a residual. Where a number costs more, for laws err by more than the noise (a
+/// machine), so does all that a law must gain, and a form that is not established may be that
+/// error.
+Laws worthy_laws(const Setting& setting, const JointFit& fit);
+
+/// The same where the chain bears out what they promised; else none.
+Laws borne_out(const Setting& setting, const JointFit& names);
+
+int fitted_numbers(const discovery::Discovered& law);
+/// Numbers that were fitted, of laws and of names.
+int numbers_of(const Laws& laws, const std::vector<Member>& members);
+
+}  // namespace dcnn
