@@ -279,6 +279,7 @@ void Search::run() {
   let_ring();
   judge();
   weigh();
+  hold_untold();
 }
 
 }  // namespace dcnn

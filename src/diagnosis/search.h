@@ -153,6 +153,7 @@ class Search {
   bool admit_colour();
   void judge();
   void prefer_fewer_numbers();
+  void hold_untold();
   void keep_what_carries_over();
   double rest_loudness() const;
   std::vector<double> doubts(double little);
