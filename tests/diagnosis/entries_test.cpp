@@ -79,5 +79,23 @@ TEST(Entries, OfCrosstalkAreThoseThatAct) {
   EXPECT_EQ(entries, 1) << report["findings"].dump(1);
 }
 
+// The base of a robot on a wall: its floor is what a free matrix on the gravity that the poses show
+// leaves, else all that the centre of mass makes there is noise.
+TEST(Entries, OfARobotOnAWallAreItsTiltMassAndCentre) {
+  const Json report =
+      Bench(
+          at_rest(
+              {hidden("gravity_tilt", nullptr, {{"tilt_x_rad", 0.0}, {"tilt_y_rad", -1.4}}),
+               hidden("mass", nullptr, {{"delta_mass_kg", 0.3}}),
+               hidden("com", nullptr,
+                      {{"delta_com_x_m", 0.02}, {"delta_com_y_m", 0.0}, {"delta_com_z_m", 0.01}})},
+              17))
+          .diagnose(false)
+          .report;
+  EXPECT_EQ(test::found(report), (std::set<std::string>{"com", "gravity_tilt", "mass"}))
+      << report["findings"].dump(1);
+  EXPECT_LT(report["fit"]["noise_floor"][3].get<double>(), 0.004);
+}
+
 }  // namespace
 }  // namespace dcnn
