@@ -23,6 +23,21 @@ void add_support(const Search& search, const HoldOut& holdout,
   }
 }
 
+/// What evidence and held-out data exclude is no alternative: a share below e^-6 of the whole,
+/// the odds at which a model is no more listed by its chi-square alone (kAsLikely).
+void leave_out_improbable(const Search& search,
+                          std::vector<std::vector<Alternative>>& alternatives) {
+  const double least = elementary::exp(-0.5 * kAsLikely);
+  for (auto& of_member : alternatives) {
+    const auto masses = masses_of(search, of_member);
+    std::vector<Alternative> kept;
+    for (std::size_t k = 0; k < of_member.size(); ++k) {
+      if (masses[k + 1] >= least) kept.push_back(of_member[k]);
+    }
+    of_member = std::move(kept);
+  }
+}
+
 /// Whether another effect is named rather than a member: the likelier by far, held-out data
 /// included; or of two that make the same force the one that the catalogue has first, so that
 /// rounding decides nothing.
@@ -59,6 +74,26 @@ std::vector<std::optional<double>> confidences(const Search& search, const HoldO
   return list;
 }
 
+std::vector<Contradicted> contradicted(const Search& search, const HoldOut& holdout) {
+  const JointFit& fit = search.fit();
+  const Signals with = holdout.prediction(fit.members, fit.base);
+  std::vector<Contradicted> list(fit.members.size());
+  for (std::size_t m = 0; m < fit.members.size(); ++m) {
+    if (fit.members[m].fixed) continue;
+    const JointFit& rest = search.without(m);
+    const auto support = holdout.support_by_channel(
+        with, holdout.prediction(rest.members, rest.base), search.floors());
+    const double before = search.posterior().inclusion(fit.members[m]);
+    for (std::size_t j = 0; j < support.size(); ++j) {
+      const double p = evidence::updated(before, support[j]);
+      if (p >= 0.5) continue;
+      list[m].channels.push_back(j);
+      list[m].probability = std::min(list[m].probability, p);
+    }
+  }
+  return list;
+}
+
 std::vector<double> masses_of(const Search& search, const std::vector<Alternative>& alternatives) {
   // On a machine, whose laws err by more than its noise, a number costs more, and evidence says
   // less.
@@ -89,12 +124,16 @@ std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldO
         }
       }
     }
-    if (!best || round == kMostRounds) return alternatives;
+    if (!best || round == kMostRounds) {
+      leave_out_improbable(search, alternatives);
+      return alternatives;
+    }
     const std::vector<Member> before = search.fit().members;
     const bool remained = search.remains();
     search.adopt(best->members);
     if (remained || !search.remains()) continue;
     search.adopt(before);  // the likelier one leaves what no noise explains
+    leave_out_improbable(search, alternatives);
     return alternatives;
   }
 }

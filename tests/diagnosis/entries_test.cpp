@@ -97,5 +97,27 @@ TEST(Entries, OfARobotOnAWallAreItsTiltMassAndCentre) {
   EXPECT_LT(report["fit"]["noise_floor"][3].get<double>(), 0.004);
 }
 
+// Held-out torques without the offset that those of the fit have.
+TEST(Entries, ThatHeldOutChannelsSpeakAgainstAreNotSure) {
+  Json world = test::configuration(Json::array({hidden("bias", nullptr,
+                                                       {{"delta_bias_x_n", 1.0},
+                                                        {"delta_bias_y_n", -2.0},
+                                                        {"delta_bias_z_n", 3.0},
+                                                        {"delta_bias_tx_nm", 0.2},
+                                                        {"delta_bias_ty_nm", 0.0},
+                                                        {"delta_bias_tz_nm", 0.0}})}));
+  world["simulator"]["tool"]["inertia_kgm2"] = {0.004, 0.004, 0.001, 0.0, 0.0, 0.0};
+  world["force_noise"]["nm"] = 0.005;
+  const Bench bench(world);
+  Recording log = read_recording(bench / "hold.csv", ReadOptions(), System());
+  log.set("tx", log.column("tx").array() - 0.2);
+  write_csv(bench / "hold.csv", log.table);
+  const Json report = bench.diagnose().report;
+  const Json bias = finding(report, "bias");
+  ASSERT_FALSE(bias.is_null()) << report["findings"].dump(1);
+  EXPECT_EQ(bias["against"], Json::array({"tx"}));
+  EXPECT_LT(bias["confidence"].get<double>(), 0.5);
+}
+
 }  // namespace
 }  // namespace dcnn
