@@ -119,5 +119,21 @@ TEST(Entries, ThatHeldOutChannelsSpeakAgainstAreNotSure) {
   EXPECT_LT(bias["confidence"].get<double>(), 0.5);
 }
 
+// No alternative is listed that evidence and held-out data exclude.
+TEST(Entries, HaveNoAlternativesThatAreExcluded) {
+  const Json report =
+      Bench(at_rest({hidden("mass", nullptr, {{"delta_mass_kg", 0.08}}),
+                     hidden("misalignment", nullptr,
+                            {{"rot_x_rad", 0.0}, {"rot_y_rad", 0.03}, {"rot_z_rad", 0.0}})},
+                    24))
+          .diagnose(false)
+          .report;
+  for (const Json& f : report["findings"]) {
+    for (const auto& [name, share] : f.value("shared_with", Json::object()).items()) {
+      EXPECT_GT(share.get<double>(), 1e-3) << name << " in place of " << f["effect"];
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dcnn
