@@ -7,6 +7,7 @@
 #include "dcnn/diagnosis/decision.h"
 #include "diagnosis/evidence/marginal.h"
 #include "diagnosis/evidence/posterior.h"
+#include "diagnosis/evidence/priors.h"
 
 namespace dcnn {
 namespace {
@@ -52,13 +53,22 @@ bool goes_before(const Alternative& other, const Member& own, double odds) {
          (std::abs(odds - 1.0) < kSame && place(other.name) < place(own.name()));
 }
 
+/// What a probability from the fitted rows counts where held-out data say something. A machine
+/// leaves far more than its noise there, of which every law explains a part: that one fits is
+/// little evidence that it acts.
+double before_held_out(double before, const Search& search, double log_support) {
+  const bool open = search.study().axis && log_support != 0.0;
+  return open ? std::min(before, evidence::prior::kFittedOnMachine) : before;
+}
+
 }  // namespace
 
 double supported(double before, const Search& search, const HoldOut& holdout, const Signals& with,
                  std::size_t member) {
   const JointFit& rest = search.without(member);
   const Signals without = holdout.prediction(rest.members, rest.base);
-  return evidence::updated(before, holdout.log_support(with, without, search.floors()));
+  const double support = holdout.log_support(with, without, search.floors());
+  return evidence::updated(before_held_out(before, search, support), support);
 }
 
 std::vector<std::optional<double>> confidences(const Search& search, const HoldOut& holdout) {
@@ -149,10 +159,11 @@ double together(const Search& search, const HoldOut& holdout) {
   if (others.size() == fit.members.size()) return 1.0;
   const JointFit none = joint_fit(search.setting(), others);
   const evidence::Posterior& before = search.posterior();
-  return evidence::updated(
-      before.named + before.named_and_unknown,
+  const double support =
       holdout.log_support(holdout.prediction(fit.members, fit.base),
-                          holdout.prediction(none.members, none.base), search.floors()));
+                          holdout.prediction(none.members, none.base), search.floors());
+  return evidence::updated(
+      before_held_out(before.named + before.named_and_unknown, search, support), support);
 }
 
 std::optional<std::size_t> least_of(const std::vector<std::optional<double>>& probabilities) {
