@@ -280,6 +280,7 @@ void Search::run() {
   judge();
   weigh();
   hold_untold();
+  straighten_drifts();
 }
 
 }  // namespace dcnn
