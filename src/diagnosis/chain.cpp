@@ -89,6 +89,7 @@ Chain::Stages Chain::prepare(const Log& log, const std::vector<EffectSpec>& effe
 Eigen::MatrixXd Chain::finish(const Log& log, const Stages& stages, Wrench wrench,
                               const std::vector<EffectSpec>& effects) const {
   study_.work->add(log.motion.samples(), effects.size());
+  if (log.motion.of_axis) wrench.load = stages.load;  // of which a machine's scale is off
   if (study_.without.exact_operators) {
     linear_lags(effects, log.motion, stages.model, wrench);
   } else {

@@ -7,6 +7,7 @@
 #include "dcnn/diagnosis/decision.h"
 #include "diagnosis/evidence/marginal.h"
 #include "diagnosis/evidence/posterior.h"
+#include "diagnosis/evidence/priors.h"
 
 namespace dcnn {
 namespace {
@@ -20,6 +21,21 @@ void add_support(const Search& search, const HoldOut& holdout,
       other.log_support =
           holdout.log_support(holdout.prediction(other.members, other.base), own, search.floors());
     }
+  }
+}
+
+/// What evidence and held-out data exclude is no alternative: a share below e^-6 of the whole,
+/// the odds at which a model is no more listed by its chi-square alone (kAsLikely).
+void leave_out_improbable(const Search& search,
+                          std::vector<std::vector<Alternative>>& alternatives) {
+  const double least = elementary::exp(-0.5 * kAsLikely);
+  for (auto& of_member : alternatives) {
+    const auto masses = masses_of(search, of_member);
+    std::vector<Alternative> kept;
+    for (std::size_t k = 0; k < of_member.size(); ++k) {
+      if (masses[k + 1] >= least) kept.push_back(of_member[k]);
+    }
+    of_member = std::move(kept);
   }
 }
 
@@ -37,13 +53,22 @@ bool goes_before(const Alternative& other, const Member& own, double odds) {
          (std::abs(odds - 1.0) < kSame && place(other.name) < place(own.name()));
 }
 
+/// What a probability from the fitted rows counts where held-out data say something. A machine
+/// leaves far more than its noise there, of which every law explains a part: that one fits is
+/// little evidence that it acts.
+double before_held_out(double before, const Search& search, double log_support) {
+  const bool open = search.study().axis && log_support != 0.0;
+  return open ? std::min(before, evidence::prior::kFittedOnMachine) : before;
+}
+
 }  // namespace
 
 double supported(double before, const Search& search, const HoldOut& holdout, const Signals& with,
                  std::size_t member) {
   const JointFit& rest = search.without(member);
   const Signals without = holdout.prediction(rest.members, rest.base);
-  return evidence::updated(before, holdout.log_support(with, without, search.floors()));
+  const double support = holdout.log_support(with, without, search.floors());
+  return evidence::updated(before_held_out(before, search, support), support);
 }
 
 std::vector<std::optional<double>> confidences(const Search& search, const HoldOut& holdout) {
@@ -55,6 +80,26 @@ std::vector<std::optional<double>> confidences(const Search& search, const HoldO
     if (fit.members[m].fixed) continue;
     const double before = search.posterior().inclusion(fit.members[m]);
     list.back() = supported(before, search, holdout, with, m);
+  }
+  return list;
+}
+
+std::vector<Contradicted> contradicted(const Search& search, const HoldOut& holdout) {
+  const JointFit& fit = search.fit();
+  const Signals with = holdout.prediction(fit.members, fit.base);
+  std::vector<Contradicted> list(fit.members.size());
+  for (std::size_t m = 0; m < fit.members.size(); ++m) {
+    if (fit.members[m].fixed) continue;
+    const JointFit& rest = search.without(m);
+    const auto support = holdout.support_by_channel(
+        with, holdout.prediction(rest.members, rest.base), search.floors());
+    const double before = search.posterior().inclusion(fit.members[m]);
+    for (std::size_t j = 0; j < support.size(); ++j) {
+      const double p = evidence::updated(before, support[j]);
+      if (p >= 0.5) continue;
+      list[m].channels.push_back(j);
+      list[m].probability = std::min(list[m].probability, p);
+    }
   }
   return list;
 }
@@ -89,12 +134,16 @@ std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldO
         }
       }
     }
-    if (!best || round == kMostRounds) return alternatives;
+    if (!best || round == kMostRounds) {
+      leave_out_improbable(search, alternatives);
+      return alternatives;
+    }
     const std::vector<Member> before = search.fit().members;
     const bool remained = search.remains();
     search.adopt(best->members);
     if (remained || !search.remains()) continue;
     search.adopt(before);  // the likelier one leaves what no noise explains
+    leave_out_improbable(search, alternatives);
     return alternatives;
   }
 }
@@ -110,10 +159,17 @@ double together(const Search& search, const HoldOut& holdout) {
   if (others.size() == fit.members.size()) return 1.0;
   const JointFit none = joint_fit(search.setting(), others);
   const evidence::Posterior& before = search.posterior();
-  return evidence::updated(
-      before.named + before.named_and_unknown,
+  const double support =
       holdout.log_support(holdout.prediction(fit.members, fit.base),
-                          holdout.prediction(none.members, none.base), search.floors()));
+                          holdout.prediction(none.members, none.base), search.floors());
+  return evidence::updated(
+      before_held_out(before.named + before.named_and_unknown, search, support), support);
+}
+
+/// Rather wrong than right; held-out data that hardly tell refute nothing.
+bool is_refuted(double probability) {
+  constexpr double kNothingSaid = 0.01;  // of even odds
+  return probability < 0.5 - kNothingSaid;
 }
 
 std::optional<std::size_t> least_of(const std::vector<std::optional<double>>& probabilities) {
@@ -128,7 +184,7 @@ std::optional<std::size_t> least_of(const std::vector<std::optional<double>>& pr
 
 std::optional<std::size_t> refuted_of(const std::vector<std::optional<double>>& probabilities) {
   const auto least = least_of(probabilities);
-  return least && *probabilities[*least] < 0.5 ? least : std::nullopt;
+  return least && is_refuted(*probabilities[*least]) ? least : std::nullopt;
 }
 
 Json leave_refuted(Search& search, const HoldOut& holdout) {
@@ -136,7 +192,7 @@ Json leave_refuted(Search& search, const HoldOut& holdout) {
   while (true) {
     const auto likely = confidences(search, holdout);
     auto worst = refuted_of(likely);
-    if (!worst && together(search, holdout) < 0.5) worst = least_of(likely);
+    if (!worst && is_refuted(together(search, holdout))) worst = least_of(likely);
     if (!worst) return refuted;
     const Member& member = search.fit().members[*worst];
     refuted.push_back({{"effect", member.name()},

@@ -15,6 +15,14 @@ double supported(double before, const Search& search, const HoldOut& holdout, co
 /// is fixed none: a test of its own found it.
 std::vector<std::optional<double>> confidences(const Search& search, const HoldOut& holdout);
 
+/// Channels in which held-out data speak against a member that all channels together bear out, and
+/// how probable it is by the one that does so most: a law holds in every channel or is another.
+struct Contradicted {
+  std::vector<std::size_t> channels;
+  double probability = 1.0;
+};
+std::vector<Contradicted> contradicted(const Search& search, const HoldOut& holdout);
+
 /// The member that is least probable, if it is rather wrong than right.
 std::optional<std::size_t> refuted_of(const std::vector<std::optional<double>>& probabilities);
 

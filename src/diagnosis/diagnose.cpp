@@ -170,7 +170,13 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   }
   // Names that were found beside laws, or in the place of one.
   for (const Json& name : leave_refuted(search, holdout)) refuted_names.push_back(name);
-  const auto alternatives = adopt_likelier(search, holdout);
+  auto alternatives = adopt_likelier(search, holdout);
+  // What took a name's place is judged as that was; each round leaves one name fewer.
+  for (Json more = leave_refuted(search, holdout); !more.empty();
+       more = leave_refuted(search, holdout)) {
+    for (const Json& name : more) refuted_names.push_back(name);
+    alternatives = adopt_likelier(search, holdout);
+  }
   const Case& study = search.study();
   const JointFit &fit = search.fit(), given = joint_fit(search.setting(), {});
 

@@ -29,6 +29,7 @@ class Writer {
     const auto numbers = estimates(search_.setting(), fit);
     const bool held = !holdout_.empty();
     const auto likely = confidences(search_, holdout_);
+    const auto against = contradicted(search_, holdout_);
     const double after = held ? holdout_.mean_rmse(fit.members, fit.base) : 0.0;
     Json list = Json::array();
     for (std::size_t m = 0; m < fit.members.size(); ++m) {
@@ -46,7 +47,10 @@ class Writer {
       }
       if (!member.fixed) {
         entry["p_value"] = flip_p_value(search_.setting(), fit, m);
-        share(*likely[m], alternatives[m], entry);
+        share(std::min(*likely[m], against[m].probability), alternatives[m], entry);
+      }
+      for (const std::size_t j : against[m].channels) {
+        entry["against"].push_back(search_.study().targets[j]);
       }
       entry["holdout_gain"] = nullptr;
       if (held) {

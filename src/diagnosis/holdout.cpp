@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "diagnosis/axis_case.h"
-#include "diagnosis/evidence/support.h"
 
 namespace dcnn {
 namespace {
 
 constexpr double kPiece = 5.0, kGuard = 0.5, kEnds = 0.5;  // s
-constexpr double kErrorBlock = 1.0;                        // s, over which errors count as one
 constexpr int kEvery = 5;
 constexpr Index kLeastPoses = 10;  // 8 remain to fit to, as many as their floor needs
 
@@ -245,34 +242,6 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
     }
   }
   return worst;
-}
-
-double HoldOut::log_support(const Signals& a, const Signals& b,
-                            const std::vector<Floor>& floors) const {
-  std::vector<double> deviation;
-  for (const Floor& floor : floors) deviation.push_back(floor.whole_deviation());
-  std::map<std::pair<std::size_t, std::int64_t>, evidence::BlockChange> blocks;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    const Log& log = study_.logs[k];
-    for (Index i = 0; i < a[k].rows(); ++i) {
-      if (!held_[k][static_cast<std::size_t>(i)]) continue;
-      const auto number =
-          log.motion.is_static()
-              ? i
-              : static_cast<std::int64_t>(std::floor(log.motion.t(i) / kErrorBlock));
-      evidence::BlockChange& block = blocks[{k, number}];
-      for (Index j = 0; j < a[k].cols(); ++j) {
-        const double s = deviation[static_cast<std::size_t>(j)];
-        const double with_it = (log.measured(i, j) - a[k](i, j)) / s,
-                     without_it = (log.measured(i, j) - b[k](i, j)) / s;
-        block.fall += without_it * without_it - with_it * with_it;
-        block.apart += (without_it - with_it) * (without_it - with_it);
-      }
-    }
-  }
-  std::vector<evidence::BlockChange> list;
-  for (const auto& [key, block] : blocks) list.push_back(block);
-  return evidence::log_support(list);
 }
 
 std::vector<HeldOut> HoldOut::records(const JointFit& first, const JointFit& last) const {

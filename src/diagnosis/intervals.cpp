@@ -128,6 +128,23 @@ void widen_over_hollows(const Setting& setting, const JointFit& fit, std::size_t
   }
 }
 
+/// Of numbers that are held at zero: the interval in which the recordings leave each.
+void widen_held(const Member& member, const std::vector<std::string>& names,
+                std::vector<Estimate>& numbers) {
+  for (const Member::Held& held : member.held) {
+    for (const double end : {held.low, held.high}) {
+      Member moved = member;
+      moved.amplitudes(held.amplitude) = end;
+      const Eigen::VectorXd values = published(moved, names);
+      for (std::size_t k = 0; k < numbers.size(); ++k) {
+        if (numbers[k].value != 0.0) continue;
+        numbers[k].low = std::min(numbers[k].low, values(static_cast<Index>(k)));
+        numbers[k].high = std::max(numbers[k].high, values(static_cast<Index>(k)));
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::vector<Estimate>> estimates(const Setting& setting, const JointFit& fit) {
@@ -166,6 +183,7 @@ std::vector<std::vector<Estimate>> estimates(const Setting& setting, const Joint
           interval_of(names[k], values(at), known ? kSelection * widest->deviation(at) : 0.0,
                       known && is_logarithmic(member, *widest, at, is_strength[k])));
     }
+    widen_held(member, names, all.back());
     const bool is_mode = member.name() == "flexible_resonance";
     if (is_mode && !setting.study.without.refinement) {
       widen_over_hollows(setting, fit, m, all.back());

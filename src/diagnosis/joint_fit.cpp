@@ -225,6 +225,10 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   bool shapes_stay = setting.study.without.refinement;
   for (int step = 0; step < kMostSteps; ++step) {
     fit.tangent.leftCols(free) = derivatives(setting, *chain, coordinates, here);
+    for (Index k = 0; k < free; ++k) {
+      const Coordinate& c = coordinates[static_cast<std::size_t>(k)];
+      if (!c.is_shape && chain->members()[c.member].is_held(c.index)) fit.tangent.col(k).setZero();
+    }
     if (free == 0) break;
     // A number that the base simulator has too, as the rest of a spring beside a constant.
     const Eigen::MatrixXd off =

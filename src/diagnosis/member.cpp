@@ -12,6 +12,22 @@ bool same_family(const Member& a, const Member& b) {
   return a.axis == b.axis && std::string_view(a.kind->kind) == b.kind->kind;
 }
 
+bool Member::is_held(Index amplitude) const {
+  return std::any_of(held.begin(), held.end(),
+                     [amplitude](const Held& h) { return h.amplitude == amplitude; });
+}
+
+void Member::hold(Index amplitude, double low, double high) {
+  amplitudes(amplitude) = 0.0;
+  held.push_back({amplitude, low, high});
+}
+
+bool has_entries(const Member& member) {
+  const Stage stage = member.kind->stage;
+  const bool vector = stage == Stage::kTool || stage == Stage::kSensor || stage == Stage::kOffset;
+  return vector && !member.fixed && !member.form->non_negative && member.amplitudes.size() > 1;
+}
+
 int Member::parameters() const {
   const int ends = !interval_s ? 0 : kind->interval == IntervalRule::kOnset ? 1 : 2;
   const auto fitted = (amplitudes.array() != 0.0).count();  // a component nothing measures stays 0

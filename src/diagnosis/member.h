@@ -28,6 +28,16 @@ struct Member {
   /// (dcnn/physics/law.h). Its one amplitude multiplies that size.
   Json law = nullptr, law_parameters = nullptr;
 
+  /// An amplitude that is held at zero because the recordings do not tell it, with the interval in
+  /// which they leave it.
+  struct Held {
+    Index amplitude;
+    double low, high;
+  };
+  std::vector<Held> held;
+  bool is_held(Index amplitude) const;
+  void hold(Index amplitude, double low, double high);
+
   std::string name() const { return kind->name; }
   /// Numbers that a joint fit moves.
   Eigen::Index coordinates() const {
@@ -41,6 +51,9 @@ struct Member {
 /// A shape as far as it goes: the law bends less, or more, than any of its kind, and another that
 /// has no such shape may do.
 bool is_degenerate(const Member& member);
+
+/// Whether a member's amplitudes are entries of a vector or matrix, each of which may be zero.
+bool has_entries(const Member& member);
 
 /// Laws of one kind (friction, drift, …) that act along the same axis.
 bool same_family(const Member& a, const Member& b);

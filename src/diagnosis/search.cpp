@@ -279,6 +279,8 @@ void Search::run() {
   let_ring();
   judge();
   weigh();
+  hold_untold();
+  straighten_drifts();
 }
 
 }  // namespace dcnn

@@ -155,6 +155,8 @@ class Search {
   bool admit_colour();
   void judge();
   void prefer_fewer_numbers();
+  void hold_untold();
+  void straighten_drifts();
   void keep_what_carries_over();
   double rest_loudness() const;
   std::vector<double> doubts(double little);
@@ -200,6 +202,10 @@ class Search {
   bool tuned_ = false;    // the smoother, to a mode
   bool ringing_ = false;  // what shakes the motion unseen rings in the modes that were found
 };
+
+/// Whether a drift is among the members of which the recordings tell no time constant: its 95 %
+/// interval spans two decades.
+bool has_untold_drift(const Setting& setting, const JointFit& fit);
 
 /// measured - predicted per recording, of one that was zeroed without its mean.
 Signals difference(const Case& study, const Signals& prediction);

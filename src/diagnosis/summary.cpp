@@ -94,6 +94,20 @@ bool is_without_effect(const Json& finding) {
   return !gain.is_null() && std::abs(gain.get<double>()) < kLeastGain;
 }
 
+/// " (held-out tx and tz speak against it)", of a finding that other channels bear out.
+std::string against(const Json& finding) {
+  const Json channels = finding.value("against", Json::array());
+  if (channels.empty()) return "";
+  std::string names;
+  for (std::size_t k = 0; k < channels.size(); ++k) {
+    names += (k == 0                    ? ""
+              : k + 1 < channels.size() ? ", "
+                                        : " and ") +
+             channels[k].get<std::string>();
+  }
+  return " (held-out " + names + (channels.size() == 1 ? " speaks" : " speak") + " against it)";
+}
+
 struct Missing {
   std::string words;   ///< findings and what has no name
   std::string others;  ///< findings of which the held-out error does not tell
@@ -104,7 +118,7 @@ Missing what_is_missing(const Json& report) {
   std::string text, others;
   for (const Json& finding : in_lines(report["findings"])) {
     std::string& list = is_without_effect(finding) ? others : text;
-    list += (list.empty() ? "" : "; ") + finding["words"].get<std::string>();
+    list += (list.empty() ? "" : "; ") + finding["words"].get<std::string>() + against(finding);
   }
   if (!report["unnamed"]["words"].is_null()) {
     text += (text.empty() ? "" : "; and ") + report["unnamed"]["words"].get<std::string>();

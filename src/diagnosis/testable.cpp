@@ -56,6 +56,9 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
   if ((name == "com" || name == "inertial_terms") && study.is_static() && !study.has_torque()) {
     return because("at rest the force does not depend on it");
   }
+  if (name == "gain" && study.axis && !study.logs.front().regressors.empty()) {
+    return because("the coefficients of the base simulator are fitted, and a scale is in them");
+  }
   if (name == "bias" && has_own_offsets(study)) {
     return because("each recording has an offset of its own (zeroed)");
   }

@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "core/elementary.h"
 #include "dcnn/data/rotation.h"
 #include "identification/estimates.h"
+#include "identification/upright.h"
 #include "physics/foreign_force.h"
 
 namespace dcnn {
@@ -77,6 +79,19 @@ void note_foreign_force(ToolIdentification& result) {
   if (!note.empty()) result.notes.push_back(note);
 }
 
+/// Gravity of the base as it is logged, where another frame was upright.
+void set_vertical(const Eigen::Matrix3d& turn, ToolIdentification& result) {
+  result.model.gravity = turn.transpose() * result.model.gravity;
+  const Eigen::Vector3d down = result.model.gravity.normalized();
+  char line[200];
+  std::snprintf(
+      line, sizeof line,
+      "the base is not upright: gravity points along (%.2f, %.2f, %.2f) of its axes, %.0f "
+      "degrees from -z (a robot on a wall or a ceiling)",
+      down.x(), down.y(), down.z(), elementary::acos(-down.z()) * 180.0 / M_PI);
+  result.notes.push_back(line);
+}
+
 void add_notes(const std::vector<WristLog>& logs, const WristState& point, bool mounting_estimated,
                ToolIdentification& result) {
   for (const WristLog& log : logs) {
@@ -108,6 +123,11 @@ ToolIdentification identify_tool(const IdentifyRequest& request) {
   identification::FitOptions options;
   options.laws = request.laws;
   if (request.mounting_rpy) options.R_ES = rotation_from_euler(request.mounting_rpy->reverse());
+  const auto turn =
+      identification::upright_turn(logs, options.R_ES.value_or(Eigen::Matrix3d::Identity()));
+  for (WristLog& log : logs) {
+    if (turn) identification::turn_base(*turn, log);
+  }
   const WristFit fit = identification::fit_wrist(logs, options);
   Rng rng({0x6964656e74696679ULL});
   const auto draws = identification::draw_states(fit, kDraws, rng);
@@ -136,6 +156,7 @@ ToolIdentification identify_tool(const IdentifyRequest& request) {
     result.targets.insert(result.targets.end(), {"tx", "ty", "tz"});
     result.units.insert(result.units.end(), {"N*m", "N*m", "N*m"});
   }
+  if (turn) set_vertical(*turn, result);
   add_notes(logs, point, fit.layout.mounting, result);
   note_foreign_force(result);
   return result;

@@ -101,6 +101,7 @@ class ForwardRun {
     instant.v_B[0] = state.v;
     instant.a_B[0] = state.a;
     InstantWrench wrench;
+    wrench.of_axis = true;
     wrench.force[0] = wrench.load[0] =
         -law_.sense * (law_.inertia * state.a + law_.damping * state.v + law_.stiffness * state.q +
                        law_.constant);

@@ -93,7 +93,7 @@ void pass_on(const std::vector<EffectSpec>& effects, Stage first, const Motion& 
     const EffectKind* kind = find_effect(effect.effect);
     return kind && kind->of_load;
   });
-  if (of_load && first == Stage::kForce) wrench.load = wrench.force;
+  if ((of_load || motion.of_axis) && first == Stage::kForce) wrench.load = wrench.force;
   for (int s = static_cast<int>(first); s <= static_cast<int>(Stage::kQuantisation); ++s) {
     const auto stage = static_cast<Stage>(s);
     if (stage == Stage::kOffset) {

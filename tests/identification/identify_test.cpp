@@ -130,6 +130,22 @@ TEST(Identify, PosesAtRestWithIrregularTimesAreNoMotion) {
 }
 
 // Seven poses of another day: their offset is theirs, and no noise.
+// A robot on a wall: gravity along the base's x axis, and nobody said so.
+TEST(Identify, ARobotOnAWallIsFoundToBeOnOne) {
+  Setting s;
+  s.simulator["sensor"].erase("rotation_rpy");
+  s.simulator["gravity_mps2"] = {9.7, 0.0, -1.466};
+  s.path = {{"kind", "static"}, {"angle_rad", {1.5, 1.2, 1.5}}, {"angle_center_rad", {0, 0, 0}}};
+  s.samples = 24;
+  const ToolIdentification id = identified(s);
+  EXPECT_NEAR(number(id, "mass_kg").value, 0.75, 0.02);
+  EXPECT_NEAR(number(id, "com_z_m").value, 0.16, 0.005);
+  EXPECT_LT((id.model.gravity - Eigen::Vector3d(9.7, 0.0, -1.466)).norm(), 0.3);
+  bool said = false;
+  for (const auto& note : id.notes) said |= note.find("not upright") != std::string::npos;
+  EXPECT_TRUE(said);
+}
+
 TEST(Identify, AFewPosesWithAnotherOffsetHaveOneOfTheirOwn) {
   const test::TemporaryFolder folder;
   const Table table = poses_with_times();

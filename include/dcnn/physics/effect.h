@@ -39,6 +39,7 @@ struct Instant {
 struct InstantWrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
   Eigen::Vector3d load = Eigen::Vector3d::Zero();  ///< as Wrench::load
+  bool of_axis = false;                            ///< as Motion::of_axis
 };
 
 /// An effect that runs sample by sample; it owns its state, and calling it allocates nothing.

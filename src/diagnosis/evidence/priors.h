@@ -38,4 +38,7 @@ constexpr double kEdge = 0.2;
 /// and taken off every name. A search meets no more than it looks for.
 constexpr double kElsewhere = 0.04;
 
+/// Of a name that fits a machine's recordings, before held-out data: even odds.
+constexpr double kFittedOnMachine = 0.5;
+
 }  // namespace dcnn::evidence::prior

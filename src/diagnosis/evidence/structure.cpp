@@ -47,6 +47,16 @@ double log_sphere(Index d, bool one_sided) {
          (one_sided ? static_cast<double>(d) * elementary::log(2.0) : 0.0);
 }
 
+/// ln of n C(n, k): of how many ways k of n numbers are one, each count as likely as another.
+double log_choices(Index n, Index k) {
+  double sum = elementary::log(static_cast<double>(n));
+  for (Index i = 1; i <= k; ++i) {
+    sum +=
+        elementary::log(static_cast<double>(n - k + i)) - elementary::log(static_cast<double>(i));
+  }
+  return sum;
+}
+
 /// ln of the prior density of a member's numbers at their estimates.
 double log_prior(const Setting& setting, const JointFit& fit, std::size_t m) {
   const Member& member = fit.members[m];
@@ -59,11 +69,18 @@ double log_prior(const Setting& setting, const JointFit& fit, std::size_t m) {
   }
   const auto [first, count] = tangent_columns(fit, m);
   if (count == 0) return sum;
-  const Index d = member.amplitudes.size();
+  std::vector<Index> open;  // amplitudes that are not held at zero
+  for (Index i = 0; i < member.amplitudes.size(); ++i) {
+    if (!member.is_held(i)) open.push_back(i);
+  }
+  const auto d = static_cast<Index>(open.size());
+  // Which of the entries act: any number of them alike, and any choice of so many.
+  if (!member.held.empty()) sum -= log_choices(member.amplitudes.size(), d);
   if (d > 0) {
-    const Eigen::MatrixXd columns = fit.tangent.middleCols(first, d);
+    const Eigen::MatrixXd own = fit.tangent.middleCols(first, member.amplitudes.size());
+    const Eigen::MatrixXd columns = own(Eigen::all, open);
     const Eigen::MatrixXd gram = columns.transpose() * columns;
-    const double norm = std::sqrt(std::max(1.0, (columns * member.amplitudes).squaredNorm()));
+    const double norm = std::sqrt(std::max(1.0, (own * member.amplitudes).squaredNorm()));
     Linear metric{gram, Eigen::VectorXd::Zero(d), 0.0, Eigen::VectorXd::Zero(d)};
     sum +=
         0.5 * log_determinant(metric) - elementary::log(prior::kDecades * elementary::log(10.0)) -

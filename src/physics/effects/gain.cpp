@@ -3,15 +3,27 @@
 namespace dcnn::effects::gain {
 namespace {
 
-void apply(Wrench& wrench, const Motion&, const EffectSpec&, const ToolModel&,
+void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolModel&,
            Options& parameters) {
   const Eigen::Vector3d k = parameters3(parameters, "gain", "");
-  wrench.force *= (1.0 + k.array()).matrix().asDiagonal();
+  // Of an axis of another machine it is the scale of the simulated part alone: every other effect
+  // is in units of the reading.
+  if (!motion.of_axis) {
+    wrench.force *= (1.0 + k.array()).matrix().asDiagonal();
+  } else if (wrench.load.rows() == wrench.force.rows()) {
+    wrench.force += wrench.load * k.asDiagonal();
+  }
 }
 
 EffectStream stream(const EffectSpec&, Options& parameters) {
   const Eigen::Vector3d scale = parameters3(parameters, "gain", "").array() + 1.0;
-  return [scale](InstantWrench& wrench, const Instant&) { wrench.force.array() *= scale.array(); };
+  return [scale](InstantWrench& wrench, const Instant&) {
+    if (wrench.of_axis) {
+      wrench.force.array() += (scale.array() - 1.0) * wrench.load.array();
+    } else {
+      wrench.force.array() *= scale.array();
+    }
+  };
 }
 
 }  // namespace

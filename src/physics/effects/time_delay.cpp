@@ -135,12 +135,14 @@ const EffectKind effect{
     .needs_time = TimeNeed::kMotion,
     .apply = apply,
     .stream = stream,
-    .fits = {{.shapes = {{"delay", 2e-5, 1.0, {1.5e-4, 0.001, 0.004, 0.02}}},
+    // Seeds reach to half a second, each within a factor of three of the next, for a search ends at
+    // the nearest turn of the motion; the one in the middle of the list stands for the least size.
+    .fits = {{.shapes = {{"delay", 2e-5, 1.0, {1.5e-4, 0.001, 0.02, 0.004, 0.06, 0.15, 0.4}}},
               .parameters =
                   [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {
                     return Json{{"delay_s", s(0)}};
                   }},
-             {.shapes = {{"lead", 2e-5, 0.2, {0.001, 0.004, 0.02}}},
+             {.shapes = {{"lead", 2e-5, 0.6, {0.001, 0.02, 0.06, 0.004, 0.15, 0.4}}},
               .parameters =
                   [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {
                     return Json{{"delay_s", -s(0)}};

@@ -1,0 +1,58 @@
+// What held-out data say of two predictions, over all channels and in each.
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "diagnosis/evidence/support.h"
+#include "diagnosis/holdout.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kErrorBlock = 1.0;  // s, over which errors count as one
+
+}  // namespace
+
+std::vector<double> HoldOut::support_by_channel(const Signals& a, const Signals& b,
+                                                const std::vector<Floor>& floors) const {
+  std::vector<double> list;
+  for (Index j = 0; j < study_.channel_count(); ++j) list.push_back(support_of({j}, a, b, floors));
+  return list;
+}
+
+double HoldOut::log_support(const Signals& a, const Signals& b,
+                            const std::vector<Floor>& floors) const {
+  std::vector<Index> all(static_cast<std::size_t>(study_.channel_count()));
+  std::iota(all.begin(), all.end(), 0);
+  return support_of(all, a, b, floors);
+}
+
+double HoldOut::support_of(const std::vector<Index>& channels, const Signals& a, const Signals& b,
+                           const std::vector<Floor>& floors) const {
+  std::vector<double> deviation;
+  for (const Floor& floor : floors) deviation.push_back(floor.whole_deviation());
+  std::map<std::pair<std::size_t, std::int64_t>, evidence::BlockChange> blocks;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const Log& log = study_.logs[k];
+    for (Index i = 0; i < a[k].rows(); ++i) {
+      if (!held_[k][static_cast<std::size_t>(i)]) continue;
+      const auto number =
+          log.motion.is_static()
+              ? i
+              : static_cast<std::int64_t>(std::floor(log.motion.t(i) / kErrorBlock));
+      evidence::BlockChange& block = blocks[{k, number}];
+      for (const Index j : channels) {
+        const double s = deviation[static_cast<std::size_t>(j)];
+        const double with_it = (log.measured(i, j) - a[k](i, j)) / s,
+                     without_it = (log.measured(i, j) - b[k](i, j)) / s;
+        block.fall += without_it * without_it - with_it * with_it;
+        block.apart += (without_it - with_it) * (without_it - with_it);
+      }
+    }
+  }
+  std::vector<evidence::BlockChange> list;
+  for (const auto& [key, block] : blocks) list.push_back(block);
+  return evidence::log_support(list);
+}
+
+}  // namespace dcnn

@@ -1,0 +1,78 @@
+// A drift of which the recordings do not tell the time constant is told as what they do tell.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "diagnosis/candidates.h"
+#include "diagnosis/search.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kKnownFactor = 10.0;  // factor either way, beyond which a shape is not known
+
+constexpr double kAtEnd = 1e-3;  // of a shape: tolerance of a bound
+
+/// Whether a 95 % interval of a number that must be positive, as a time constant, spans two
+/// decades.
+bool spans_decades(const Estimate& number) {
+  return number.value > 0.0 &&
+         number.high > kKnownFactor * kKnownFactor * std::max(0.0, number.low);
+}
+
+/// An offset that settles with the clock.
+bool settles(const Member& member) { return member.kind == find_effect("thermal_drift"); }
+
+bool is_untold(const Member& member, const std::vector<Estimate>& numbers) {
+  if (!settles(member) || member.fixed || member.interval_s) return false;
+  for (std::size_t i = 0; i < member.form->shapes.size(); ++i) {
+    const ShapeParameter& shape = member.form->shapes[i];
+    const auto at = static_cast<Index>(i);
+    // Fitted to an end of its range: a constant settles at once, a line never.
+    const double ratio = member.shapes(at) / member.least_shapes(at);
+    if (shape.low > 0.0 && (ratio < 1.0 + kAtEnd || is_degenerate(member))) return true;
+    for (const Estimate& number : numbers) {
+      const bool own = number.name.starts_with(std::string(shape.name) + "_");
+      if (own && shape.low > 0.0 && spans_decades(number)) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+bool has_untold_drift(const Setting& setting, const JointFit& fit) {
+  if (std::none_of(fit.members.begin(), fit.members.end(), settles)) return false;
+  const auto numbers = estimates(setting, fit);
+  for (std::size_t m = 0; m < fit.members.size(); ++m) {
+    if (is_untold(fit.members[m], numbers[m])) return true;
+  }
+  return false;
+}
+
+/// An offset that settles within an unknown time is a constant where it settles at once, a line
+/// where it settles after the recording: whichever of the two leaves less.
+void Search::straighten_drifts() {
+  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+    if (!has_untold_drift(*setting_, fit_)) return;
+    if (!is_untold(fit_.members[m], estimates(*setting_, fit_)[m])) continue;
+    std::optional<JointFit> best;
+    for (const char* name : {"bias", "linear_drift"}) {
+      const EffectKind& kind = *find_effect(name);
+      if (!is_listed(study_, kind) || !is_testable(study_, kind)) continue;
+      std::vector<Member> members = members_without(m);
+      const bool there = std::any_of(members.begin(), members.end(),
+                                     [&](const Member& other) { return other.kind == &kind; });
+      if (!there)
+        members.push_back(make_member(study_, kind, kind.fits[0], "", Eigen::VectorXd(0)));
+      JointFit other = joint_fit(*setting_, std::move(members));
+      if (!best || other.chi2 < best->chi2) best = std::move(other);
+    }
+    if (!best) continue;
+    settle(std::vector<Member>(best->members));
+    weigh_once();
+    m = static_cast<std::size_t>(-1);  // from the first again
+  }
+}
+
+}  // namespace dcnn
