@@ -93,7 +93,9 @@ std::vector<Contradicted> contradicted(const Search& search, const HoldOut& hold
     const JointFit& rest = search.without(m);
     const auto support = holdout.support_by_channel(
         with, holdout.prediction(rest.members, rest.base), search.floors());
-    const double before = search.posterior().inclusion(fit.members[m]);
+    // A channel in which the name makes no force says nothing of it, whatever the odds before.
+    const double inclusion = search.posterior().inclusion(fit.members[m]);
+    const double before = std::max(inclusion, supported(inclusion, search, holdout, with, m));
     for (std::size_t j = 0; j < support.size(); ++j) {
       const double p = evidence::updated(before, support[j]);
       if (p >= 0.5) continue;
