@@ -179,8 +179,9 @@ std::vector<Floor> HoldOut::floors(const Search& search) const {
   const std::vector<double> errors = rmse(search.fit().members, search.fit().base);
   for (std::size_t j = 0; j < floors.size(); ++j) {
     const double share = std::min(1.0, errors[j] / std::max(1e-300, floors[j].deviation()));
-    for (double* part : {&floors[j].white, &floors[j].coloured, &floors[j].flicker,
-                         &floors[j].markov, &floors[j].lines, &floors[j].rounding}) {
+    for (double* part :
+         {&floors[j].white, &floors[j].coloured, &floors[j].filtered, &floors[j].flicker,
+          &floors[j].markov, &floors[j].lines, &floors[j].rounding}) {
       *part *= share * share;
     }
   }

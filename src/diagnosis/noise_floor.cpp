@@ -26,6 +26,12 @@ double ar_shape(double rho, double hz, double dt) {
          (1.0 - 2.0 * rho * elementary::cos(2.0 * std::numbers::pi * hz * dt) + rho * rho);
 }
 
+/// Power gain of a second-order Butterworth filter.
+double filter_shape(double cutoff_hz, double hz) {
+  const double r = hz / cutoff_hz;
+  return 1.0 / (1.0 + r * r * r * r);
+}
+
 /// Variance of white noise with these second differences.
 double variance_of_differences(const Signals& signals, Index channel) {
   double sum = 0.0, count = 0.0;
@@ -111,6 +117,16 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
     }
   }
   const double top = 0.5 / dt;
+  for (double cutoff = 1.2 * hz(0); cutoff < 0.8 * top; cutoff *= 1.15) {
+    for (const double share : {0.0, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3}) {
+      const Eigen::VectorXd shape =
+          hz.unaryExpr([&](double f) { return share + (1.0 - share) * filter_shape(cutoff, f); });
+      consider(shape, [&](double level) {
+        return Floor{
+            .white = share * level, .filtered = (1.0 - share) * level, .filter_hz = cutoff};
+      });
+    }
+  }
   for (const double share : {0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8}) {
     const Eigen::VectorXd shape =
         hz.unaryExpr([&](double f) { return share + (1.0 - share) * top / f; });
@@ -152,7 +168,7 @@ double log_likelihood(const Eigen::VectorXd& density, const Eigen::VectorXd& hz,
 }  // namespace
 
 double Floor::deviation() const {
-  if (lowpass_hz == 0.0 && !is_slow() && bounds.empty())
+  if (lowpass_hz == 0.0 && filtered == 0.0 && !is_slow() && bounds.empty())
     return std::sqrt(white + coloured + lines + rounding);
   double sum = 0.0;
   for (int i = 0; i < kFloorPoints; ++i) sum += density((i + 0.5) / kFloorPoints * 0.5 / dt);
@@ -178,7 +194,7 @@ double Floor::whole_deviation() const {
 
 double Floor::density(double hz) const {
   const double fitted = white + (coloured > 0.0 ? coloured * ar_shape(rho, hz, dt) : 0.0) +
-                        flicker / std::max(hz, kSlowest) +
+                        filtered * filter_shape(filter_hz, hz) + flicker / std::max(hz, kSlowest) +
                         markov / (1.0 + (hz / corner_hz) * (hz / corner_hz));
   const double plain = fitted * bound_at(bounds, hz);
   if (lowpass_hz == 0.0) return plain;
@@ -228,7 +244,8 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const
     }
     // Without a quiet band, or where most windows hold one value that is read again and again.
     const double differences = variance_of_differences(even, channel);
-    if (floor.white + floor.coloured + floor.flicker < kLeastOfDifferences * differences) {
+    if (floor.white + floor.coloured + floor.filtered + floor.flicker <
+        kLeastOfDifferences * differences) {
       floor = Floor{.white = differences, .source = "second differences of the residual"};
     }
     floor.lowpass_hz = study.lowpass_hz;

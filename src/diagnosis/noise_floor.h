@@ -19,7 +19,9 @@ struct Mode {
 struct Floor {
   double white = 0.0, coloured = 0.0;  ///< variances
   double rho = 0.0;                    ///< coefficient of the coloured part
-  double flicker = 0.0;                ///< density [per sample] times frequency [Hz]
+  /// Behind a second-order Butterworth filter of the maker: density at 0 Hz, cut-off [Hz].
+  double filtered = 0.0, filter_hz = 1.0;
+  double flicker = 0.0;  ///< density [per sample] times frequency [Hz]
   /// Slow first-order Gauss-Markov part: its density at 0 Hz and its corner [Hz].
   double markov = 0.0, corner_hz = 1.0;
   double lines = 0.0;  ///< variance of lines above the motion's band, part of no density
@@ -53,10 +55,10 @@ struct Floor {
 /// Lowest frequency that is free of motion in these recordings.
 double quiet_band(const Case& study);
 
-/// Whittle fit of white, AR(1) + white or flicker + white noise to the residual above the motion's
-/// band, divided by the noise's relative level (of noise_level()), by channel: over the whole band
-/// an effect would raise its own floor. Lines and knocks are kept out by medians. Colour needs a
-/// likelihood gain above 12.
+/// Whittle fit of white, AR(1) + white, filtered + white or flicker + white noise to the residual
+/// above the motion's band, divided by the noise's relative level (of noise_level()), by channel:
+/// over the whole band an effect would raise its own floor. Lines and knocks are kept out by
+/// medians. Colour needs a likelihood gain above 12.
 std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const Signals& levels);
 
 /// The same, of all that a model leaves, as if it were nothing but noise: none where the band above

@@ -63,7 +63,7 @@ void Search::make_setting(const std::vector<Member>& members) {
     Floor unfiltered = floor;
     unfiltered.lowpass_hz = 0.0;
     floor.white = unfiltered.deviation() * unfiltered.deviation();
-    floor.coloured = floor.flicker = 0.0;
+    floor.coloured = floor.filtered = floor.flicker = 0.0;
     floor.bounds.clear();
   }
   if (study_.axis && !noise_) bound_by_residual(study_, raw, levels, floors_);

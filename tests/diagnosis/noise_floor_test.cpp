@@ -148,5 +148,36 @@ TEST(NoiseFloor, OfRoundedReadingsHoldsTheirRounding) {
   EXPECT_NEAR(floors.front().deviation() / std::sqrt(square), 1.0, 0.05);
 }
 
+// Many sensors filter what they send: a plateau and a fall of two orders are no first-order colour.
+TEST(NoiseFloor, OfAFilteredSensorIsThatOfItsPlateau) {
+  constexpr double kCutoff = 45.0;  // Hz
+  constexpr int kInside = 8;        // samples that the sensor filters for each that it sends
+  const Case study = recordings_of(2);
+  // Second-order Butterworth filter by the bilinear transform.
+  const double k = std::tan(std::numbers::pi * kCutoff * kDt / kInside), q = std::numbers::sqrt2;
+  const double a0 = 1.0 + q * k + k * k, b = k * k / a0;
+  const double a1 = 2.0 * (k * k - 1.0) / a0, a2 = (1.0 - q * k + k * k) / a0;
+  double density = 0.0, deviation = 0.0, square = 0.0;
+  constexpr int kTrials = 10;
+  for (int seed = 0; seed < kTrials; ++seed) {
+    Rng rng(static_cast<std::uint64_t>(40 + seed));
+    Signals noise;
+    for (int log = 0; log < 2; ++log) {
+      Eigen::VectorXd u(kInside * kRows), y = Eigen::VectorXd::Zero(u.size());
+      for (double& e : u) e = std::sqrt(double(kInside)) * rng.normal();
+      for (Index i = 2; i < u.size(); ++i) {
+        y(i) = b * (u(i) + 2.0 * u(i - 1) + u(i - 2)) - a1 * y(i - 1) - a2 * y(i - 2);
+      }
+      noise.emplace_back(y(Eigen::seqN(0, kRows, kInside)));
+      square += noise.back().squaredNorm() / (2.0 * kTrials * kRows);
+    }
+    const Floor floor = noise_floor(study, noise, ones(2)).front();
+    density += floor.density(2.0) / kTrials;
+    deviation += floor.deviation() / kTrials;
+  }
+  EXPECT_NEAR(density, 1.0, 0.06);
+  EXPECT_NEAR(deviation / std::sqrt(square), 1.0, 0.03);
+}
+
 }  // namespace
 }  // namespace dcnn
