@@ -8,9 +8,43 @@
 namespace dcnn {
 namespace {
 
-std::string line_of(const std::string& log, const check::Fault& fault) {
-  return log + ": " + fault.id + ": " + fault.words + "; " + fault.remedy +
+/// `also`: other columns and recordings of which the same is true.
+std::string line_of(const std::string& log, const check::Fault& fault,
+                    const std::vector<std::string>& also = {}) {
+  std::string same;
+  for (const std::string& name : also) same += (same.empty() ? "; the same in " : ", ") + name;
+  return log + ": " + fault.id + ": " + fault.words + same + "; " + fault.remedy +
          (fault.flag.empty() ? "" : " (" + fault.flag + ")");
+}
+
+/// One line a kind of fault: its first recording and column, and names of the others.
+std::vector<std::string> likely_lines(const std::vector<check::Report>& reports) {
+  struct Kind {
+    const check::Report* report;
+    const check::Fault* first;
+    std::vector<std::string> also = {};
+  };
+  std::vector<Kind> kinds;
+  for (const check::Report& report : reports) {
+    for (const check::Fault& fault : report.faults) {
+      if (fault.probability < check::kLikely) continue;
+      const auto known = std::find_if(kinds.begin(), kinds.end(),
+                                      [&](const Kind& k) { return k.first->id == fault.id; });
+      if (known == kinds.end()) {
+        kinds.push_back({&report, &fault});
+        continue;
+      }
+      const std::string& name = known->report == &report ? fault.channel : report.log;
+      auto& also = known->also;
+      const bool told = name.empty() || std::find(also.begin(), also.end(), name) != also.end();
+      if (!told) also.push_back(name);
+    }
+  }
+  std::vector<std::string> lines;
+  for (const Kind& kind : kinds) {
+    lines.push_back("likely: " + line_of(kind.report->log, *kind.first, kind.also));
+  }
+  return lines;
 }
 
 std::vector<std::filesystem::path> files_in(const std::vector<std::filesystem::path>& logs) {
@@ -66,12 +100,13 @@ Examined Doctor::examine(const Tool& tool, const CheckRequest& request,
     }
     for (const check::Fault& fault : report.faults) {
       if (fault.probability < check::kLikely) continue;
-      examined.lines.push_back("likely: " + line_of(report.log, fault));
-      tool.note(examined.lines.back());
-      const bool accepted = std::find(accepted_.begin(), accepted_.end(), fault.id) != accepted_.end();
+      const bool accepted =
+          std::find(accepted_.begin(), accepted_.end(), fault.id) != accepted_.end();
       if (fault.id == "zeroed" && !accepted) examined.zeroed.push_back(files[k]);
     }
   }
+  examined.lines = likely_lines(reports);
+  for (const std::string& line : examined.lines) tool.note(line);
   return examined;
 }
 
