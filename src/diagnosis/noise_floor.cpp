@@ -117,7 +117,17 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
     }
   }
   const double top = 0.5 / dt;
-  for (double cutoff = 1.2 * hz(0); cutoff < 0.8 * top; cutoff *= 1.15) {
+  for (const double share : {0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8}) {
+    const Eigen::VectorXd shape =
+        hz.unaryExpr([&](double f) { return share + (1.0 - share) * top / f; });
+    consider(shape, [&](double level) {
+      return Floor{.white = share * level, .flicker = (1.0 - share) * level * top};
+    });
+  }
+  // A filter is the last that is asked for, likelier than the others by as much again; an octave of
+  // its plateau must be seen, for any colour falls somewhere.
+  most += kColourGain;
+  for (double cutoff = 2.0 * hz(0); cutoff < 0.8 * top; cutoff *= 1.15) {
     for (const double share : {0.0, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3}) {
       const Eigen::VectorXd shape =
           hz.unaryExpr([&](double f) { return share + (1.0 - share) * filter_shape(cutoff, f); });
@@ -126,13 +136,6 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
             .white = share * level, .filtered = (1.0 - share) * level, .filter_hz = cutoff};
       });
     }
-  }
-  for (const double share : {0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8}) {
-    const Eigen::VectorXd shape =
-        hz.unaryExpr([&](double f) { return share + (1.0 - share) * top / f; });
-    consider(shape, [&](double level) {
-      return Floor{.white = share * level, .flicker = (1.0 - share) * level * top};
-    });
   }
   return best;
 }
