@@ -134,7 +134,8 @@ double unlikely(const Search& search, const Laws& laws) {
 
 /// Laws beside the names that stand; where those leave something, also from the beginning: beside
 /// none, and beside each name that gains most next to those before it. (Names that were found
-/// without laws may imitate one, and are then taken back with those that act.) The likeliest stays.
+/// without laws may imitate one; once refuted, they are removed together with those that act.) The
+/// model of the highest penalised likelihood is kept.
 Laws laws_of_the_rest(Search& search) {
   constexpr int kMostNames = 5;  // a limit of computation
   Laws best = borne_out(search.setting(), search.fit());

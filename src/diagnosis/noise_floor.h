@@ -57,8 +57,8 @@ double quiet_band(const Case& study);
 
 /// Whittle fit of white, AR(1) + white, filtered + white or flicker + white noise to the residual
 /// above the motion's band, divided by the noise's relative level (of noise_level()), by channel:
-/// over the whole band an effect would raise its own floor. Lines and knocks are kept out by
-/// medians. Colour needs a likelihood gain above 12.
+/// over the whole band an effect would raise its own floor. Medians exclude lines and impacts.
+/// Colour needs a likelihood gain above 12.
 std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const Signals& levels);
 
 /// The same, of all that a model leaves, as if it were nothing but noise: none where the band above

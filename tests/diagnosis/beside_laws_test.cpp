@@ -85,7 +85,7 @@ double worst_ratio(const Json& report) {
   return worst;
 }
 
-// Names that imitate the law come first where it is not looked for, and all are taken back.
+// A search among names alone finds names that imitate the law, refutes them and removes all.
 TEST(BesideLaws, ADriftIsFoundBesideADragOfOneDirection) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
   Json drag = hidden("discovered", nullptr,
