@@ -4,7 +4,6 @@
 #include <map>
 
 #include "diagnosis/laws.h"
-#include "discovery/priors.h"
 
 namespace dcnn {
 
@@ -72,7 +71,7 @@ bool name_in_place_of_one(Search& search, Laws& laws) {
       const double lost = search.fit().chi2 - joint_fit(search.setting(), before).chi2,
                    saved = search.setting().price *
                            (numbers_of(laws, before) - numbers_of(others, named));
-      if (lost < saved + discovery::prior::kAccepted) {
+      if (lost < saved + least_gain_of_law(search.setting())) {
         const Setting& setting = search.setting();
         Laws again = borne_out(setting, joint_fit(setting, search.names()));
         if (!again.found.empty()) {
@@ -116,7 +115,7 @@ Laws in_place_of_names(Search& search, const HoldOut& holdout) {
     other.push_back(laws.members.front());
     const int more = std::max(0, fitted_numbers(laws.found.front()) - numbers);
     const JointFit with = joint_fit(setting, other);
-    if (fit.chi2 - with.chi2 - setting.price * more < discovery::prior::kAccepted) continue;
+    if (fit.chi2 - with.chi2 - setting.price * more < least_gain_of_law(setting)) continue;
     const double support =
         holdout.log_support(holdout.prediction(with.members, with.base),
                             holdout.prediction(fit.members, fit.base), search.floors());

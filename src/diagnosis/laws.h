@@ -14,9 +14,12 @@ struct Laws {
 
 Json law_json(const discovery::Discovered& found, const law::Terms& terms = law::tool_terms());
 
-/// The laws of a residual. Where a number costs more, for laws err by more than the noise (a
-/// machine), so does all that a law must gain, and a form that is not established may be that
-/// error.
+/// What a law must gain beyond the price of its numbers, of chi-square: more where a number costs
+/// more, for laws err by more than the noise (a machine).
+double least_gain_of_law(const Setting& setting);
+
+/// The laws of a residual that gain as much; where a number costs more, established ones, for
+/// another form may be the error of the laws that are known.
 Laws worthy_laws(const Setting& setting, const JointFit& fit);
 
 /// The same where the chain bears out what they promised; else none.

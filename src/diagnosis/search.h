@@ -128,6 +128,7 @@ class Search {
   void tune_to_mode();
   bool choose_rounding_noise();
   void make_setting(const std::vector<Member>& members);
+  void fit_beside_base(const std::vector<Member>& members);
   bool grow();
   bool simplify();
   std::optional<std::size_t> cancelled() const;

@@ -141,23 +141,21 @@ bool Search::floor_moved() const {
   return false;
 }
 
-void Search::settle(const std::vector<Member>& members) {
+/// Whitens for what these members leave, and fits them and the simulator's linear base.
+void Search::fit_beside_base(const std::vector<Member>& members) {
   make_setting(members);
   fit_ = joint_fit(*setting_, members);
-  if (study_.axis && floor_moved()) {
-    make_setting(fit_.members);
-    fit_ = joint_fit(*setting_, fit_.members);
-  }
-  if (choose_rounding_noise()) {
-    make_setting(fit_.members);
-    fit_ = joint_fit(*setting_, fit_.members);
-  }
-  if (fit_.base.size() > 0) {
-    // What filters and gains do to the base simulator they do to the fitted one.
-    for (Case* study : cases()) set_base(*study, fit_.base);
-    setting_->coarse = thinned(study_, setting_->whitener.coarse_stride());
-    fit_ = joint_fit(*setting_, fit_.members);
-  }
+  if (fit_.base.size() == 0) return;
+  // What filters and gains do to the base simulator they do to the fitted one.
+  for (Case* study : cases()) set_base(*study, fit_.base);
+  setting_->coarse = thinned(study_, setting_->whitener.coarse_stride());
+  fit_ = joint_fit(*setting_, fit_.members);
+}
+
+void Search::settle(const std::vector<Member>& members) {
+  fit_beside_base(members);
+  if (study_.axis && floor_moved()) fit_beside_base(fit_.members);
+  if (choose_rounding_noise()) fit_beside_base(fit_.members);
   left_ = difference(study_, predict(study_, fit_.members));
   // A machine always leaves something that no effect explains, far above its sensor's noise: there
   // a number counts that takes off a share of what is left.
