@@ -112,7 +112,8 @@ int main(int argc, char** argv) {
           "--family", family,
           "conditions of the recordings: plain, tremor (of a hand), load (noise that grows with "
           "the force), clock (200 to 2000 Hz, rows lost), field (some of each), hardware (plain, "
-          "with laws that hardware has: load friction, creep), all (in turn)")
+          "with laws that hardware has: load friction, creep), wrench (force and torque), all (in "
+          "turn)")
       .with_default();
   tool.option("--on", on,
               "motions (t, x,y,z, alpha,beta,gamma) on which every scenario is recorded once more, "

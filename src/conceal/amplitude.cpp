@@ -11,9 +11,11 @@ bool is_strength(const Hidden& h, const std::string& name) {
   if (is_drawn_law(h.effect)) return name == "size";
   if (has("thermal_drift creep", h.effect) && name == "tau_s") return false;
   if (h.effect == "gear_friction" && name == "a") return false;
-  return !has("v0_mps vs_mps width_rad asym beta gamma m rest_rad order phase_rad gap_m freq_hz "
-              "zeta t_ref_degc",
-              name);
+  return !has(
+      "lever_x_m lever_y_m lever_z_m v0_mps vs_mps width_rad asym beta gamma m rest_rad order "
+      "phase_rad gap_m freq_hz "
+      "zeta t_ref_degc",
+      name);
 }
 
 /// Beyond this nobody would call it the same tool.
@@ -54,9 +56,9 @@ class Contribution {
     }
   }
 
-  /// rms [N] on the strongest axis.
+  /// rms [N] on the strongest axis; of a torque, as that of the force whose noise is as strong.
   double operator()(const Hidden& h) const {
-    Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+    Eigen::VectorXd squares = Eigen::VectorXd::Zero(plain_.front().cols());
     double rows = 0.0;
     auto plain = plain_.begin();
     for (std::size_t k = 0; k < paths_.size(); ++k) {
@@ -66,6 +68,7 @@ class Contribution {
       squares += d.colwise().squaredNorm().transpose();
       rows += static_cast<double>(d.rows());
     }
+    if (squares.size() > 3) squares.tail(3) /= s_.conditions.torque_m * s_.conditions.torque_m;
     return std::sqrt(squares.maxCoeff() / rows);
   }
 

@@ -59,7 +59,8 @@ Eigen::VectorXd band_noise(Index n, double hz, double width, Rng& rng) {
 }  // namespace
 
 const std::vector<std::string>& families() {
-  static const std::vector<std::string> all{"plain", "tremor", "load", "clock", "field", "hardware"};
+  static const std::vector<std::string> all{"plain", "tremor",   "load",  "clock",
+                                            "field", "hardware", "wrench"};
   return all;
 }
 
@@ -70,6 +71,7 @@ Conditions draw_conditions(const std::string& family, Rng& rng) {
   if (family == "tremor" || (all && rng.uniform() < 0.5)) draw_tremor(c, rng);
   if (family == "load" || (all && rng.uniform() < 0.5)) draw_load(c, rng);
   if (family == "clock" || (all && rng.uniform() < 0.5)) draw_clock(c, rng);
+  if (family == "wrench") c.torque_m = logarithmic(rng, 0.02, 0.15);
   if (all) c.seconds = rng.uniform(12.0, 60.0);
   return c;
 }
@@ -90,7 +92,7 @@ void add_tremor(const Conditions& c, Eigen::MatrixXd& pose, Rng& rng) {
 }
 
 Eigen::MatrixXd noise_scale(const Conditions& c, const Eigen::MatrixXd& force, Rng& rng) {
-  Eigen::MatrixXd scale(force.rows(), 3);
+  Eigen::MatrixXd scale = Eigen::MatrixXd::Constant(force.rows(), force.cols(), c.torque_m);
   const auto second = static_cast<Index>(c.hz());
   double burst = 1.0;
   for (Index i = 0; i < force.rows(); ++i) {

@@ -159,6 +159,7 @@ std::optional<Attempt> attempt(const std::string& id, const Request& request, Rn
   const std::vector<Wanted> wanted = choose(request, rng);
   draw_simulator(request, wanted, s, rng);
   if (request.family != "plain") s.conditions = draw_conditions(request.family, rng);
+  if (s.conditions.torque_m > 0.0) draw_body(s.tool, rng);
   const std::vector<Path> paths = draw_motion(s, rng);
   bool thermometer = rng.uniform() < 0.3;
   for (const Wanted& w : wanted) {
@@ -166,6 +167,7 @@ std::optional<Attempt> attempt(const std::string& id, const Request& request, Rn
     h.effect = w.effect;
     h.axis = w.with_axis_of_first ? s.hidden[0].axis : draw_axis(w.effect, rng);
     h.parameters = draw_parameters(w.effect, h.axis, rng);
+    if (s.conditions.torque_m > 0.0) draw_torques(h, rng);
     h.foreign = request.group == "foreign";
     thermometer = thermometer || h.parameters.count("t_ref_degc") != 0;
     place(h, s, paths, rng);

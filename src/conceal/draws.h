@@ -18,6 +18,11 @@ std::string draw_axis(const std::string& id, Rng& rng);
 std::map<std::string, double> draw_parameters(const std::string& id, const std::string& axis,
                                               Rng& rng);
 
+/// Point masses about the tool's centre, and an offset of torque.
+void draw_body(Tool& tool, Rng& rng);
+/// The numbers that an effect has where torques are read: a lever, or torques beside its forces.
+void draw_torques(Hidden& h, Rng& rng);
+
 /// Whether an id is one of drawn_laws(), and the numbers of any of them.
 bool is_drawn_law(const std::string& id);
 std::map<std::string, double> draw_law(Rng& rng);
@@ -35,7 +40,7 @@ bool confounded(const std::string& a, const std::string& b);
 Conditions draw_conditions(const std::string& family, Rng& rng);
 /// Adds the tremor to a pose (T, 6) at the world's rate.
 void add_tremor(const Conditions& conditions, Eigen::MatrixXd& pose, Rng& rng);
-/// Factors of the sensor's noise (T, 3) where it reads `force` [N].
+/// Factors of the sensor's noise where it reads `force` (T, 3) [N], or (T, 6) with torques.
 Eigen::MatrixXd noise_scale(const Conditions& conditions, const Eigen::MatrixXd& force, Rng& rng);
 /// The rows that the log holds.
 std::vector<Eigen::Index> kept_rows(const Conditions& conditions, Eigen::Index rows, Rng& rng);

@@ -9,8 +9,8 @@ using Parameters = std::map<std::string, double>;
 
 /// Direction of a force in the sensor frame, and the speed along it [m/s].
 struct Guide {
-  Eigen::MatrixXd n;  ///< (T, 3)
-  Eigen::VectorXd v;  ///< (T), angle in rad instead for `angle:axis`
+  Eigen::MatrixXd n;      ///< (T, 3)
+  Eigen::VectorXd v;      ///< (T), angle in rad instead for `angle:axis`
   Eigen::VectorXd speed;  ///< (T), along it also there
 };
 Guide guide(const Path& path, const std::string& axis);
@@ -24,6 +24,9 @@ Eigen::VectorXd bouc_wen(const Hidden& h, const Eigen::VectorXd& q);
 /// what is carried before any such force.
 void add_force(const Path& path, const Hidden& h, const Eigen::MatrixXd& field,
                const Eigen::MatrixXd& carried, Eigen::MatrixXd& F);
+/// Adds the torque (T, 3) of a force `added` (T, 3) that the effect made.
+void add_moment(const Path& path, const Hidden& h, const Eigen::MatrixXd& added,
+                Eigen::MatrixXd& torque);
 /// Adds a law of drawn_laws().
 void add_drawn_law(const Path& path, const Hidden& h, const Eigen::MatrixXd& field,
                    Eigen::MatrixXd& F);

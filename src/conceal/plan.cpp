@@ -147,7 +147,8 @@ std::vector<std::string> in_family(std::vector<std::string> ids, const std::stri
   const auto& known = families();
   const bool all = family == "all";
   require(all || std::find(known.begin(), known.end(), family) != known.end(), Exit::kUsage,
-          "no family is called ", family, "; there are plain, tremor, load, clock, field, hardware and all");
+          "no family is called ", family,
+          "; there are plain, tremor, load, clock, field, hardware, wrench and all");
   for (std::size_t k = 0; k < ids.size(); ++k) {
     const std::string& one = all ? known[k % known.size()] : family;
     if (one == "hardware") ids[k] = with_hardware(ids[k], all ? k / known.size() : k);

@@ -70,24 +70,31 @@ void cross(const Parameters& p, Eigen::MatrixXd& F) {
       if (p.count(key)) C(i, j) = p.at(key);
     }
   }
-  F = F * C.transpose();
+  F.leftCols(3) = (F.leftCols(3) * C.transpose()).eval();
 }
 
 Eigen::Matrix3d mounting(const Eigen::Vector3d& r) { return rotation_from_euler(r.reverse()); }
 
-Eigen::Vector3d offset(const Path& path, const Hidden& h, double t) {
+/// The numbers <before>x<after>…, and <before>tx<after with m>… where there are such.
+Eigen::RowVectorXd six(const Parameters& p, const std::string& before, const std::string& per) {
+  Eigen::RowVectorXd all = Eigen::RowVectorXd::Zero(p.count(before + "tx_nm" + per) > 0 ? 6 : 3);
+  all.head(3) = three(p, before, "_n" + per);
+  if (all.size() == 6) all.tail(3) = three(p, before + "t", "_nm" + per);
+  return all;
+}
+
+Eigen::RowVectorXd offset(const Path& path, const Hidden& h, double t) {
   const Parameters& p = h.parameters;
-  if (h.effect == "bias") return three(p, "delta_bias_", "_n");
-  if (h.effect == "linear_drift") return three(p, "rate_", "_nps") * t;
-  if (h.effect == "step_bias")
-    return (t >= h.interval_s->first ? 1.0 : 0.0) * three(p, "step_", "_n");
+  if (h.effect == "bias") return six(p, "delta_bias_", "");
+  if (h.effect == "linear_drift") return six(p, "rate_", "ps") * t;
+  if (h.effect == "step_bias") return (t >= h.interval_s->first ? 1.0 : 0.0) * six(p, "step_", "");
   if (h.effect == "hum") {
     const double phase = 2.0 * std::numbers::pi * p.at("freq_hz") * t;
-    return elementary::sin(phase) * three(p, "sin_", "_n") +
-           elementary::cos(phase) * three(p, "cos_", "_n");
+    return elementary::sin(phase) * six(p, "sin_", "") +
+           elementary::cos(phase) * six(p, "cos_", "");
   }
-  if (p.count("t_ref_degc")) return (path.climate(t) - p.at("t_ref_degc")) * three(p, "k_", "_npk");
-  return (1.0 - elementary::exp(-t / p.at("tau_s"))) * three(p, "a_", "_n");
+  if (p.count("t_ref_degc")) return (path.climate(t) - p.at("t_ref_degc")) * six(p, "k_", "pk");
+  return (1.0 - elementary::exp(-t / p.at("tau_s"))) * six(p, "a_", "");
 }
 
 }  // namespace
@@ -101,9 +108,12 @@ void change_reading(const Path& path, const Hidden& h, Eigen::MatrixXd& F) {
     if (h.effect == "two_modes") extra -= resonance(u, 1.7 * p.at("freq_hz"), p.at("zeta")) - u;
     F.col(a) += p.at("fraction") * extra;
   } else if (h.effect == "misalignment")
-    F = F * mounting(three(p, "rot_", "_rad"));
+    for (Index first = 0; first < F.cols(); first += 3) {
+      F.middleCols(first, 3) = (F.middleCols(first, 3) * mounting(three(p, "rot_", "_rad"))).eval();
+    }
   else if (h.effect == "gain") {
-    F = F * (Eigen::Vector3d::Ones() + three(p, "gain_", "")).asDiagonal();
+    const Eigen::Vector3d factor = Eigen::Vector3d::Ones() + three(p, "gain_", "");
+    F.leftCols(3) = (F.leftCols(3) * factor.asDiagonal()).eval();
   } else if (h.effect == "crosstalk")
     cross(p, F);
   else if (h.effect == "lowpass")
@@ -114,7 +124,10 @@ void change_reading(const Path& path, const Hidden& h, Eigen::MatrixXd& F) {
     shift(p.at("delay_s"), F);
   else if (h.effect == "bias" || h.effect == "linear_drift" || h.effect == "step_bias" ||
            h.effect == "hum" || h.effect == "thermal_drift") {
-    for (Index i = 0; i < F.rows(); ++i) F.row(i) += offset(path, h, path.time(i)).transpose();
+    for (Index i = 0; i < F.rows(); ++i) {
+      const Eigen::RowVectorXd added = offset(path, h, path.time(i));
+      F.row(i).head(added.size()) += added;
+    }
   }
 }
 

@@ -41,10 +41,10 @@ class NoiseSource {
   double state_, slow_[4];
 };
 
-/// Of a sensor that would read `clean` (T, 3).
+/// Of a sensor that would read `clean` (T, 3 or 6).
 Eigen::MatrixXd sensor_noise(const Scenario& s, const Eigen::MatrixXd& clean, Rng& rng) {
-  Eigen::MatrixXd e(clean.rows(), 3);
-  for (Index j = 0; j < 3; ++j) {
+  Eigen::MatrixXd e(clean.rows(), clean.cols());
+  for (Index j = 0; j < e.cols(); ++j) {
     NoiseSource source(s.noise.kind, rng);
     for (Index i = 0; i < e.rows(); ++i) e(i, j) = s.noise.sigma * source.next(i);
   }
@@ -99,8 +99,11 @@ void record(const Scenario& s, const Path& path, bool thermometer, Recorded& r, 
   const double lattice = s.noise.kind == "quantised" ? 2e3 : 1e7;
   const int stride = s.conditions.samples_per_reading;
   r.clean = reading(path, s.tool, without_rounding(s.hidden), {}, stride);
-  r.measured = reading(path, s.tool, s.hidden, sensor_noise(s, r.clean, rng), stride)
-                   .unaryExpr([lattice](double f) { return printed(f, lattice); });
+  r.measured = reading(path, s.tool, s.hidden, sensor_noise(s, r.clean, rng), stride);
+  for (Index j = 0; j < r.measured.cols(); ++j) {
+    const double digits = j < 3 ? lattice : lattice / s.conditions.torque_m;
+    for (double& f : r.measured.col(j)) f = printed(f, digits);
+  }
   read_pose(path, s, thermometer, r, rng);
   if (s.conditions.lost > 0.0) lose_rows(s.conditions, r, rng);
 }

@@ -37,8 +37,8 @@ std::vector<const Json*> matched(const Json& hidden, const Json& findings) {
 
 /// Numbers that share a size: the components of a vector or matrix.
 std::string family(const std::string& name) {
-  static const std::regex component("(_|^(sin|cos)_)[xyz]{1,2}(_|$)");
-  return std::regex_replace(name, component, "_*_");
+  static const std::regex component("(_|^(sin|cos)_)(t?)[xyz]{1,2}(_|$)");
+  return std::regex_replace(name, component, "_$3*_");
 }
 
 double scale_of(const std::string& name, const Json& parameters) {
@@ -123,21 +123,26 @@ std::string right_verdicts(const std::string& group) {
   return group == "mixed" ? "partly-explained" : "explained";
 }
 
-double mean(const Json& list) {
+/// Mean over channels, each in its own unit.
+double mean(const Json& list, const std::vector<double>& unit) {
   double sum = 0.0;
-  for (const Json& x : list) sum += x.get<double>();
+  for (std::size_t k = 0; k < list.size(); ++k) sum += list[k].get<double>() / unit.at(k);
   return sum / static_cast<double>(list.size());
 }
 
 Json score_holdout(const Json& answer, const Json& report) {
   Json out = Json::object();
+  const Json& oracle = answer["oracle_rmse"];
+  // Forces in N; beside torques each channel by what the true law leaves.
+  std::vector<double> unit(6, 1.0);
+  if (oracle.is_array() && oracle.size() == unit.size()) unit = oracle.get<std::vector<double>>();
   const Json fit = report.is_object() ? report.value("fit", Json::object()) : Json::object();
   for (const auto& [key, name] : {std::pair{"holdout_rmse_before", "before"},
                                   {"holdout_rmse_after", "after"},
                                   {"noise_floor", "floor"}}) {
-    if (fit.contains(key) && fit[key].is_array()) out[name] = mean(fit[key]);
+    if (fit.contains(key) && fit[key].is_array()) out[name] = mean(fit[key], unit);
   }
-  if (answer["oracle_rmse"].is_array()) out["oracle"] = mean(answer["oracle_rmse"]);
+  if (oracle.is_array()) out["oracle"] = mean(oracle, unit);
   return out;
 }
 

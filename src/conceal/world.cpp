@@ -69,7 +69,7 @@ void digitise(const std::vector<Hidden>& hidden, Eigen::MatrixXd& F) {
   for (const Hidden& h : hidden) {
     if (h.effect == "quantisation") {
       const double step = h.parameters.at("step_n");
-      F = (F / step).array().round().matrix() * step;
+      F.leftCols(3) = (F.leftCols(3) / step).array().round().matrix() * step;
     }
   }
 }
@@ -91,14 +91,24 @@ Eigen::MatrixXd force(const Path& path, const Tool& nominal, const std::vector<H
   for (Index i = 0; i < F.rows(); ++i) F.row(i) = rigid(path, i, tool, gravity);
   if (path.rigid.rows() > 0) F += path.rigid;
   const Eigen::MatrixXd carried = path.load.rows() > 0 ? path.load : F;
-  for (const Hidden& h : hidden) add_force(path, h, field, carried, F);
+  const bool turns = !nominal.beads.empty();
+  Eigen::MatrixXd torque = turns ? rigid_torque(path, nominal, tool, gravity) : Eigen::MatrixXd();
+  for (const Hidden& h : hidden) {
+    const Eigen::MatrixXd before = F;
+    add_force(path, h, field, carried, F);
+    if (turns) add_moment(path, h, F - before, torque);
+  }
+  Eigen::MatrixXd read(F.rows(), turns ? 6 : 3);
+  read.leftCols(3) = F;
+  if (turns) read.rightCols(3) = torque;
   for (int s = 0; s <= 6; ++s) {
-    if (s == 6) F.rowwise() += tool.bias.transpose();
+    if (s == 6) read.leftCols(3).rowwise() += tool.bias.transpose();
+    if (s == 6 && turns) read.rightCols(3).rowwise() += tool.bias_torque.transpose();
     for (const Hidden& h : hidden) {
-      if (stage(h) == s) change_reading(path, h, F);
+      if (stage(h) == s) change_reading(path, h, read);
     }
   }
-  return F;
+  return read;
 }
 
 Eigen::MatrixXd reading(const Path& path, const Tool& tool, const std::vector<Hidden>& hidden,

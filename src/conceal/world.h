@@ -41,12 +41,20 @@ Path make_path(const std::string& motion, double start, double seconds,
 inline const Eigen::Vector3d kGravity{0.0, 0.0, -9.81};  ///< in B [m/s^2]
 /// Gravity less the acceleration of the sensor's origin, in the sensor frame (T, 3) [m/s^2].
 Eigen::MatrixXd felt_field(const Path& path, const Eigen::Vector3d& gravity = kGravity);
-/// Force on the sensor and what it makes of it, (T, 3), before noise and digits.
+/// Force on the sensor and what it makes of it, (T, 3) or with the torque of a tool with beads
+/// (T, 6), before noise and digits.
 Eigen::MatrixXd force(const Path& path, const Tool& tool, const std::vector<Hidden>& hidden);
 /// Clipping and rounding, in place.
 void digitise(const std::vector<Hidden>& hidden, Eigen::MatrixXd& F);
-/// Every `stride`-th sample of the reading, (T, 3); `noise` may be empty.
+/// Every `stride`-th sample of the reading, (T, 3 or 6); `noise` may be empty.
 Eigen::MatrixXd reading(const Path& path, const Tool& tool, const std::vector<Hidden>& hidden,
                         const Eigen::MatrixXd& noise, int stride);
+
+/// Inertia about the origin of S [kg m^2].
+Eigen::Matrix3d inertia_of(const Tool& tool);
+/// Torque (T, 3) about the origin of S: that of the nominal tool's point masses, and of the mass
+/// and centre that `tool` has beyond it.
+Eigen::MatrixXd rigid_torque(const Path& path, const Tool& nominal, const Tool& tool,
+                             const Eigen::Vector3d& gravity);
 
 }  // namespace dcnn::conceal

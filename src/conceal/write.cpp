@@ -20,6 +20,11 @@ Json nominal(const Tool& tool, double hz) {
   sim["tool"]["com_m"] = list(tool.com);
   sim["gravity_mps2"] = list(kGravity);
   sim["sensor"]["bias_n"] = list(tool.bias);
+  if (!tool.beads.empty()) {
+    const Eigen::Matrix3d I = inertia_of(tool);
+    sim["tool"]["inertia_kgm2"] = {I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)};
+    sim["sensor"]["bias_nm"] = list(tool.bias_torque);
+  }
   if (!tool.mounting.isZero()) sim["sensor"]["rotation_rpy"] = list(tool.mounting);
   sim["model"]["inertial"] = tool.inertial;
   sim["sample_rate_hz"] = hz;
@@ -29,17 +34,21 @@ Json nominal(const Tool& tool, double hz) {
 Table table_of(const Recorded& r) {
   Table table{{"t", "x", "y", "z", "alpha", "beta", "gamma", "fx", "fy", "fz"}, {}};
   const bool thermometer = r.temperature.size() > 0;
-  table.values.resize(r.t.size(), thermometer ? 11 : 10);
-  table.values.leftCols(10) << r.t, r.pose, r.measured;
+  if (r.measured.cols() == 6) {
+    for (const char* torque : {"tx", "ty", "tz"}) table.columns.emplace_back(torque);
+  }
+  const auto read = static_cast<Index>(table.columns.size());
+  table.values.resize(r.t.size(), read + (thermometer ? 1 : 0));
+  table.values.leftCols(read) << r.t, r.pose, r.measured;
   if (thermometer) {
     table.columns.emplace_back("temperature");
-    table.values.col(10) = r.temperature;
+    table.values.col(read) = r.temperature;
   }
   return table;
 }
 
 Json oracle(const Scenario& s) {
-  Eigen::RowVector3d squares = Eigen::RowVector3d::Zero();
+  Eigen::RowVectorXd squares = Eigen::RowVectorXd::Zero(s.recordings.front().measured.cols());
   double rows = 0.0;
   for (const Recorded& r : s.recordings) {
     if (!r.holdout) continue;
@@ -49,7 +58,9 @@ Json oracle(const Scenario& s) {
     rows += static_cast<double>(n);
   }
   if (rows == 0.0) return nullptr;
-  return list((squares.transpose() / rows).cwiseSqrt());
+  Json all = Json::array();
+  for (const double square : squares) all.push_back(std::sqrt(square / rows));
+  return all;
 }
 
 Json answer(const Hidden& h) {
@@ -87,7 +98,7 @@ Json truth(const Scenario& s) {
                          {"tremor_m", c.tremor_m}, {"tremor_rad", c.tremor_rad},
                          {"axis", list(c.axis)},   {"growth_per_n", c.growth},
                          {"burst", c.burst},       {"lost", c.lost},
-                         {"jitter", c.jitter}};
+                         {"jitter", c.jitter},     {"torque_m", c.torque_m}};
   }
   all["noise"] = {{"kind", s.noise.kind},
                   {"sigma_n", s.noise.sigma},

@@ -28,6 +28,7 @@ Eigen::MatrixXd beginnings(const Setting& setting, const Member& member, Detail 
           left(i) = left(i - 1) * elementary::exp(-std::abs(way) / width);
         }
         push_along(at.axis, motion, left, wrench);
+        add_moment(lever_of(member), Eigen::MatrixXd::Zero(left.size(), 3), wrench);
       }
       signals.push_back(measured_part(study, wrench));
     }

@@ -17,7 +17,7 @@ constexpr double kWidest = 6.0;     // of a logarithm: more says nothing
 
 /// Numbers of a member's published parameters at given coordinates.
 Eigen::VectorXd published(const Member& member, const std::vector<std::string>& names) {
-  const Json parameters = member.form->parameters(member.amplitudes, member.shapes);
+  const Json parameters = parameters_of(member);
   Eigen::VectorXd values(static_cast<Index>(names.size()));
   for (std::size_t k = 0; k < names.size(); ++k) {
     values(static_cast<Index>(k)) = parameters.at(names[k]).get<double>();
@@ -37,7 +37,7 @@ Eigen::MatrixXd published_gradient(const Member& member, const std::vector<std::
       step = std::max(1e-9, 1e-5 * member.amplitudes.cwiseAbs().maxCoeff());
       moved.amplitudes(k) += step;
     } else {
-      const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(k - amplitudes)];
+      const ShapeParameter& shape = member.shape(k - amplitudes);
       double& value = moved.shapes(k - amplitudes);
       const double most = member.most_shapes(k - amplitudes);
       if (search_scale(shape, value) + step > search_scale(shape, most)) step = -step;
@@ -76,7 +76,7 @@ struct Spread {
 /// Whether the interval of published number k is one of its logarithm.
 bool is_logarithmic(const Member& member, const Spread& spread, Index k, bool strength) {
   for (Index i = 0; i < member.shapes.size(); ++i) {
-    if (member.form->shapes[static_cast<std::size_t>(i)].low <= 0.0) continue;
+    if (member.shape(i).low <= 0.0) continue;
     const Index coordinate = member.amplitudes.size() + i;
     if (strength && std::abs(spread.correlation(k, coordinate)) > kTied) return true;
     // d(value)/d(log shape) = value: it is that shape.
@@ -100,7 +100,7 @@ Estimate interval_of(std::string name, double value, double deviation, bool loga
 Eigen::MatrixXd fixed_covariance(const Member& member) {
   Eigen::VectorXd sd = member.fixed_deviation;
   for (Index k = 0; k < member.shapes.size(); ++k) {
-    if (member.form->shapes[static_cast<std::size_t>(k)].low > 0.0) {
+    if (member.shape(k).low > 0.0) {
       sd(member.amplitudes.size() + k) /= member.shapes(k);  // of its logarithm
     }
   }
@@ -158,9 +158,11 @@ std::vector<std::vector<Estimate>> estimates(const Setting& setting, const Joint
   std::vector<std::vector<Estimate>> all;
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
     const Member& member = fit.members[m];
-    const auto [first, count] = tangent_columns(fit, m);
+    const Index first = tangent_columns(fit, m).first;
+    // Of a law its size and its lever are fitted beside the names.
+    const Index count = member.fixed && member.law.is_null() ? 0 : member.coordinates();
     std::vector<std::string> names;
-    const Json parameters = member.form->parameters(member.amplitudes, member.shapes);
+    const Json parameters = parameters_of(member);
     for (const auto& [name, value] : parameters.items()) names.push_back(name);
     const Eigen::VectorXd values = published(member, names);
     const Eigen::MatrixXd gradient = published_gradient(member, names);

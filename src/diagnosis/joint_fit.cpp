@@ -48,7 +48,7 @@ void move(Member& member, const Coordinate& c, double step) {
     }
     return;
   }
-  const ShapeParameter& shape = member.form->shapes[static_cast<std::size_t>(c.index)];
+  const ShapeParameter& shape = member.shape(c.index);
   member.shapes(c.index) =
       from_search_scale(member, c.index, search_scale(shape, member.shapes(c.index)) + step);
 }
@@ -57,7 +57,7 @@ void move(Member& member, const Coordinate& c, double step) {
 /// range.
 double longest_step(const std::vector<Member>& members, const Coordinate& c) {
   if (!c.is_shape) return kInfinity;
-  const ShapeParameter& shape = members[c.member].form->shapes[static_cast<std::size_t>(c.index)];
+  const ShapeParameter& shape = members[c.member].shape(c.index);
   return shape.low > 0.0 ? 1.0 : std::max(1.0, 0.15 * (shape.high - shape.low));
 }
 

@@ -85,6 +85,8 @@ Json law_findings(const Search& search, const std::vector<Discovered>& laws,
                   const HoldOut& holdout) {
   const JointFit& fit = search.fit();
   const double error = holdout.empty() ? 0.0 : holdout.mean_rmse(fit.members, fit.base);
+  const auto levers =
+      laws.empty() ? std::vector<std::vector<Estimate>>() : estimates(search.setting(), fit);
   Json list = Json::array();
   std::size_t next = 0;
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
@@ -93,6 +95,10 @@ Json law_findings(const Search& search, const std::vector<Discovered>& laws,
     law.law.numbers(0) *= fit.members[m].amplitudes(0);
     law.deviation(0) *= std::abs(fit.members[m].amplitudes(0));
     Json entry = law_finding(std::move(law), search.study().axis.get());
+    for (const Estimate& lever : levers[m]) {
+      entry["parameters"][lever.name] = {
+          {"value", lever.value}, {"ci95", {lever.low, lever.high}}, {"unit", lever.unit}};
+    }
     if (!holdout.empty()) {
       std::vector<Member> others = fit.members;
       others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));

@@ -73,6 +73,17 @@ class Passage {
   std::vector<EffectSpec> behind_;
 };
 
+/// The rows of forces: a law is looked for in the force that it makes, and its lever is fitted
+/// afterwards.
+std::vector<Index> rows_of_forces(const Case& study, const Whitener& whitener) {
+  std::vector<Index> rows;
+  for (Index i = 0; i < whitener.rows(); ++i) {
+    const auto& row = whitener.row_info()[static_cast<std::size_t>(i)];
+    if (study.channels[static_cast<std::size_t>(row.channel)] < 3) rows.push_back(i);
+  }
+  return rows;
+}
+
 /// The residual of a fit as a problem at the rate of `study`, whose rows `whitener` gives; both
 /// must outlive it.
 discovery::Problem problem_of(const Setting& setting, const JointFit& fit, const Case& study,
@@ -84,19 +95,24 @@ discovery::Problem problem_of(const Setting& setting, const JointFit& fit, const
     problem.records.push_back({&log.motion, load_of(setting.study.simulator, effects, log)});
     sizes.push_back(log.motion.samples());
   }
-  problem.whiten = [passage = Passage(study, effects), &whitener,
-                    &setting](const std::vector<MatrixXd>& forces) {
-    return VectorXd(whitener(passage(forces)).cwiseProduct(setting.mask));
+  const std::vector<Index> own = rows_of_forces(study, whitener);
+  problem.whiten = [passage = Passage(study, effects), &whitener, &setting,
+                    own](const std::vector<MatrixXd>& forces) {
+    return VectorXd(whitener(passage(forces)).cwiseProduct(setting.mask)(own));
   };
-  problem.transposed = [&study, &whitener, &setting, sizes](const VectorXd& rows) {
-    return forces_of(study, whitener.transposed(rows.cwiseProduct(setting.mask), sizes));
+  problem.transposed = [&study, &whitener, &setting, sizes, own](const VectorXd& rows) {
+    VectorXd all = VectorXd::Zero(whitener.rows());
+    all(own) = rows;
+    return forces_of(study, whitener.transposed(all.cwiseProduct(setting.mask), sizes));
   };
-  for (const Whitener::Row& row : whitener.row_info()) {
+  for (const Index i : own) {
+    const Whitener::Row& row = whitener.row_info()[static_cast<std::size_t>(i)];
     problem.rows.push_back({row.log, row.channel, row.t});
   }
-  problem.known = orthonormal(fit.tangent);
-  problem.residual = fit.residual - problem.known * (problem.known.transpose() * fit.residual);
-  problem.residual = problem.residual.cwiseProduct(setting.mask);
+  problem.known = orthonormal(fit.tangent(own, Eigen::all));
+  const VectorXd residual = fit.residual(own);
+  problem.residual = residual - problem.known * (problem.known.transpose() * residual);
+  problem.residual = problem.residual.cwiseProduct(setting.mask(own));
   return problem;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kStillGained = 0.5;  // of a law's gain, once all are fitted through the chain
 
-Member member_of(const law::Law& law, const Json& told) {
+Member member_of(const Case& study, const law::Law& law, const Json& told) {
   static const EffectFit form{.parameters = [](const Eigen::VectorXd&, const Eigen::VectorXd&) {
     return Json::object();  // its numbers stand in law_parameters
   }};
@@ -22,6 +22,7 @@ Member member_of(const law::Law& law, const Json& told) {
   member.amplitudes = Eigen::VectorXd::Ones(1);
   member.law = told;
   member.law_parameters = law::parameters_json(law);
+  if (study.has_torque()) add_lever(member);
   return member;
 }
 
@@ -48,7 +49,7 @@ Laws worthy_laws(const Setting& setting, const JointFit& fit) {
     return law.gain < least_gain_of_law(setting) + paid || (dearer > 1.0 && !law.established);
   });
   for (const Discovered& found : laws.found) {
-    laws.members.push_back(member_of(found.law, law_json(found)));
+    laws.members.push_back(member_of(setting.study, found.law, law_json(found)));
   }
   return laws;
 }
@@ -66,6 +67,7 @@ Laws borne_out(const Setting& setting, const JointFit& names) {
 int numbers_of(const Laws& laws, const std::vector<Member>& members) {
   int sum = 0;
   for (const Discovered& law : laws.found) sum += fitted_numbers(law);
+  for (const Member& member : laws.members) sum += static_cast<int>(member.levers());
   for (const Member& member : members) {
     if (member.law.is_null()) sum += member.parameters();
   }

@@ -1,6 +1,7 @@
 // An effect with numbers: what is in a model, or tried for it.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct Member {
   std::string axis;                 ///< empty for none
   std::optional<std::pair<double, double>> interval_s;
   std::string recording;  ///< acts in this one only; empty for all
+  /// Shapes of the form, and after them, where torques are measured, the components of the lever at
+  /// which the force acts that its torque tells of [m, in S].
   Eigen::VectorXd amplitudes, shapes;
   /// Bounds of the shapes: the effect's own, or closer where these recordings can tell less (a
   /// period that is never completed is a spring; a mode above what the blocks hold does not ring).
@@ -39,6 +42,10 @@ struct Member {
   void hold(Index amplitude, double low, double high);
 
   std::string name() const { return kind->name; }
+  Eigen::Index own_shapes() const { return static_cast<Eigen::Index>(form->shapes.size()); }
+  Eigen::Index levers() const { return std::max<Eigen::Index>(0, shapes.size() - own_shapes()); }
+  /// Bounds and scale of shape i.
+  const ShapeParameter& shape(Eigen::Index i) const;
   /// Numbers that a joint fit moves.
   Eigen::Index coordinates() const {
     return fixed && law.is_null() ? 0 : amplitudes.size() + shapes.size();
@@ -65,6 +72,12 @@ double unit_of(const Case& study, const ShapeParameter& shape);
 Member make_member(const Case& study, const EffectKind& kind, const EffectFit& form,
                    const std::string& axis, const Eigen::VectorXd& shapes);
 
+/// Begins the components of the lever that the member's torque tells of at zero.
+void add_lever(Member& member);
+/// Where the force acts [m, in S]; zero where torques are not measured.
+Eigen::Vector3d lever_of(const Member& member);
+/// The published parameters.
+Json parameters_of(const Member& member);
 EffectSpec spec_of(const Member& member);
 std::vector<EffectSpec> specs_of(const std::vector<Member>& members);
 

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kMost = 26;  // linear candidates compared
 
 bool is_linear(const Member& member) {
-  return member.shapes.size() == 0 && member.amplitudes.size() > 0 && !member.interval_s;
+  return member.own_shapes() == 0 && member.amplitudes.size() > 0 && !member.interval_s;
 }
 
 bool is_lag(const Member& member) {

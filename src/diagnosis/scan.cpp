@@ -63,29 +63,27 @@ Eigen::MatrixXd Scan::off_model(const Eigen::MatrixXd& columns) const {
   return off_basis(columns, basis_);
 }
 
+Eigen::VectorXd Scan::added(const Member& member, Detail detail) const {
+  if (detail == Detail::kFine) return setting_.whitened(chain_.with(member)) - here_;
+  const Signals signals = coarse_chain_.with(member);
+  return setting_.coarse_whitener(signals).cwiseProduct(setting_.mask) - coarse_here_;
+}
+
 Eigen::MatrixXd Scan::columns(const Member& member, Detail detail) const {
-  const bool coarse = detail == Detail::kCoarse;
-  const Chain& chain = coarse ? coarse_chain_ : chain_;
-  const Eigen::VectorXd& here = coarse ? coarse_here_ : here_;
-  const auto with = [&](const Member& extra) -> Eigen::VectorXd {
-    const Signals signals = chain.with(extra);
-    if (!coarse) return setting_.whitened(signals);
-    return setting_.coarse_whitener(signals).cwiseProduct(setting_.mask);
-  };
   Member unit = member;
-  if (member.amplitudes.size() == 0) return with(unit) - here;
-  Eigen::MatrixXd columns(here.size(), member.amplitudes.size());
+  if (member.amplitudes.size() == 0) return added(unit, detail);
+  Eigen::MatrixXd columns(here_.size(), member.amplitudes.size());
   // From a common point with all amplitudes alike, since some laws divide by one of them.
   const bool needs_origin = member.amplitudes.size() == 2;
-  Eigen::VectorXd origin = here;
+  Eigen::VectorXd origin = Eigen::VectorXd::Zero(here_.size());
   if (needs_origin) {
     unit.amplitudes.setConstant(kUnit);
-    origin = with(unit);
+    origin = added(unit, detail);
   }
   for (Index j = 0; j < columns.cols(); ++j) {
     unit.amplitudes.setConstant(needs_origin ? kUnit : 0.0);
     unit.amplitudes(j) += kUnit;
-    columns.col(j) = (with(unit) - origin) / kUnit;
+    columns.col(j) = (added(unit, detail) - origin) / kUnit;
   }
   return columns;
 }
@@ -100,11 +98,8 @@ Trial Scan::evaluate(const Member& member, Detail detail) const {
   trial.kept = energy > 0.0 ? c.squaredNorm() / energy : 0.0;
   // Of a law that divides by its strength, as a spring's rest is, the strength must be its own.
   if (c.cols() == 2 && c.col(0).isZero(0.0)) return trial;
-  const Eigen::MatrixXd begun = off_model(beginnings(setting_, member, detail));
-  if (begun.cols() > 0) {
-    const Eigen::MatrixXd own = orthonormal(begun);
-    c -= own * (own.transpose() * c);
-  }
+  const Eigen::MatrixXd begun = orthonormal(off_model(beginnings(setting_, member, detail)));
+  if (begun.cols() > 0) c -= begun * (begun.transpose() * c);
   const Eigen::VectorXd match = c.transpose() * residual_;
   if (member.amplitudes.size() == 0) {
     trial.gain = std::max(0.0, 2.0 * match(0) - c.squaredNorm());
@@ -118,7 +113,37 @@ Trial Scan::evaluate(const Member& member, Detail detail) const {
   const bool wrong_sign = member.form->non_negative && trial.member.amplitudes.minCoeff() < 0.0;
   if (wrong_sign || !is_itself(setting_.study, trial.member)) return trial;
   trial.gain = std::max(0.0, match.dot(trial.member.amplitudes));
+  if (member.levers() > 0 && trial.gain > setting_.price) fit_lever(c, begun, detail, trial);
   return trial;
+}
+
+void Scan::fit_lever(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& beside, Detail detail,
+                     Trial& trial) const {
+  constexpr double kLever = 0.1;  // m, of a difference; the torque is linear in the lever
+  const Member& own = trial.member;
+  const Index amplitudes = columns.cols(), levers = own.levers(), first = own.own_shapes();
+  Eigen::MatrixXd all(columns.rows(), amplitudes + levers);
+  all.leftCols(amplitudes) = columns;
+  const Eigen::VectorXd here = added(own, detail);
+  for (Index k = 0; k < levers; ++k) {
+    Member moved = own;
+    moved.shapes(first + k) += kLever;
+    Eigen::MatrixXd column = off_model((added(moved, detail) - here) / kLever);
+    if (beside.cols() > 0) column -= beside * (beside.transpose() * column);
+    all.col(amplitudes + k) = column;
+  }
+  const Eigen::VectorXd best = least_squares(all, residual_);
+  if (!best.allFinite()) return;
+  Member placed = own;
+  placed.amplitudes = best.head(amplitudes);
+  for (Index k = 0; k < levers; ++k) {
+    const double lever = own.shapes(first + k) + best(amplitudes + k);
+    placed.shapes(first + k) = from_search_scale(placed, first + k, lever);
+  }
+  const bool wrong_sign = own.form->non_negative && placed.amplitudes.minCoeff() < 0.0;
+  if (wrong_sign || !is_itself(setting_.study, placed)) return;
+  trial.member = std::move(placed);
+  trial.gain = std::max(trial.gain, best.dot(all.transpose() * residual_));
 }
 
 std::optional<double> Scan::least_detectable(const Member& member) const {
@@ -228,17 +253,16 @@ Trial Scan::best_mode(const Member& mode) const {
 }
 
 Trial Scan::refine(const Trial& start, Detail detail, int evaluations) const {
-  if (start.member.shapes.size() == 0 || setting_.study.without.refinement) return start;
+  if (start.member.own_shapes() == 0 || setting_.study.without.refinement) return start;
   return improved(start, detail, evaluations);
 }
 
 Trial Scan::improved(const Trial& start, Detail detail, int evaluations,
                      std::vector<Trial>* seen) const {
-  const auto& shapes = start.member.form->shapes;
-  const Index n = start.member.shapes.size();
+  const Index n = start.member.own_shapes();
   Eigen::VectorXd x(n), size(n);
   for (Index i = 0; i < n; ++i) {
-    const ShapeParameter& shape = shapes[static_cast<std::size_t>(i)];
+    const ShapeParameter& shape = start.member.shape(i);
     x(i) = search_scale(shape, start.member.shapes(i));
     size(i) = shape.low > 0.0 ? 0.4 : 0.15 * (shape.high - shape.low);
     if (detail == Detail::kFine) size(i) *= 0.2;

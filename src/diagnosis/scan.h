@@ -57,6 +57,12 @@ class Scan {
   const Signals& coarse_prediction() const { return coarse_chain_.prediction(); }
 
  private:
+  /// Whitened prediction with the member besides, less that without it.
+  Eigen::VectorXd added(const Member& member, Detail detail) const;
+  /// Fits the lever at which the trial's force acts beside its amplitudes, to which `columns`
+  /// belong; all off the model at hand and off `beside`.
+  void fit_lever(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& beside, Detail detail,
+                 Trial& trial) const;
   Trial tuned(const Trial& start, Detail detail) const;
   std::vector<Trial> hollows(const Member& mode, Detail detail, std::size_t most) const;
   Trial improved(const Trial& start, Detail detail, int evaluations,

@@ -43,6 +43,30 @@ std::string force(double newtons) {
   return small ? milli(newtons, "mN") : brief(newtons) + " N";
 }
 
+std::string torque(double newton_metres) {
+  const bool small = std::abs(newton_metres) < 0.01;
+  return small ? milli(newton_metres, "mN·m") : brief(newton_metres) + " N·m";
+}
+
+/// "0.3 N", "0.3 N and 12 mN·m" or "12 mN·m", whichever are among the numbers that begin so.
+std::string push(const Estimates& n, const std::string& begin, const std::string& per = "",
+                 double times = 1.0) {
+  const double f = times * length_of(n, begin, "_n" + per),
+               t = times * length_of(n, begin, "_nm" + per);
+  if (t == 0.0) return force(f);
+  return f == 0.0 ? torque(t) : force(f) + " and " + torque(t);
+}
+
+/// ", at y = -35 mm, z = 158 mm from the sensor's origin", where torques tell of it.
+std::string lever(const Estimates& n) {
+  std::string at;
+  for (const Estimate& e : n) {
+    if (!e.name.starts_with("lever_") || e.low == e.high) continue;
+    at += (at.empty() ? ", at " : ", ") + e.name.substr(6, 1) + " = " + milli(e.value, "mm");
+  }
+  return at.empty() ? at : at + " from the sensor's origin";
+}
+
 std::string mass(double kg) { return std::abs(kg) < 1.0 ? milli(kg, "g") : brief(kg) + " kg"; }
 
 std::string seconds(double t) {
@@ -62,7 +86,9 @@ std::string when(const Member& member) {
 
 }  // namespace
 
-std::string in_words(const Member& member, const Estimates& n) {
+namespace {
+
+std::string effect_in_words(const Member& member, const Estimates& n) {
   const std::string id = member.name(), where = place(member.axis);
   const auto number = [&](const char* name) { return brief(value_of(n, name)); };
   if (id == "mass") {
@@ -102,9 +128,8 @@ std::string in_words(const Member& member, const Estimates& n) {
     return "a part of about " + milli(value_of(n, "slug_kg"), "g") + " that slides between stops" +
            where;
   if (id == "flexible_resonance") return "the tool rings at " + number("freq_hz") + " Hz" + where;
-  if (id == "contact")
-    return "a contact force of " + force(length_of(n, "force", "_n")) + when(member);
-  if (id == "bias") return "a constant offset of " + brief(length_of(n, "delta_bias", "_n")) + " N";
+  if (id == "contact") return "a contact of " + push(n, "force") + when(member);
+  if (id == "bias") return "a constant offset of " + push(n, "delta_bias");
   if (id == "misalignment")
     return "the sensor's axes are turned by " + milli(length_of(n, "rot", "_rad"), "mrad");
   if (id == "gain")
@@ -122,18 +147,24 @@ std::string in_words(const Member& member, const Estimates& n) {
     return "the sensor smooths with a time constant of " + milli(value_of(n, "tau_s"), "ms");
   if (id == "thermal_drift") return "the sensor's offset drifts with its temperature";
   if (id == "linear_drift")
-    return "the sensor's offset grows by " + force(60.0 * length_of(n, "rate", "_nps")) +
-           " a minute";
-  if (id == "step_bias")
-    return "the sensor's offset jumps by " + force(length_of(n, "step", "_n")) + when(member);
+    return "the sensor's offset grows by " + push(n, "rate", "ps", 60.0) + " a minute";
+  if (id == "step_bias") return "the sensor's offset jumps by " + push(n, "step") + when(member);
   if (id == "saturation") return "the reading is clipped at " + number("limit_n") + " N" + where;
   if (id == "quantisation") return "the reading comes in steps of " + force(value_of(n, "step_n"));
   if (id == "hum") {
-    const double sine = length_of(n, "sin_", "_n"), cosine = length_of(n, "cos_", "_n");
-    return "a hum of " + force(std::sqrt(sine * sine + cosine * cosine)) + " at " +
-           number("freq_hz") + " Hz";
+    Estimates both = n;  // of sine and cosine as of one vector
+    for (Estimate& e : both) {
+      if (e.name != "freq_hz") e.name = "wave_" + e.name;
+    }
+    return "a hum of " + push(both, "wave") + " at " + number("freq_hz") + " Hz";
   }
   return std::string(member.kind->meaning) + where;
+}
+
+}  // namespace
+
+std::string in_words(const Member& member, const Estimates& n) {
+  return effect_in_words(member, n) + lever(n);
 }
 
 }  // namespace dcnn

@@ -55,9 +55,19 @@ std::optional<std::pair<double, double>> read_interval(Options& entry, const Eff
   return std::pair{ends[0], ends[1]};
 }
 
+Eigen::Vector3d read_lever(const EffectKind& kind, Options& parameters) {
+  Eigen::Vector3d lever = Eigen::Vector3d::Zero();
+  for (Index i = 0; i < 3 && has_lever(kind); ++i) {
+    const std::string name = std::string("lever_") + "xyz"[i] + "_m";
+    lever(i) = parameters.number(name, 0.0, -kInfinity, kInfinity);
+  }
+  return lever;
+}
+
 /// Lets the law itself read its parameters, on a recording of no length.
 void check_parameters(const EffectKind& kind, const EffectSpec& spec, Options parameters) {
   ToolModel model;
+  read_lever(kind, parameters);
   if (kind.change) {
     kind.change(model, parameters);
   } else {
@@ -170,6 +180,25 @@ Json to_json(const std::vector<EffectSpec>& effects) {
   return list;
 }
 
+bool has_lever(const EffectKind& kind) {
+  const bool along_a_line = kind.axis == AxisRule::kLine || kind.axis == AxisRule::kAngle;
+  return kind.stage == Stage::kForce && (along_a_line || kind.example_law != nullptr);
+}
+
+EffectStream stream_of(const EffectSpec& effect, const std::string& where, Exit exit) {
+  const EffectKind& kind = kind_of(effect);
+  if (!kind.stream) return nullptr;
+  Options parameters(effect.parameters, where, exit);
+  const Eigen::Vector3d lever = read_lever(kind, parameters);
+  EffectStream push = kind.stream(effect, parameters);
+  if (lever.isZero(0.0)) return push;
+  return [lever, push = std::move(push)](InstantWrench& wrench, const Instant& now) {
+    const Eigen::Vector3d before = wrench.force;
+    push(wrench, now);
+    wrench.torque += lever.cross(wrench.force - before);
+  };
+}
+
 std::string unit_of_parameter(const std::string& name) {
   static const std::vector<std::pair<std::string, std::string>> kUnits{{"_kg", "kg"},
                                                                        {"_rad", "rad"},
@@ -213,8 +242,11 @@ void apply_effect(const EffectSpec& effect, const Motion& motion, const ToolMode
   if (!effect.recording.empty() && effect.recording != motion.recording) return;
   Options parameters(effect.parameters, effect.effect, Exit::kData);
   if (kind.of_load && wrench.load.rows() == 0) wrench.load = wrench.force;
-  const Wrench before = effect.interval_s ? wrench : Wrench{};
+  const Eigen::Vector3d lever = read_lever(kind, parameters);
+  const bool turns = wrench.torque.rows() > 0 && !lever.isZero(0.0);
+  const Wrench before = effect.interval_s || turns ? wrench : Wrench{};
   kind.apply(wrench, motion, effect, model, parameters);
+  if (turns) add_moment(lever, before.force, wrench);
   if (effect.interval_s) keep_outside(effect, kind, motion, before, wrench);
 }
 

@@ -67,6 +67,13 @@ void push_along(const std::string& axis, const Motion& motion, const Eigen::Vect
   }
 }
 
+void add_moment(const Eigen::Vector3d& lever, const Eigen::MatrixXd& before, Wrench& wrench) {
+  for (Index k = 0; k < wrench.torque.rows(); ++k) {
+    const Eigen::Vector3d added = wrench.force.row(k) - before.row(k);
+    wrench.torque.row(k) += lever.cross(added).transpose();
+  }
+}
+
 Eigen::VectorXd velocity_of(const std::string& axis, const Motion& motion) {
   const Index i = axis_index(axis);
   if (axis.starts_with("w_sensor_")) return motion.w_S.col(i);

@@ -46,6 +46,9 @@ Eigen::MatrixXd direction_of(const std::string& axis, const Motion& motion);
 void push_along(const std::string& axis, const Motion& motion, const Eigen::VectorXd& force,
                 Wrench& wrench);
 
+/// Adds the torque at `lever` [m, in S] of the force that is beyond `before`.
+void add_moment(const Eigen::Vector3d& lever, const Eigen::MatrixXd& before, Wrench& wrench);
+
 /// For tool_z, base_* and w_sensor_*: of the sensor's origin along n, m/s; about n for w_sensor_*,
 /// rad/s. Error(kData) where the motion lacks it.
 Eigen::VectorXd velocity_of(const std::string& axis, const Motion& motion);

@@ -221,8 +221,7 @@ ForwardAxis::ForwardAxis(const AxisMachine& machine, std::size_t axis, double dt
       if (effect.effect != kind->name) continue;
       require(runs_forwards(effect), exit, where_, ": its effect '", effect.effect,
               "' is no force that the motion at hand makes; leave it out");
-      Options parameters(effect.parameters, where_, exit);
-      law_.memory.push_back(kind->stream(effect, parameters));
+      law_.memory.push_back(stream_of(effect, where_, exit));
     }
   }
 }

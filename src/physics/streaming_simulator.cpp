@@ -59,9 +59,8 @@ StreamingSimulator::StreamingSimulator(const Simulator& simulator, const Derivat
   for (const EffectKind* kind : effect_kinds()) {  // in the order in which stages act
     for (const EffectSpec& effect : simulator.effects) {
       if (effect.effect != kind->name || !kind->stream) continue;
-      Options parameters(effect.parameters, where, exit);
       (kind->stage < Stage::kOffset ? before_bias_ : after_bias_)
-          .push_back(kind->stream(effect, parameters));
+          .push_back(stream_of(effect, where, exit));
     }
   }
 }

@@ -212,6 +212,59 @@ TEST(World, OffsetsOverTheClock) {
   EXPECT_NEAR(change(path, step, 0.95)(1), 0.5, 1e-12);  // it stays
 }
 
+/// A tool of four point masses about its centre.
+Tool beaded(const std::string& inertial = "full") {
+  Tool t = tool(inertial);
+  t.beads = {t.com + Vector3d(0.05, 0.0, 0.0), t.com - Vector3d(0.05, 0.0, 0.0),
+             t.com + Vector3d(0.0, 0.02, 0.04), t.com - Vector3d(0.0, 0.02, 0.04)};
+  t.bias_torque = {0.01, 0.02, -0.03};
+  return t;
+}
+
+// tau = c x m (g - a) - I dw - w x I w about the sensor's origin.
+TEST(World, PointMassesMakeTheTorqueOfTheirTensor) {
+  const Path path = moved([](double t) { return Vector3d(0.1 * t * t, 0.0, 0.0); },
+                          [](double t) { return std::sin(3.0 * t); });
+  const Tool t = beaded();
+  const Eigen::Matrix3d I = inertia_of(t);
+  const MatrixXd read = force(path, t, {});
+  ASSERT_EQ(read.cols(), 6);
+  for (Index i = 500; i < 3500; i += 250) {
+    const Eigen::Matrix3d& R = path.rotation[static_cast<std::size_t>(i)];
+    const Vector3d a(0.2, 0.0, 0.0), w = path.rate.row(i), dw = path.rate_derivative.row(i);
+    const Vector3d expected = t.com.cross(t.mass * R.transpose() * (Vector3d(0, 0, -kG) - a)) -
+                              I * dw - w.cross(I * w) + t.bias_torque;
+    EXPECT_LT((read.row(i).tail<3>().transpose() - expected).norm(), 1e-6) << i;
+    EXPECT_LT((read.row(i).head<3>() - force(path, tool(), {}).row(i)).norm(), 1e-12);
+  }
+}
+
+TEST(World, ForcesActAtTheirLevers) {
+  const Path path = along_x([](double t) { return 0.1 * std::sin(5.0 * t); });
+  const Hidden drag =
+      effect("viscous_friction", "base_x",
+             {{"c_nspm", 2.0}, {"lever_x_m", 0.01}, {"lever_y_m", -0.04}, {"lever_z_m", 0.2}});
+  Hidden push = effect("contact", "",
+                       {{"force_x_n", 1.0},
+                        {"force_y_n", -2.0},
+                        {"force_z_n", 0.5},
+                        {"force_tx_nm", 0.1},
+                        {"force_ty_nm", 0.2},
+                        {"force_tz_nm", 0.3}});
+  push.interval_s = {0.2, 0.4};
+  const Tool t = beaded();
+  const MatrixXd plain = force(path, t, {}), dragged = force(path, t, {drag}) - plain,
+                 pushed = force(path, t, {push}) - plain;
+  for (const Index i : {1000, 1300, 2500}) {
+    const Vector3d f = dragged.row(i).head<3>();
+    EXPECT_GT(f.norm(), 0.01);
+    EXPECT_LT((dragged.row(i).tail<3>().transpose() - Vector3d(0.01, -0.04, 0.2).cross(f)).norm(),
+              1e-12);
+  }
+  EXPECT_LT((pushed.row(1300).tail<3>() - RowVector3d(0.1, 0.2, 0.3)).norm(), 1e-12);
+  EXPECT_EQ(pushed.row(2500).norm(), 0.0);
+}
+
 TEST(World, ClippingComesBeforeRounding) {
   MatrixXd F(2, 3);
   F << 1.26, -7.0, 0.04, 0.9, 7.0, -0.06;

@@ -31,6 +31,10 @@ struct Tool {
   Eigen::Vector3d com{0.0, 0.0, 0.1}, bias{0.0, 0.0, 0.0};
   Eigen::Vector3d mounting{0.0, 0.0, 0.0};  ///< rpy of the sensor in the pose frame [rad]
   std::string inertial = "full";            ///< full, linear (-m a_o alone) or none
+  /// Point masses, each an equal part of the mass, about the centre [m]; where there are any the
+  /// sensor reads torques about its origin too.
+  std::vector<Eigen::Vector3d> beads = {};
+  Eigen::Vector3d bias_torque{0.0, 0.0, 0.0};  ///< N·m
 };
 
 /// Sensor noise: `white`, `ar1`, `heteroscedastic`, `heavy`, `flicker` or `quantised` (0.5 mN).
@@ -50,10 +54,11 @@ struct Conditions {
   /// deviation = sigma·axis·(1 + growth·|F|/N).
   Eigen::Vector3d axis{1.0, 1.0, 1.0};
   double growth = 0.0;
-  double burst = 1.0;    ///< factor of the noise in seconds drawn at random (one in six)
-  double lost = 0.0;     ///< share of the rows that the log lacks, one to three in a row
-  double jitter = 0.0;   ///< rms of the error of t, in steps
-  double seconds = 0.0;  ///< of a recording; 0: 25 to 45
+  double burst = 1.0;     ///< factor of the noise in seconds drawn at random (one in six)
+  double lost = 0.0;      ///< share of the rows that the log lacks, one to three in a row
+  double jitter = 0.0;    ///< rms of the error of t, in steps
+  double seconds = 0.0;   ///< of a recording; 0: 25 to 45
+  double torque_m = 0.0;  ///< noise of torques over Noise::sigma [m]; 0: forces alone are read
 
   double hz() const { return 4000.0 / samples_per_reading; }
 };
@@ -68,9 +73,10 @@ struct Recorded {
   std::string name;
   bool holdout = false;
   Eigen::VectorXd t;
-  Eigen::MatrixXd pose;             ///< (T, 6) as read: x,y,z [m], alpha,beta,gamma [rad]
-  Eigen::MatrixXd measured, clean;  ///< (T, 3) [N]: as read, and without noise and rounding
-  Eigen::VectorXd temperature;      ///< (T) [degC], or empty
+  Eigen::MatrixXd pose;  ///< (T, 6) as read: x,y,z [m], alpha,beta,gamma [rad]
+  /// (T, 3) [N], or (T, 6) with [N·m]: as read, and without noise and rounding.
+  Eigen::MatrixXd measured, clean;
+  Eigen::VectorXd temperature;  ///< (T) [degC], or empty
 };
 
 struct Scenario {
@@ -97,8 +103,9 @@ const std::vector<std::string>& drawn_laws();
 
 /// Families of conditions: `plain` (500 Hz, 25 to 45 s, noise of one level), `tremor` (a hand's, 4
 /// to 14 Hz), `load` (noise of each axis its own, growing with the force, in bursts), `clock` (200
-/// to 2000 Hz, rows lost, an uneven clock), `field` (some of each, recordings of 12 to 60 s) and
-/// `hardware` (plain conditions, one of hardware_effects() where another family has a listed one).
+/// to 2000 Hz, rows lost, an uneven clock), `field` (some of each, recordings of 12 to 60 s),
+/// `hardware` (plain conditions, one of hardware_effects() where another family has a listed one)
+/// and `wrench` (plain conditions; torques are read too, and forces act at a distance).
 const std::vector<std::string>& families();
 
 /// Draws the scenario `id` = "group:value/effect/number", or "family+group:value/effect/number", of

@@ -86,7 +86,8 @@ double log_prior(const Setting& setting, const JointFit& fit, std::size_t m) {
         0.5 * log_determinant(metric) - elementary::log(prior::kDecades * elementary::log(10.0)) -
         static_cast<double>(d) * elementary::log(norm) - log_sphere(d, member.form->non_negative);
   }
-  for (const ShapeParameter& shape : member.form->shapes) {
+  for (Index i = 0; i < member.shapes.size(); ++i) {
+    const ShapeParameter& shape = member.shape(i);
     sum -= elementary::log(search_scale(shape, shape.high) - search_scale(shape, shape.low));
   }
   return sum;

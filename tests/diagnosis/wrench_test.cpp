@@ -1,0 +1,76 @@
+// Recordings with torques: where on the tool a force acts.
+#include <gtest/gtest.h>
+
+#include "diagnosis/support.h"
+
+namespace dcnn {
+namespace {
+
+using test::Bench;
+using test::hidden;
+
+const double kLever[3] = {0.03, -0.02, 0.15};
+
+Json with_torque(const Json& effects) {
+  Json config = test::configuration(effects);
+  config["simulator"]["tool"]["inertia_kgm2"] = {0.021, 0.02, 0.002, 0.0, 0.0, 0.0};
+  config["force_noise"]["nm"] = 0.003;
+  return config;
+}
+
+Json at_lever(Json parameters) {
+  for (int i = 0; i < 3; ++i) {
+    parameters[std::string("lever_") + "xyz"[i] + "_m"] = kLever[i];
+  }
+  return parameters;
+}
+
+/// Within four deviations, which are known to a centimetre.
+void expect_lever(const Json& parameters, const std::string& axes) {
+  for (int i = 0; i < 3; ++i) {
+    if (axes.find("xyz"[i]) == std::string::npos) continue;
+    const Json& told = parameters[std::string("lever_") + "xyz"[i] + "_m"];
+    const double half = 0.5 * (told["ci95"][1].get<double>() - told["ci95"][0].get<double>());
+    EXPECT_NEAR(told["value"].get<double>(), kLever[i], 2.0 * half) << i;
+    EXPECT_LT(half, 0.01) << i;
+  }
+}
+
+TEST(Wrench, FrictionAndACableAreFoundWhereTheyAct) {
+  const Bench bench(with_torque(
+      {hidden("coulomb_friction", "base_y", at_lever({{"fc_n", 0.4}, {"v0_mps", 0.01}})),
+       hidden("cable_spring", "gamma:sensor_x", at_lever({{"k_nprad", 0.4}, {"rest_rad", 3.0}}))}));
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(report["verdict"], "explained");
+  ASSERT_EQ(test::found(report), (std::set<std::string>{"coulomb_friction", "cable_spring"}));
+  for (const Json& finding : report["findings"]) {
+    const bool cable = finding["effect"] == "cable_spring";
+    // Along its own axis a lever makes no torque.
+    expect_lever(finding["parameters"], cable ? "yz" : "xyz");
+    EXPECT_NE(finding["words"].get<std::string>().find("from the sensor's origin"),
+              std::string::npos);
+  }
+}
+
+TEST(Wrench, ALawWithoutANameActsSomewhereToo) {
+  Json law = hidden("discovered", nullptr,
+                    at_lever({{"amplitude_n", -2.0}, {"scale_1_mps", 0.1}, {"power_1", 1.5}}));
+  law["law"] = {{"axis", "tool_z"}, {"factors", {{{"shape", "power"}, {"of", "v_tool_z"}}}}};
+  const Bench bench(with_torque(Json::array({law})));
+  const Json report = bench.diagnose().report;
+  EXPECT_TRUE(test::names(report).empty()) << report["findings"].dump(1);
+  ASSERT_FALSE(report["findings"].empty());
+  expect_lever(report["findings"][0]["parameters"], "xy");
+  for (std::size_t j = 0; j < 6; ++j) {
+    EXPECT_LT(report["fit"]["holdout_rmse_after"][j].get<double>(),
+              1.1 * report["fit"]["holdout_noise_floor"][j].get<double>())
+        << j;
+  }
+}
+
+TEST(Wrench, NothingIsMissingWhereNothingIs) {
+  EXPECT_EQ(Bench(with_torque(Json::array())).diagnose().report["verdict"], "consistent");
+}
+
+}  // namespace
+}  // namespace dcnn
