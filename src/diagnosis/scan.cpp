@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "diagnosis/beginning.h"
 
@@ -25,6 +26,11 @@ bool is_itself(const Case& study, const Member& member) {
   if (study.axis && name == "hysteresis") return member.amplitudes(0) > 0.0;
   // A drive's filters are faster than a tenth of a second.
   if (study.axis && name == "lowpass") return member.shapes(0) < 0.1;
+  // A spring whose rest is turns away is a constant, which other effects are.
+  if (!study.axis && name == "cable_spring") {
+    return std::abs(member.amplitudes(1)) <=
+           2.0 * std::numbers::pi * std::abs(member.amplitudes(0));
+  }
   if (name == "creep") return std::abs(member.amplitudes(0)) < 1.0;  // of a solid, no fluid
   if (name == "gear_friction") {                                     // it resists in every position
     return member.amplitudes(0) > 0.0 && member.amplitudes.tail(2).norm() < member.amplitudes(0);
