@@ -30,6 +30,8 @@ class Writer {
     const bool held = !holdout_.empty();
     const auto likely = confidences(search_, holdout_);
     const auto against = contradicted(search_, holdout_);
+    const bool has_law = std::any_of(fit.members.begin(), fit.members.end(),
+                                     [](const Member& m) { return !m.law.is_null(); });
     const double after = held ? holdout_.mean_rmse(fit.members, fit.base) : 0.0;
     Json list = Json::array();
     for (std::size_t m = 0; m < fit.members.size(); ++m) {
@@ -47,7 +49,8 @@ class Writer {
       }
       if (!member.fixed) {
         entry["p_value"] = flip_p_value(search_.setting(), fit, m);
-        share(std::min(*likely[m], against[m].probability), alternatives[m], entry);
+        const double alone = std::min(*likely[m], against[m].probability);
+        share(has_law ? evidence::beside_a_law(alone) : alone, alternatives[m], entry);
       }
       for (const std::size_t j : against[m].channels) {
         entry["against"].push_back(search_.study().targets[j]);

@@ -73,19 +73,9 @@ class Passage {
   std::vector<EffectSpec> behind_;
 };
 
-/// The rows of forces: a law is looked for in the force that it makes, and its lever is fitted
-/// afterwards.
-std::vector<Index> rows_of_forces(const Case& study, const Whitener& whitener) {
-  std::vector<Index> rows;
-  for (Index i = 0; i < whitener.rows(); ++i) {
-    const auto& row = whitener.row_info()[static_cast<std::size_t>(i)];
-    if (study.channels[static_cast<std::size_t>(row.channel)] < 3) rows.push_back(i);
-  }
-  return rows;
-}
-
 /// The residual of a fit as a problem at the rate of `study`, whose rows `whitener` gives; both
-/// must outlive it.
+/// must outlive it. Rows of forces alone: a law is looked for in the force that it makes, and its
+/// lever is fitted afterwards.
 discovery::Problem problem_of(const Setting& setting, const JointFit& fit, const Case& study,
                               const Whitener& whitener) {
   discovery::Problem problem;

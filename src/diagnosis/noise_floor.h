@@ -89,6 +89,11 @@ void add_rounding(const Case& study, std::vector<Floor>& floors);
 /// prediction: through accelerations (mass and lever) and through gravity.
 void add_pose_noise(const Case& study, std::vector<Floor>& floors);
 
+/// Correlation of the channels' noise (channels, channels), positive definite: of the second
+/// differences of a residual, where it exceeds what chance makes of independent ones.
+Eigen::MatrixXd noise_correlation(const Case& study, const Signals& residual,
+                                  const Signals& levels);
+
 /// Relative level of each channel's noise over time, (T, channels) per recording, of mean square 1:
 /// the logarithm of the mean absolute second difference of the residual over 0.5 s, linear in the
 /// force that is predicted beside a burst of its own, both shrunk by how well they are known (the

@@ -63,6 +63,12 @@ Scan::Scan(const Setting& setting, const JointFit& fit)
       coarse_here_(setting.coarse_whitener(coarse_chain_.prediction()).cwiseProduct(setting.mask)),
       basis_(orthonormal(setting.study.without.projection ? setting.nuisance : fit.tangent)) {
   residual_ = off_model(fit.residual);
+  force_rows_ = rows_of_forces(setting.study, setting.whitener);
+}
+
+bool Scan::is_possible(const Member& member) const {
+  const bool wrong_sign = member.form->non_negative && member.amplitudes.minCoeff() < 0.0;
+  return !wrong_sign && is_itself(setting_.study, member);
 }
 
 Eigen::MatrixXd Scan::off_model(const Eigen::MatrixXd& columns) const {
@@ -116,40 +122,10 @@ Trial Scan::evaluate(const Member& member, Detail detail) const {
   trial.deviation =
       gram.diagonal().unaryExpr([](double g) { return g > 0.0 ? 1.0 / std::sqrt(g) : 0.0; });
   if (!trial.member.amplitudes.allFinite()) return trial;
-  const bool wrong_sign = member.form->non_negative && trial.member.amplitudes.minCoeff() < 0.0;
-  if (wrong_sign || !is_itself(setting_.study, trial.member)) return trial;
+  if (member.levers() > 0) fit_lever(c, begun, detail, trial);
+  if (trial.gain > 0.0 || !is_possible(trial.member)) return trial;
   trial.gain = std::max(0.0, match.dot(trial.member.amplitudes));
-  if (member.levers() > 0 && trial.gain > setting_.price) fit_lever(c, begun, detail, trial);
   return trial;
-}
-
-void Scan::fit_lever(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& beside, Detail detail,
-                     Trial& trial) const {
-  constexpr double kLever = 0.1;  // m, of a difference; the torque is linear in the lever
-  const Member& own = trial.member;
-  const Index amplitudes = columns.cols(), levers = own.levers(), first = own.own_shapes();
-  Eigen::MatrixXd all(columns.rows(), amplitudes + levers);
-  all.leftCols(amplitudes) = columns;
-  const Eigen::VectorXd here = added(own, detail);
-  for (Index k = 0; k < levers; ++k) {
-    Member moved = own;
-    moved.shapes(first + k) += kLever;
-    Eigen::MatrixXd column = off_model((added(moved, detail) - here) / kLever);
-    if (beside.cols() > 0) column -= beside * (beside.transpose() * column);
-    all.col(amplitudes + k) = column;
-  }
-  const Eigen::VectorXd best = least_squares(all, residual_);
-  if (!best.allFinite()) return;
-  Member placed = own;
-  placed.amplitudes = best.head(amplitudes);
-  for (Index k = 0; k < levers; ++k) {
-    const double lever = own.shapes(first + k) + best(amplitudes + k);
-    placed.shapes(first + k) = from_search_scale(placed, first + k, lever);
-  }
-  const bool wrong_sign = own.form->non_negative && placed.amplitudes.minCoeff() < 0.0;
-  if (wrong_sign || !is_itself(setting_.study, placed)) return;
-  trial.member = std::move(placed);
-  trial.gain = std::max(trial.gain, best.dot(all.transpose() * residual_));
 }
 
 std::optional<double> Scan::least_detectable(const Member& member) const {

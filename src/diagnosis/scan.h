@@ -63,6 +63,8 @@ class Scan {
   /// belong; all off the model at hand and off `beside`.
   void fit_lever(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& beside, Detail detail,
                  Trial& trial) const;
+  /// Whether its amplitudes are those of such an effect.
+  bool is_possible(const Member& member) const;
   Trial tuned(const Trial& start, Detail detail) const;
   std::vector<Trial> hollows(const Member& mode, Detail detail, std::size_t most) const;
   Trial improved(const Trial& start, Detail detail, int evaluations,
@@ -74,6 +76,7 @@ class Scan {
   Eigen::VectorXd here_, coarse_here_;  // whitened predictions
   Eigen::MatrixXd basis_;
   Eigen::VectorXd residual_;  // off the basis
+  std::vector<Index> force_rows_;
 };
 
 /// Minimises f from x with steps of the given size; returns the best point.

@@ -68,7 +68,7 @@ void Search::make_setting(const std::vector<Member>& members) {
   }
   if (study_.axis && !noise_) bound_by_residual(study_, raw, levels, floors_);
   add_rounding(study_, floors_);
-  const Whitener whitener(study_, floors_, levels);
+  const Whitener whitener(study_, floors_, levels, noise_correlation(study_, raw, levels));
   const Index blocks = whitener.rows() / study_.channel_count();
   require(blocks >= kFewestBlocks, Exit::kData, study_.logs.front().recording.name, ": ", blocks,
           " blocks of ", whitener.block_seconds(),

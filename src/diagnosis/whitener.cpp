@@ -32,7 +32,8 @@ Eigen::VectorXd block_covariance(const Density& density, Index block, double dt,
 
 }  // namespace
 
-Whitener::Whitener(const Case& study, const std::vector<Floor>& floors, const Signals& levels)
+Whitener::Whitener(const Case& study, const std::vector<Floor>& floors, const Signals& levels,
+                   const Eigen::MatrixXd& correlation)
     : floors_(floors), channels_(study.channel_count()) {
   const bool moving = !study.is_static();
   const double dt = moving ? study.dt() : 1.0;
@@ -75,6 +76,14 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors, const Si
       filter.deviation.push_back(std::sqrt(error));
     }
     filters_.push_back(filter);
+  }
+  if (correlation.size() > 0 && !correlation.isIdentity(0.0)) {
+    // Of the sensor's noise; what the pose adds has its own.
+    const Eigen::VectorXd own = (1.0 - pose_share.array()).sqrt();
+    Eigen::MatrixXd all = own.asDiagonal() * correlation * own.asDiagonal();
+    all.diagonal().setOnes();
+    decorrelate_ = Eigen::MatrixXd::Identity(channels_, channels_);
+    Eigen::LLT<Eigen::MatrixXd>(all).matrixL().solveInPlace(decorrelate_);
   }
   const Index margin = moving ? std::llround(kEnd / study.motion_hz / block_seconds_) * block_ : 0;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
@@ -125,6 +134,10 @@ double Whitener::log_determinant() const {
   for (std::size_t row = 0; row < info_.size(); ++row) {
     sum += elementary::log(filters_[info_[row].channel].deviation.back() /
                            inverse_level_(static_cast<Index>(row)));
+    if (decorrelate_.size() > 0) {
+      const auto j = static_cast<Index>(info_[row].channel);
+      sum -= elementary::log(decorrelate_(j, j));
+    }
   }
   return 2.0 * sum;
 }
@@ -176,8 +189,22 @@ Eigen::VectorXd Whitener::operator()(const Signals& signals) const {
       white.array() *= inverse_level_.segment(row, run.count).array();
       row += run.count;
     }
+    if (decorrelate_.size() > 0) {
+      auto own = out.segment(row - run.count * channels_, run.count * channels_)
+                     .reshaped(run.count, channels_);
+      own = (own * decorrelate_.transpose()).eval();
+    }
   }
   return out;
+}
+
+std::vector<Index> rows_of_forces(const Case& study, const Whitener& whitener) {
+  std::vector<Index> rows;
+  for (Index i = 0; i < whitener.rows(); ++i) {
+    const auto& row = whitener.row_info()[static_cast<std::size_t>(i)];
+    if (study.channels[row.channel] < 3) rows.push_back(i);
+  }
+  return rows;
 }
 
 }  // namespace dcnn

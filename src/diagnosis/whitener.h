@@ -7,10 +7,13 @@ namespace dcnn {
 
 /// Means over blocks of about 20 ms, whitened by an AR(8) filter of the floor's spectrum. The same
 /// linear map for measurements and columns. Nothing crosses a gap; the ends of every segment, where
-/// the smoother has one side only, are left out.
+/// the smoother has one side only, are left out. Where the channels' noise is correlated, each row
+/// is what the channels before it do not tell of it (the inverse of Cholesky's factor).
 class Whitener {
  public:
-  Whitener(const Case& study, const std::vector<Floor>& floors, const Signals& levels);
+  /// `correlation` of the channels' noise; empty: none.
+  Whitener(const Case& study, const std::vector<Floor>& floors, const Signals& levels,
+           const Eigen::MatrixXd& correlation = {});
 
   /// The same map for signals seen at every stride-th sample (thinned()).
   Whitener at_stride(Index stride) const;
@@ -59,9 +62,13 @@ class Whitener {
   std::vector<Floor> floors_;
   std::vector<Row> info_;
   Eigen::VectorXd inverse_level_;  // per row
+  Eigen::MatrixXd decorrelate_;    // (channels, channels), lower triangular; empty: none
   Eigen::VectorXd block_deviation_;
   Index block_ = 1, rows_ = 0, channels_ = 0;
   double block_seconds_ = 0.0;
 };
+
+/// The rows of forces, which come before those of torques.
+std::vector<Index> rows_of_forces(const Case& study, const Whitener& whitener);
 
 }  // namespace dcnn

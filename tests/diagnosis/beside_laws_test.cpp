@@ -50,6 +50,7 @@ TEST(BesideLaws, AnEffectWithANameIsNoSecondLaw) {
   EXPECT_EQ(report["verdict"], "partly-explained");
   ASSERT_EQ(report["findings"].size(), 2u);
   EXPECT_EQ(report["findings"][1]["axis"], "base_x");
+  EXPECT_LT(report["findings"][0]["confidence"].get<double>(), 0.8);  // another form may hold it
 }
 
 // The 1.5th power of the speed lies between a viscous friction and a drag that grows as its square.

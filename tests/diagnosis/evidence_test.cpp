@@ -6,6 +6,7 @@
 
 #include "dcnn/core/random.h"
 #include "diagnosis/evidence/marginal.h"
+#include "diagnosis/evidence/posterior.h"
 #include "diagnosis/evidence/slow_noise.h"
 
 namespace dcnn::evidence {
@@ -35,6 +36,12 @@ TEST(Evidence, OfProperPriorsIsThatOfTheWholeCovariance) {
 }
 
 // A flat prior is a wide one whose density at its centre is taken as one.
+// With 0.4 the law is another, which holds the name as often as not.
+TEST(Evidence, OfANameBesideALawIsNoCertainty) {
+  EXPECT_DOUBLE_EQ(beside_a_law(0.98), 0.6 * 0.98 + 0.4 * 0.5);
+  EXPECT_DOUBLE_EQ(beside_a_law(0.5), 0.5);  // decides nothing
+}
+
 TEST(Evidence, OfAFlatPriorIsTheLimitOfWideOnes) {
   Rng rng({6});
   const Eigen::MatrixXd X = normal_matrix(30, 2, rng);

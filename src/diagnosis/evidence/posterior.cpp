@@ -28,6 +28,10 @@ double updated(double probability, double log_factor) {
   return std::clamp(1.0 / (1.0 + against), 0.5 * prior::kElsewhere, 1.0 - 0.5 * prior::kElsewhere);
 }
 
+double beside_a_law(double probability) {
+  return (1.0 - prior::kElsewhereBesideLaw) * probability + 0.5 * prior::kElsewhereBesideLaw;
+}
+
 void Posterior::hold_a_law() {
   unknown += std::exchange(nothing, 0.0);
   named_and_unknown += std::exchange(named, 0.0);
