@@ -57,6 +57,7 @@ class Scan {
   const Signals& coarse_prediction() const { return coarse_chain_.prediction(); }
 
  private:
+  Trial combed(const Trial& start) const;
   Trial tuned(const Trial& start, Detail detail) const;
   std::vector<Trial> hollows(const Member& mode, Detail detail, std::size_t most) const;
   Trial improved(const Trial& start, Detail detail, int evaluations,
@@ -66,6 +67,8 @@ class Scan {
   Chain chain_;
   Chain coarse_chain_;
   Eigen::VectorXd here_, coarse_here_;  // whitened predictions
+  Eigen::MatrixXd tangent_;
+  Index first_of_base_ = 0;  // of its columns
   Eigen::MatrixXd basis_;
   Eigen::VectorXd residual_;  // off the basis
 };
