@@ -107,20 +107,25 @@ Exit identify(Command& command, const Doctor& doctor, const Tool& tool) {
   return Exit::kDone;
 }
 
-Exit identify_joints(Command& command, const Tool& tool) {
+Exit identify_joints(Command& command, const Doctor& doctor, const Tool& tool) {
   command.arm.logs = command.request.logs;
+  std::vector<Path> logs = command.arm.logs;
+  logs.insert(logs.end(), command.arm.loaded.begin(), command.arm.loaded.end());
+  doctor.examine(tool, {logs, {}, "", command.arm.system});
   const ArmIdentification result = identify_arm(command.arm);
   write_file(command.out, result.system.dump(2) + "\n");
   write_report(command, result);
   for (const auto& note : result.notes) tool.note(note);
   const auto& judged = command.arm.loaded.empty() ? command.arm.logs : command.arm.loaded;
-  const std::string next = diagnosis_of("--system", command.out, judged);
+  // A diagnosis of joints needs their motion.
+  const bool moving = result.lowpass_hz > 0.0;
+  const std::string next = moving ? diagnosis_of("--system", command.out, judged) : "";
   if (tool.common().json) {
     Json json = to_json(result);
-    json["next"] = next;
+    json["next"] = moving ? Json(next) : Json();
     Tool::print(json);
   } else {
-    std::cout << to_text(result) << "Next: " << next << "\n";
+    std::cout << to_text(result) << (moving ? "Next: " + next + "\n" : "");
   }
   return Exit::kDone;
 }
@@ -200,7 +205,7 @@ int main(int argc, char** argv) {
     }
     require(logs.given() && out.given(), Exit::kUsage,
             "give recordings and --out sim.json; see dcnn-identify --help");
-    if (system.given()) return identify_joints(command, tool);
+    if (system.given()) return identify_joints(command, doctor, tool);
     command.request.read = read.options();
     command.request.laws = !rigid_alone;
     return identify(command, doctor, tool);

@@ -35,17 +35,20 @@ void drop_consequences(std::vector<Fault>& faults) {
   });
 }
 
+void drop_readings_of_forces(std::vector<Fault>& faults, const std::string& but = "") {
+  std::erase_if(faults, [&](const Fault& fault) {
+    return std::any_of(fault_kinds().begin(), fault_kinds().end(), [&](const FaultKind* kind) {
+      return kind->id == fault.id && kind->of_force && fault.id != but;
+    });
+  });
+}
+
 /// A column that is no force at all leaves nothing to fit a tool to.
 void drop_readings_of_broken_columns(std::vector<Fault>& faults) {
   const bool broken = std::any_of(faults.begin(), faults.end(), [](const Fault& fault) {
     return (fault.id == "wrap" || fault.id == "dropouts") && fault.probability >= kLikely;
   });
-  if (!broken) return;
-  std::erase_if(faults, [](const Fault& fault) {
-    return std::any_of(fault_kinds().begin(), fault_kinds().end(), [&](const FaultKind* kind) {
-      return kind->id == fault.id && kind->of_force;
-    });
-  });
+  if (broken) drop_readings_of_forces(faults);
 }
 
 /// Certain ones that stop first; a register that wraps before what else its counts show; the rest
@@ -105,13 +108,21 @@ double foreign_share_of(const Log& log, const Adopted& a) {
   return foreign_share(a.fit.residual.squaredNorm(), noise, power);
 }
 
+std::string foreign_note_of(const Log& log, const Adopted& a) {
+  return foreign_force_note(
+      foreign_share_of(log, a),
+      "contacts, friction, or a force and a pose that do not belong together; no mass or offset "
+      "from this log is the tool's");
+}
+
 void add_notes(const Log& log, const Adopted& a, Report& report) {
   if (a.compared) {
-    const std::string note = foreign_force_note(
-        foreign_share_of(log, a),
-        "contacts, friction, or a force and a pose that do not belong together; no mass or offset "
-        "from this log is the tool's");
-    if (!note.empty()) report.notes.push_back(note);
+    const std::string note = foreign_note_of(log, a);
+    if (note.empty()) return;
+    report.notes.push_back(note);
+    // Signs, axes and frames by which a tool explains the rest, however well, may be of what a
+    // controller subtracted or of a cable.
+    drop_readings_of_forces(report.faults, "compensated");
     return;
   }
   report.notes.push_back(

@@ -6,6 +6,7 @@
 #include "data/median.h"
 #include "dcnn/data/filter.h"
 #include "dcnn/physics/axis_machine.h"
+#include "diagnosis/axis_sense.h"
 #include "diagnosis/motion_band.h"
 #include "diagnosis/noise_floor.h"
 #include "diagnosis/periodograms.h"
@@ -86,37 +87,6 @@ std::vector<Index> used_columns(const std::vector<Recording>& recordings, const 
     for (Index k = 0; k < rows; ++k) all.row(before + k) = columns.row(5 * k);
   }
   return independent_columns(all, kBaseTolerance);
-}
-
-/// A drive moves inertia along its acceleration and friction along its velocity; a log of the
-/// reaction shows the opposite. The more significant of the two decides, beside an offset and a
-/// spring.
-double sense_of(const std::vector<Recording>& recordings, const System& system, const Axis& axis,
-                const DerivativeSpec& derivative) {
-  Targets target;
-  target.names = {axis.measured};
-  Eigen::Matrix4d gram = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d match = Eigen::Vector4d::Zero();
-  for (const Recording& recording : recordings) {
-    const Motion motion = axis_motion(recording, axis, derivative);
-    if (motion.v_B.rows() == 0) continue;
-    Eigen::MatrixXd A(motion.samples(), 4);
-    A.col(0).setOnes();
-    A.col(1).setZero();
-    if (recording.has(axis.position)) A.col(1) = recording.column(axis.position);
-    A.rightCols(2) << motion.v_B.col(0), motion.a_B.col(0);
-    gram += A.transpose() * A;
-    match += A.transpose() * measured(recording, target, system, true).col(0);
-  }
-  const Eigen::Vector4d scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  Eigen::Matrix4d scaled = scale.asDiagonal() * gram * scale.asDiagonal();
-  scaled.diagonal().array() += 1e-9;
-  const Eigen::Matrix4d inverse = scaled.inverse();
-  // In units of their own deviations, up to the noise's.
-  const Eigen::Vector4d estimate =
-      (inverse * scale.cwiseProduct(match)).cwiseQuotient(inverse.diagonal().cwiseSqrt());
-  const double along_v = estimate(2), along_a = estimate(3);
-  return (std::abs(along_v) > std::abs(along_a) ? along_v : along_a) < 0.0 ? -1.0 : 1.0;
 }
 
 /// Whether the axis' position varies by more than ten deviations of its noise within the motion's

@@ -7,6 +7,7 @@
 
 #include "core/linear_algebra.h"
 #include "diagnosis/beginning.h"
+#include "diagnosis/passed_base.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {
@@ -70,16 +71,24 @@ double difference_step(const Case& study, const std::vector<Member>& members, co
   return member.shapes(c.index) > 0.995 * member.most_shapes(c.index) ? -1e-3 : 1e-3;
 }
 
+/// Of the whitened prediction, to which a `correction` of the base's coefficients belongs: seen
+/// through the members as `passed` has it, it changes with those that pass it.
 Eigen::MatrixXd derivatives(const Setting& setting, const Chain& chain,
-                            const std::vector<Coordinate>& coordinates,
-                            const Eigen::VectorXd& here) {
+                            const std::vector<Coordinate>& coordinates, const Eigen::VectorXd& here,
+                            const Eigen::MatrixXd& passed, const Eigen::VectorXd& correction) {
   Eigen::MatrixXd columns(here.size(), static_cast<Index>(coordinates.size()));
   for_each_piece(columns.cols(), [&](Index k) {
     const Coordinate& c = coordinates[static_cast<std::size_t>(k)];
     const double step = difference_step(setting.study, chain.members(), c);
     Member moved = chain.members()[c.member];
     move(moved, c, step);
-    columns.col(k) = (setting.whitened(chain.with(moved, c.member)) - here) / step;
+    Eigen::VectorXd there = setting.whitened(chain.with(moved, c.member));
+    if (correction.size() > 0 && passes_base(moved)) {
+      std::vector<Member> members = chain.members();
+      members[c.member] = moved;
+      there += (passed_base(setting, members) - passed) * correction;
+    }
+    columns.col(k) = (there - here) / step;
   });
   return columns;
 }
@@ -134,9 +143,12 @@ Eigen::VectorXd best_change(const std::vector<Member>& members,
   return change;
 }
 
-/// What is always fitted, and how the cables among the members were bent when recordings began.
+/// What is always fitted, the base simulator as the members pass it, and how the cables among them
+/// were bent when recordings began.
 Eigen::MatrixXd with_beginnings(const Setting& setting, const std::vector<Member>& members) {
   Eigen::MatrixXd columns = setting.nuisance;
+  const Eigen::MatrixXd base = passed_base(setting, members);
+  columns.leftCols(base.cols()) = base;
   for (const Member& member : members) {
     const Eigen::MatrixXd begun = beginnings(setting, member, Detail::kFine);
     if (begun.cols() > 0) columns = appended(columns, begun);
@@ -210,10 +222,10 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   }
   const Eigen::VectorXd wanted = setting.whitened(setting.measured);
   const auto coordinates = coordinates_of(members);
-  const Eigen::MatrixXd nuisance_columns = with_beginnings(setting, members);
+  Eigen::MatrixXd nuisance_columns = with_beginnings(setting, members);
   const Index free = static_cast<Index>(coordinates.size()), extra = nuisance_columns.cols();
   const auto linear = static_cast<Index>(setting.study.logs.front().regressors.size());
-  const Eigen::MatrixXd base = orthonormal(setting.nuisance.leftCols(linear));
+  const bool passing = linear > 0 && std::any_of(members.begin(), members.end(), passes_base);
   auto chain = std::make_unique<Chain>(setting.study, std::move(members));
   Eigen::VectorXd here = setting.whitened(chain->prediction());
   JointFit fit;
@@ -221,16 +233,20 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   Eigen::VectorXd residual = wanted - here - nuisance_columns * fit.nuisance;
   fit.chi2 = residual.squaredNorm();
   fit.tangent.resize(here.size(), free + extra);
-  fit.tangent.rightCols(extra) = nuisance_columns;
   bool shapes_stay = setting.study.without.refinement;
   for (int step = 0; step < kMostSteps; ++step) {
-    fit.tangent.leftCols(free) = derivatives(setting, *chain, coordinates, here);
+    if (passing) nuisance_columns.leftCols(linear) = passed_base(setting, chain->members());
+    fit.tangent.rightCols(extra) = nuisance_columns;
+    fit.tangent.leftCols(free) =
+        derivatives(setting, *chain, coordinates, here, nuisance_columns.leftCols(linear),
+                    fit.nuisance.head(linear));
     for (Index k = 0; k < free; ++k) {
       const Coordinate& c = coordinates[static_cast<std::size_t>(k)];
       if (!c.is_shape && chain->members()[c.member].is_held(c.index)) fit.tangent.col(k).setZero();
     }
     if (free == 0) break;
     // A number that the base simulator has too, as the rest of a spring beside a constant.
+    const Eigen::MatrixXd base = orthonormal(nuisance_columns.leftCols(linear));
     const Eigen::MatrixXd off =
         base.cols() > 0 ? off_basis(fit.tangent.leftCols(free), base) : Eigen::MatrixXd();
     for (Index k = 0; k < off.cols(); ++k) {
@@ -250,6 +266,7 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
         whole = whole && std::abs(change(k)) <= most;
         move(moved[c.member], c, length * std::clamp(change(k), -most, most));
       }
+      if (passing) nuisance_columns.leftCols(linear) = passed_base(setting, moved);
       auto next = std::make_unique<Chain>(setting.study, std::move(moved));
       const Eigen::VectorXd there = setting.whitened(next->prediction());
       const Eigen::VectorXd nuisance = least_squares(nuisance_columns, wanted - there);

@@ -62,7 +62,9 @@ std::vector<Span> outlying(const Setting& setting, const Signals& left,
     const double tail = 0.5 * std::erfc((s.size - middle) / (deviation * std::sqrt(2.0)));
     whole += energy;
     if (deviation == 0.0 || tail * static_cast<double>(all.size()) >= kByChance) continue;
-    const double begin = s.begin - seconds, end = s.begin + 2.0 * seconds;
+    const Eigen::VectorXd& t = setting.study.logs[s.log].motion.t;
+    const double begin = std::max(s.begin - seconds, double(t(0))),
+                 end = std::min(s.begin + 2.0 * seconds, double(t(t.size() - 1)));
     const bool continues = !spans.empty() && spans.back().log == s.log && begin <= spans.back().end;
     if (!continues) spans.push_back({s.log, begin, end});
     spans.back().end = end;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "diagnosis/beginning.h"
+#include "diagnosis/passed_base.h"
 
 namespace dcnn {
 namespace {
@@ -61,7 +62,9 @@ Scan::Scan(const Setting& setting, const JointFit& fit)
       coarse_chain_(setting.coarse, fit.members),
       here_(setting.whitened(chain_.prediction())),
       coarse_here_(setting.coarse_whitener(coarse_chain_.prediction()).cwiseProduct(setting.mask)),
-      basis_(orthonormal(setting.study.without.projection ? setting.nuisance : fit.tangent)) {
+      tangent_(setting.study.without.projection ? setting.nuisance : fit.tangent),
+      first_of_base_(setting.study.without.projection ? 0 : fit.free_parameters()),
+      basis_(orthonormal(tangent_)) {
   residual_ = off_model(fit.residual);
   force_rows_ = rows_of_forces(setting.study, setting.whitener);
 }
@@ -104,6 +107,14 @@ Trial Scan::evaluate(const Member& member, Detail detail) const {
   Trial trial;
   trial.member = member;
   trial.price = setting_.price;
+  const bool lag = member.kind->stage == Stage::kDynamics && member.amplitudes.size() == 0;
+  if (lag && !setting_.study.logs.front().regressors.empty()) {
+    if (!is_itself(setting_.study, member)) return trial;
+    trial.gain =
+        std::max(0.0, residual_.squaredNorm() -
+                          left_beside_base(setting_, chain_, tangent_, first_of_base_, member));
+    return trial;
+  }
   const Eigen::MatrixXd raw = columns(member, detail);
   Eigen::MatrixXd c = off_model(raw);
   const double energy = raw.squaredNorm();
@@ -212,6 +223,19 @@ std::vector<Member> Scan::as_likely(const Member& mode, double within) const {
   return likely;
 }
 
+/// A delay has a local minimum at every turn of the motion: the best of a comb first.
+Trial Scan::combed(const Trial& start) const {
+  constexpr double kStep = 0.02;  // s: an eighth of a turn at 6 Hz
+  Trial best = start;
+  Member member = start.member;
+  for (double delay = kStep; delay < member.form->shapes[0].high; delay += kStep) {
+    member.shapes(0) = delay;
+    const Trial trial = evaluate(member, Detail::kCoarse);
+    if (trial.gain > best.gain) best = trial;
+  }
+  return best;
+}
+
 Trial Scan::approach(const Trial& seed) const {
   const std::string name = seed.member.name();
   const auto a_little = [&](const Trial& start) {
@@ -219,6 +243,8 @@ Trial Scan::approach(const Trial& seed) const {
   };
   if (setting_.study.without.refinement) return seed;
   if (name == "hum") return a_little(tuned(seed, Detail::kCoarse));
+  const bool fitted_base = !setting_.study.logs.front().regressors.empty();
+  if (name == "time_delay" && fitted_base) return a_little(combed(seed));
   const Trial best = a_little(seed);
   if (name != "flexible_resonance" || seed.gain < 2.0 * seed.price) return best;
   const Trial elsewhere = best_mode(seed.member);

@@ -65,6 +65,7 @@ class Scan {
                  Trial& trial) const;
   /// Whether its amplitudes are those of such an effect.
   bool is_possible(const Member& member) const;
+  Trial combed(const Trial& start) const;
   Trial tuned(const Trial& start, Detail detail) const;
   std::vector<Trial> hollows(const Member& mode, Detail detail, std::size_t most) const;
   Trial improved(const Trial& start, Detail detail, int evaluations,
@@ -74,6 +75,8 @@ class Scan {
   Chain chain_;
   Chain coarse_chain_;
   Eigen::VectorXd here_, coarse_here_;  // whitened predictions
+  Eigen::MatrixXd tangent_;
+  Index first_of_base_ = 0;  // of its columns
   Eigen::MatrixXd basis_;
   Eigen::VectorXd residual_;  // off the basis
   std::vector<Index> force_rows_;

@@ -1,5 +1,6 @@
 #include "dcnn/identification/arm.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dcnn/identification/urdf.h"
@@ -17,6 +18,7 @@ using identification::DriveTerm;
 
 constexpr double kArm95 = 1.959963985;  // half a 95 % interval in standard deviations
 constexpr double kHalved = 0.5;         // of what was known before: a parameter is shown below
+constexpr double kShownReach = 0.05;    // m: a payload's centre is shown where it is known better
 
 JointChain chain_for(const ArmRequest& request, const System& system) {
   require(system.kind == System::Kind::kAxes, Exit::kData, request.system.string(),
@@ -113,7 +115,9 @@ std::vector<IdentifiedNumber> payload_estimates(const ArmFit& fit) {
     const double com = p[i] / p[0];
     const double variance = (C(i, i) - 2.0 * com * C(i, 0) + com * com * C(0, 0)) / (p[0] * p[0]);
     const std::string name = std::string("com_") + "xyz"[i - 1] + "_m";
-    all.push_back(normal_estimate(name, "m", com, std::sqrt(std::max(variance, 0.0))));
+    const double deviation = std::sqrt(std::max(variance, 0.0));
+    all.push_back(normal_estimate(name, "m", com, deviation));
+    all.back().shown = kArm95 * deviation < kShownReach;
   }
   return all;
 }
@@ -171,8 +175,8 @@ ArmIdentification identify_arm(const ArmRequest& request) {
   result.system["arm"] = to_json(found);
   result.base_parameters = identification::told_combinations(logs);
   result.payload = payload_estimates(fit);
-  result.lowpass_hz = logs.front().clock.cutoff_hz;
   for (const ArmLog& log : logs) {
+    result.lowpass_hz = std::max(result.lowpass_hz, log.clock.cutoff_hz);
     const Recording& recording = log.clock.recording;
     result.recordings.push_back(recording.name);
     for (const auto& note : recording.notes) result.notes.push_back(recording.name + ": " + note);

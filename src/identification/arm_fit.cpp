@@ -12,36 +12,29 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// What is known of a link before: without a description its mass and reach alone, with one its share.
-constexpr double kLinkMass = 30.0, kLinkReach = 0.5;       // kg, m
+// What is known of a link before: without a description its mass and reach alone, with one its
+// share.
+constexpr double kLinkMass = 30.0, kLinkReach = 0.5;        // kg, m
 constexpr double kDescribed = 0.3, kLeastDescribed = 0.05;  // of the described; kg
 constexpr double kDescribedReach = 0.1;                     // m, beside its centre's distance
 constexpr double kDriveGain = 0.3;                          // of one
 constexpr double kWideDrive = 1e3;  // times the joint's torque, per unit of a drive's term
 constexpr int kRounds = 4;
 const std::vector<double> kPaths{1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2};  // rad or m
-const std::vector<double> kCreeps{0.0, 0.1, 0.3, 1.0, 3.0, 10.0};  // s; 0: none
+const std::vector<double> kCreeps{0.0, 0.1, 0.3, 1.0, 3.0, 10.0};      // s; 0: none
 const std::vector<DriveTerm> kMore{DriveTerm::kLoad, DriveTerm::kQuadratic, DriveTerm::kStribeck};
-
-/// Rows of which one is as good as independent: 1 + 2 times the sum of the autocorrelation up to
-/// where it first is negative.
-double correlated_rows(const VectorXd& r) {
-  const Index n = r.size();
-  const double power = r.squaredNorm();
-  double sum = 1.0;
-  for (Index lag = 1; lag < n / 4 && power > 0.0; ++lag) {
-    const double rho = r.head(n - lag).dot(r.tail(n - lag)) / power;
-    if (rho <= 0.0) break;
-    sum += 2.0 * rho;
-  }
-  return sum;
-}
 
 class ArmFitter {
  public:
   ArmFitter(const JointChain& chain, std::vector<ArmLog>& logs, bool drive_gains)
       : chain_(chain), logs_(logs), joints_(static_cast<Index>(chain.joints.size())) {
     fit_.drives.resize(chain.joints.size());
+    // Friction and rotors are not seen where no joint moves.
+    const bool at_rest =
+        std::all_of(logs.begin(), logs.end(), [](const ArmLog& log) { return log.clock.at_rest; });
+    for (Drive& drive : fit_.drives) {
+      if (at_rest) drive.terms = {DriveTerm::kOffset};
+    }
     for (std::size_t j = 0; drive_gains && j < fit_.drives.size(); ++j) {
       fit_.drives[j].terms.push_back(DriveTerm::kGain);
     }
@@ -80,8 +73,8 @@ class ArmFitter {
 
   /// Links, payload, drives: what comes first stays in its place when terms are added.
   void lay_out() {
-    const bool loaded = std::any_of(logs_.begin(), logs_.end(),
-                                    [](const ArmLog& log) { return log.loaded; });
+    const bool loaded =
+        std::any_of(logs_.begin(), logs_.end(), [](const ArmLog& log) { return log.loaded; });
     size_ = 10 * joints_;
     fit_.payload = loaded ? size_ : -1;
     if (loaded) size_ += 10;
@@ -177,20 +170,30 @@ class ArmFitter {
     const MatrixXd inverse = solve_symmetric(H, MatrixXd::Identity(size_, size_));
     fit_.covariance = sd.asDiagonal() * inverse * sd.asDiagonal();
     fit_.deviation = fit_.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-    set_residuals(all, fit_.x.cwiseQuotient(sd));
+    set_residuals(all, fit_.x.cwiseQuotient(sd), inverse);
     take_gains();
   }
 
-  void set_residuals(const std::vector<std::vector<MatrixXd>>& all, const VectorXd& u) {
+  /// A joint's variance by the degrees of freedom that its rows keep: their number, less that of
+  /// the parameters they decide (the trace of the hat matrix), of which each takes as many rows as
+  /// count as one.
+  void set_residuals(const std::vector<std::vector<MatrixXd>>& all, const VectorXd& u,
+                     const MatrixXd& inverse) {
     for (Index j = 0; j < joints_; ++j) {
-      double square = 0.0, rows = 0.0, correlation = 0.0;
+      const double weight =
+          1.0 / (fit_.residual_rms[j] * fit_.residual_rms[j] * fit_.correlated[j]);
+      double square = 0.0, rows = 0.0, correlation = 0.0, decided = 0.0;
       for (std::size_t k = 0; k < logs_.size(); ++k) {
-        const VectorXd r = logs_[k].torque.col(j) - all[k][static_cast<std::size_t>(j)] * u;
+        const MatrixXd& A = all[k][static_cast<std::size_t>(j)];
+        const VectorXd r = logs_[k].torque.col(j) - A * u;
+        const auto n = static_cast<double>(r.size());
         square += r.squaredNorm();
-        rows += static_cast<double>(r.size());
-        correlation += correlated_rows(r) * static_cast<double>(r.size());
+        rows += n;
+        correlation += correlated_rows(logs_[k], r) * n;
+        decided += weight * (A * inverse).cwiseProduct(A).sum();
       }
-      fit_.residual_rms[j] = std::max(std::sqrt(square / rows), 1e-12);
+      const double freedom = std::max(1.0, rows - fit_.correlated[j] * decided);
+      fit_.residual_rms[j] = std::max(std::sqrt(square / freedom), 1e-12);
       fit_.correlated[j] = correlation / rows;
     }
   }

@@ -46,8 +46,10 @@ std::string summary(const ArmIdentification& id) {
   std::vector<std::string> parts;
   if (!id.payload.empty()) {
     const double m = id.payload[0].value;
-    const double off = std::sqrt(std::pow(id.payload[1].value, 2) + std::pow(id.payload[2].value, 2) +
-                                 std::pow(id.payload[3].value, 2));
+    double off = 0.0;
+    for (std::size_t k = 1; k < id.payload.size(); ++k) {
+      if (id.payload[k].shown) off = std::hypot(off, id.payload[k].value);
+    }
     parts.push_back(id.payload[0].shown
                         ? arm_line("payload of %.3g kg, centre %.2g cm off the flange", m, 100.0 * off)
                         : arm_line("no payload above %.2g kg", id.payload[0].high));
@@ -65,6 +67,7 @@ std::string summary(const ArmIdentification& id) {
     });
     if (!where.empty()) parts.push_back(text + (" on " + where));
   }
+  if (parts.empty()) parts.push_back("the links and the drives' offsets, nothing else");
   std::string text;
   for (const auto& part : parts) text += (text.empty() ? "" : "; ") + part;
   return text + ".\n";
@@ -120,17 +123,33 @@ Json to_json(const ArmIdentification& id) {
 std::string to_text(const ArmIdentification& id) {
   std::string text = summary(id);
   for (const IdentifiedNumber& e : id.payload) {
+    if (!e.shown) {
+      text += arm_line("  %-12s not shown by these recordings\n", e.name.c_str());
+      continue;
+    }
     text += arm_line("  %-12s %9.4f  [%.4f, %.4f] %s\n", e.name.c_str(), e.value, e.low, e.high,
                      e.unit.c_str());
   }
-  text += arm_line("%d combinations of inertial parameters are told by these motions; torques and "
-                   "regressors low-passed at %.3g Hz.\n",
-                   id.base_parameters, id.lowpass_hz);
-  text += "  joint          torque   residual  held out   dry        viscous    path     creep\n";
+  if (id.lowpass_hz == 0.0) {
+    text += arm_line("%d combinations of inertial parameters are told by these poses at rest; friction "
+                     "and rotors' inertias show in motion alone.\n",
+                     id.base_parameters);
+    text += "  joint          torque   residual  held out\n";
+  } else {
+    text += arm_line("%d combinations of inertial parameters are told by these motions; torques and "
+                     "regressors low-passed at %.3g Hz.\n",
+                     id.base_parameters, id.lowpass_hz);
+    text += "  joint          torque   residual  held out   dry        viscous    path     creep\n";
+  }
   for (const JointEstimate& joint : id.joints) {
     const IdentifiedNumber *fc = parameter_of(joint, "fc"), *c = parameter_of(joint, "c");
     const std::string held =
         joint.holdout_rms ? arm_line("%-9.3g", *joint.holdout_rms) : std::string("-        ");
+    if (id.lowpass_hz == 0.0) {
+      text += arm_line("  %-12s %8.3g   %-9.3g %s  [%s]\n", joint.name.c_str(), joint.torque_rms,
+                       joint.residual_rms, held.c_str(), joint.unit.c_str());
+      continue;
+    }
     text += arm_line("  %-12s %8.3g   %-9.3g %s  %-9.3g  %-9.3g  %-7.2g  %.2g s  [%s]\n", joint.name.c_str(),
                      joint.torque_rms, joint.residual_rms, held.c_str(), fc ? fc->value : 0.0,
                      c ? c->value : 0.0, joint.presliding, joint.creep_s,

@@ -12,7 +12,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kRestStep = 0.2;      // s between rows: a robot's motion has faster parts than 2.5 Hz
+constexpr double kRestStep = 0.2;  // s between rows: a robot's motion has faster parts than 2.5 Hz
 constexpr double kMotionPower = 0.999;  // share of the rates' power that counts as motion
 constexpr double kLowestCutoff = 2.0, kHighestCutoff = 15.0;  // Hz: arms with a tool move below
 constexpr double kRowsPerCycle = 2.5;  // of the cutoff: above Nyquist's 2 for the filter's slope
@@ -30,24 +30,11 @@ double median_step_of(const Table& table) {
   return steps[steps.size() / 2];
 }
 
-/// Takes the times of a list of poses out of its table.
-VectorXd take_times(Table& table) {
-  const auto found = std::find(table.columns.begin(), table.columns.end(), "t");
-  if (found == table.columns.end()) return VectorXd::Zero(table.values.rows());
-  const Index k = found - table.columns.begin(), last = table.values.cols() - 1;
-  const VectorXd t = table.values.col(k);
-  MatrixXd rest(table.values.rows(), last);
-  rest << table.values.leftCols(k), table.values.rightCols(last - k);
-  table.values = rest;
-  table.columns.erase(found);
-  return t.size() > 0 ? VectorXd(t.array() - t[0]) : t;
-}
-
 /// The frequency below which kMotionPower of a rate's power lies, mean of its components removed.
 double band_of(const MatrixXd& rates, const WristLog& log) {
-  const auto longest = std::max_element(
-      log.motion.segments.begin(), log.motion.segments.end(),
-      [](const Segment& a, const Segment& b) { return a.size() < b.size(); });
+  const auto longest =
+      std::max_element(log.motion.segments.begin(), log.motion.segments.end(),
+                       [](const Segment& a, const Segment& b) { return a.size() < b.size(); });
   const Index n = longest->size();
   const Index length = fast_length(n);
   const Fourier transform(length);
@@ -98,12 +85,10 @@ void set_motion(WristLog& log) {
 WristLog read_log(const std::filesystem::path& path, ReadOptions options) {
   WristLog log;
   SourceTable source = read_table(path);
-  Table& table = source.table;
-  const bool has_t = std::count(table.columns.begin(), table.columns.end(), "t") > 0;
-  log.at_rest = !has_t || median_step_of(table) >= kRestStep;
+  log.at_rest = is_at_rest(source.table);
   if (log.at_rest) {
     options.static_list = true;
-    log.t = take_times(table);
+    log.t = take_times(source.table);
   }
   log.recording = make_recording(std::move(source), path, options, System());
   require(log.recording.has_all(kForces), Exit::kData, path.string(),
@@ -114,14 +99,35 @@ WristLog read_log(const std::filesystem::path& path, ReadOptions options) {
     return log;
   }
   log.motion = motion_of(log.recording, ToolModel(), DerivativeSpec());
-  for (Index k = 0; k < log.recording.samples(); ++k) {
-    log.kept.push_back(k);
-    log.segments.push_back({k, k + 1});
-  }
+  keep_all(log);
   return log;
 }
 
 }  // namespace
+
+bool is_at_rest(const Table& table) {
+  const bool has_t = std::count(table.columns.begin(), table.columns.end(), "t") > 0;
+  return !has_t || median_step_of(table) >= kRestStep;
+}
+
+VectorXd take_times(Table& table) {
+  const auto found = std::find(table.columns.begin(), table.columns.end(), "t");
+  if (found == table.columns.end()) return VectorXd::Zero(table.values.rows());
+  const Index k = found - table.columns.begin(), last = table.values.cols() - 1;
+  const VectorXd t = table.values.col(k);
+  MatrixXd rest(table.values.rows(), last);
+  rest << table.values.leftCols(k), table.values.rightCols(last - k);
+  table.values = rest;
+  table.columns.erase(found);
+  return t.size() > 0 ? VectorXd(t.array() - t[0]) : t;
+}
+
+void keep_all(WristLog& log) {
+  for (Index k = 0; k < log.recording.samples(); ++k) {
+    log.kept.push_back(k);
+    log.segments.push_back({k, k + 1});
+  }
+}
 
 // Every k-th row, without the ends of segments, which the filters do not know.
 void thin(WristLog& log) {
@@ -178,9 +184,9 @@ void advance(WristLog& log, double seconds) {
   const MatrixXd before = log.measured;
   for (const Segment& segment : log.motion.segments) {
     for (Index k = segment.begin; k < segment.end; ++k) {
-      const double place = std::clamp(static_cast<double>(k) + shift,
-                                      static_cast<double>(segment.begin),
-                                      static_cast<double>(segment.end - 1));
+      const double place =
+          std::clamp(static_cast<double>(k) + shift, static_cast<double>(segment.begin),
+                     static_cast<double>(segment.end - 1));
       const Index low = std::min(static_cast<Index>(place), segment.end - 1);
       const Index high = std::min(low + 1, segment.end - 1);
       const double part = place - static_cast<double>(low);

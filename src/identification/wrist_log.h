@@ -34,6 +34,13 @@ struct WristLog {
 std::vector<WristLog> read_wrist_logs(const std::vector<std::filesystem::path>& paths,
                                       const ReadOptions& options);
 
+/// Whether a table lists poses at rest: as read_wrist_logs() says.
+bool is_at_rest(const Table& table);
+/// Takes the times of a list of poses out of its table: [s] from the first, zero without times.
+Eigen::VectorXd take_times(Table& table);
+/// Keeps every row of a list of poses, each a segment of its own.
+void keep_all(WristLog& log);
+
 /// Sets the rows that are left of a moving recording whose segments and cutoff are known.
 void thin(WristLog& log);
 

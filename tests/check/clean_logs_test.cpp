@@ -88,6 +88,27 @@ TEST(CleanLogs, AForceThatIsNoToolsIsSaid) {
   EXPECT_NE(report.notes[0].find("no rigid tool's"), std::string::npos) << report.notes[0];
 }
 
+// Pushes in nearly half of the rows; in the others next to nothing is left of a weight, with the
+// wrong sign, as where a controller has subtracted a little too much.
+TEST(CleanLogs, AForceThatIsMostlyNoToolsTellsNoSign) {
+  const check::Log log = slow_log(4000, 0.01, 0.6);
+  Table table = log.table;
+  for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+    const Eigen::Index phase = i % 500;
+    for (Eigen::Index j = 7; j < 10; ++j) {
+      const auto axis = static_cast<double>(j - 7);
+      table.values(i, j) *= -0.1;
+      if (phase < 225) {
+        table.values(i, j) +=
+            30.0 * std::sin(0.013 * static_cast<double>(phase) * (axis + 1.0) + axis);
+      }
+    }
+  }
+  const check::Report report = check::check(check::make_log("pushed.csv", table, {}));
+  ASSERT_FALSE(report.notes.empty());
+  for (const check::Fault& fault : report.faults) EXPECT_NE(fault.id, "reaction") << fault.words;
+}
+
 // Its weight is a constant then, which an offset explains as well: no reason to say that it is
 // gone.
 TEST(CleanLogs, AToolThatHardlyTurnsIsNotCompensated) {
@@ -134,6 +155,34 @@ TEST(CleanLogs, ATorqueWhoseScaleSaysItsSignHasTheRightOne) {
   }
   const check::Report right = two_joints(-20.0, true);
   EXPECT_EQ(right.stopping({}), nullptr) << check::to_text(right);
+}
+
+// An elbow swings on a shoulder whose drive holds it softly: the shoulder's torque takes out for
+// long what power the elbow puts in.
+TEST(CleanLogs, AJointThatAnotherOneDrivesHasTheRightSign) {
+  constexpr double kStep = 0.002, kStiffness = 20.0, kDamping = 3.0;
+  constexpr double kOwn = 0.9, kBoth = 0.35, kElbow = 0.3;  // inertia of the pair [kg m²]
+  Table table{{"t", "q_1", "tau_1", "q_2", "tau_2"}, Eigen::MatrixXd(8000, 5)};
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  double q1 = 0.2, v1 = 0.0;
+  for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+    const double t = kStep * static_cast<double>(i);
+    const double q2 = 0.8 * std::sin(5.0 * t) + 0.5 * std::sin(3.1 * t),
+                 v2 = 4.0 * std::cos(5.0 * t) + 1.55 * std::cos(3.1 * t),
+                 a2 = -20.0 * std::sin(5.0 * t) - 4.805 * std::sin(3.1 * t);
+    const double tau1 = -kStiffness * q1 - kDamping * v1;
+    const double inertia = kOwn + 2.0 * kBoth * std::cos(q2),
+                 transmitted = kElbow + kBoth * std::cos(q2);
+    const double coriolis = -kBoth * std::sin(q2) * (2.0 * v1 * v2 + v2 * v2);
+    const double a1 = (tau1 - transmitted * a2 - coriolis - 0.1 * v1) / inertia;
+    const double tau2 = transmitted * a1 + kElbow * a2 + kBoth * std::sin(q2) * v1 * v1 + 0.05 * v2;
+    table.values.row(i) << t, q1, tau1 + noise(random), q2, tau2 + noise(random);
+    v1 += kStep * a1;
+    q1 += kStep * v1;
+  }
+  const check::Report report = check::check(check::make_log("driven.csv", table, {}));
+  for (const check::Fault& fault : report.faults) EXPECT_NE(fault.id, "power_sign") << fault.words;
 }
 
 // A joint whose encoder begins anew after each turn, at 1 rad/s: two jumps in 15 s.

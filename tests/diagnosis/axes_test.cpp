@@ -293,6 +293,25 @@ TEST(DiagnoseAxes, NamesADelayOrALeadOfThirtyRowsAndMore) {
   }
 }
 
+// Beside a base that is fitted, which without the delay is another one: it leaves half of the
+// torque, and the friction seems to drive.
+TEST(DiagnoseAxes, NamesALongDelayBesideAFittedBase) {
+  for (const double delay : {0.3, -0.3, 0.1}) {
+    const AxisBench bench([&](const State& s) {
+      const State then = state_at(s.t - delay);
+      return kInertia * (then.a - s.a) + 6.0 * then.v + std::tanh(then.v / 0.02);
+    });
+    const Json report =
+        bench.diagnose(one_axis({{"base", Json::array({"acceleration", "velocity"})}})).report;
+    const Json *found = find(report, "time_delay"), *dry = find(report, "coulomb_friction");
+    ASSERT_TRUE(found && dry) << delay << report["findings"].dump(1);
+    EXPECT_NEAR(number(*found, "delay", "s"), delay, 0.003);
+    EXPECT_NEAR(number(*dry, "fc", "N*m"), 1.0, 0.03);
+    EXPECT_EQ(report["findings"].size(), 2U) << report["findings"].dump(1);
+    EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 1.1 * kAxisNoise);
+  }
+}
+
 TEST(DiagnoseAxes, DoesNotNameWhatItDoesNotKnow) {
   const Json report =
       AxisBench([](const State& s) { return 0.7 * std::sin(3.0 * s.q) * s.v * s.a; })

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "dcnn/core/random.h"
+#include "diagnosis/evidence/few_rows.h"
 #include "diagnosis/evidence/marginal.h"
 #include "diagnosis/evidence/posterior.h"
 #include "diagnosis/evidence/slow_noise.h"
@@ -50,6 +51,33 @@ TEST(Evidence, OfAFlatPriorIsTheLimitOfWideOnes) {
   const double wide = log_evidence(linear_model(X, y, Eigen::Vector2d(narrow, 2.0))) -
                       0.5 * std::log(narrow / (2.0 * std::numbers::pi));
   EXPECT_NEAR(log_evidence(linear_model(X, y, Eigen::Vector2d(0.0, 2.0))), wide, 1e-5);
+}
+
+// The integral over the noise's variance v, of density exp(-1/(2 v)) v^(-3/2)/sqrt(2 pi).
+TEST(Evidence, OfFewRowsIsTheMeanOverTheirNoise) {
+  constexpr double kStep = 1e-3;  // of ln v
+  for (const double freedom : {0.0, 3.0, 20.0}) {
+    for (const double square : {0.5, 9.0, 300.0}) {
+      double sum = 0.0;
+      for (double log = -20.0; log < 80.0; log += kStep) {
+        sum +=
+            kStep * std::exp(-0.5 * (square + 1.0) * std::exp(-log) - 0.5 * (freedom + 1.0) * log);
+      }
+      EXPECT_NEAR(log_student(square, freedom), std::log(sum), 1e-6);
+    }
+  }
+}
+
+// Of many rows the noise is known: then two models are as far apart as for noise of that size.
+TEST(Evidence, OfManyRowsIsThatOfKnownNoise) {
+  Rng rng({8});
+  const Eigen::MatrixXd X = normal_matrix(4000, 2, rng);
+  const Eigen::VectorXd y = normal_matrix(4000, 1, rng) + 0.1 * X.col(1);
+  const Eigen::VectorXd flat = Eigen::VectorXd::Zero(2);
+  const Linear both = linear_model(X, y, flat), one = linear_model(X.leftCols(1), y, flat.head(1));
+  const double known = log_evidence(both) - log_evidence(one);
+  EXPECT_NEAR(log_student_evidence(both, 4000.0) - log_student_evidence(one, 4000.0), known,
+              0.05 * known);
 }
 
 TEST(Evidence, OfAFieldIsTheMeanOverItsSizes) {

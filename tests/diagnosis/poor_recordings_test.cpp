@@ -22,6 +22,30 @@ TEST(PoorRecordings, OfTwoSecondsHaveSpectraToo) {
   EXPECT_EQ(report["verdict"], "consistent") << report["findings"].dump(1);
 }
 
+/// Seven poses leave three degrees of freedom of each channel's noise: an offset of 0.2 N beside
+/// noise of 0.05 N may be chance.
+TEST(PoorRecordings, OfSevenPosesMakeNobodySure) {
+  Eigen::MatrixXd poses(7, 6);
+  poses << -1.583711, -0.952402, -0.623651, -7.982857, 3.336640, -4.507652,  //
+      1.802714, 0.636390, -1.668431, 5.894861, 7.812902, 0.959887,           //
+      -1.964013, -0.945160, -1.713597, -7.867524, 5.645040, 1.048871,        //
+      -1.839386, -0.456360, 0.761854, -4.407248, -6.089658, -6.269264,       //
+      2.280305, -0.991876, 0.635111, -8.239547, -3.236549, -4.095841,        //
+      -2.463923, 1.043012, 2.192905, 8.526017, -4.055289, 3.066627,          //
+      2.453222, 0.173680, 2.293903, 1.729678, -7.293057, 6.535842;
+  const test::TemporaryFolder folder;
+  write_csv(folder / "poses.csv", {{"alpha", "beta", "gamma", "fx", "fy", "fz"}, poses});
+  write_file(folder / "sim.json",
+             R"({"tool": {"mass_kg": 1.0, "com_m": [0.0, 0.0, 0.04]}, "sample_rate_hz": 500})");
+  DiagnosisRequest request;
+  request.simulator = folder / "sim.json";
+  request.fit = {folder / "poses.csv"};
+  const Json report = diagnose(request, nullptr).report;
+  for (const Json& finding : report["findings"]) {
+    EXPECT_LT(finding["confidence"].get<double>(), 0.95) << finding.dump(1);
+  }
+}
+
 /// The law of a limit is one of forces, along three axes.
 TEST(PoorRecordings, ALimitOfTorqueIsNoLimitOfForce) {
   Json world = test::configuration(Json::array());

@@ -183,6 +183,50 @@ TEST_F(ArmIdentify, APayloadIsFoundBesideFrictionThatGrowsWithTheLoad) {
   EXPECT_NEAR(of(id.joints[1].parameters, "mu").value, 0.1, 0.02) << to_text(id);
 }
 
+/// A list of `poses` at rest, without times, of the same arm; noise 0.2 N·m.
+void write_poses(const std::filesystem::path& file, Index poses, double payload,
+                 std::uint64_t seed) {
+  Rng rng({seed, 78});
+  const JointChain chain = arm_chain();
+  MatrixXd q(poses, 3);
+  for (double& angle : q.reshaped()) angle = rng.uniform(-1.5, 1.5);
+  VectorXd bodies(30);
+  bodies << ball(8.0, {0.0, -0.1, 0.0}), ball(6.0, {-0.3, 0.0, 0.05}), ball(2.0, {0.0, 0.02, 0.1});
+  const Eigen::Matrix3d back = chain.flange_R.transpose();
+  bodies.tail(10) += body_in_frame(ball(payload, Truth().centre), back, -(back * chain.flange_p));
+  Table table{{"q_1", "q_2", "q_3", "tau_1", "tau_2", "tau_3"}, MatrixXd(poses, 6)};
+  table.values.leftCols(3) = q;
+  const MatrixXd still = MatrixXd::Zero(poses, 3);
+  for (std::size_t j = 0; j < 3; ++j) {
+    VectorXd torque = chain_regressor(chain, q, still, still, j) * bodies;
+    for (double& value : torque) value += 0.7 + 0.2 * rng.normal();
+    table.values.col(3 + static_cast<Index>(j)) = torque;
+  }
+  write_csv(file, table);
+}
+
+TEST_F(ArmIdentify, PosesAtRestTellWeightsAndAPayload) {
+  ArmRequest r = request({}, false);
+  write_poses(folder_ / "poses.csv", 40, 0.0, 1);
+  write_poses(folder_ / "loaded.csv", 40, 2.6, 2);
+  write_poses(folder_ / "held.csv", 200, 0.0, 3);
+  r.logs = {folder_ / "poses.csv"};
+  r.loaded = {folder_ / "loaded.csv"};
+  r.holdout = {folder_ / "held.csv"};
+  const ArmIdentification id = identify_arm(r);
+  const IdentifiedNumber mass = of(id.payload, "mass_kg");
+  EXPECT_NEAR(mass.value, 2.6, 0.03 * 2.6);
+  EXPECT_LT(mass.high - mass.low, 0.2);
+  EXPECT_EQ(id.lowpass_hz, 0.0);
+  for (const JointEstimate& joint : id.joints) {
+    EXPECT_NEAR(of(joint.parameters, "offset").value, 0.7, 0.3) << joint.name;
+    EXPECT_EQ(joint.parameters.size(), 1U) << joint.name;
+    EXPECT_LT(*joint.holdout_rms, 0.25) << joint.name;
+    EXPECT_NEAR(joint.residual_rms, 0.2, 0.03) << joint.name;
+  }
+  EXPECT_EQ(to_text(id).find("friction on"), std::string::npos) << to_text(id);
+}
+
 TEST_F(ArmIdentify, MistakesAreOneLine) {
   ArmRequest r = request({}, false);
   r.drive_gains = true;

@@ -47,7 +47,7 @@ struct ArmIdentification {
   std::vector<IdentifiedNumber>
       payload;  ///< mass_kg, com_*_m in the flange's frame; empty without `loaded`
   std::vector<std::string> recordings, holdout, notes;
-  double lowpass_hz = 0.0;
+  double lowpass_hz = 0.0;  ///< 0: poses at rest
   Json system;  ///< description with the links found: the simulator at hand of a diagnosis
 };
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "check/rows.h"
@@ -9,63 +10,133 @@ namespace {
 
 using Eigen::Index;
 
-struct Power {
-  std::string name, channel;
-  double dissipation = 0.0;  ///< z-value of the power that friction takes
-  double inertia = 0.0;      ///< z-value of the own inertia
+struct Motion {
+  Eigen::VectorXd place, v, a;
 };
 
-/// Least squares of the torque on own acceleration, velocity, its sign, gravity and a constant.
-Power power_of(const Log& log, const Joint& joint, const Sampled& rows, double dt) {
-  const Eigen::VectorXd q = log.column(joint.position);
-  const Eigen::VectorXd place = rows.smoothed(q, rows.value), v = rows.smoothed(q, rows.first) / dt,
-                        a = rows.smoothed(q, rows.second) / (dt * dt),
-                        y = joint.sense * rows.smoothed(log.column(joint.measured), rows.value);
-  const Index n = v.size();
-  const double slow = 0.05 * std::sqrt(v.squaredNorm() / static_cast<double>(n)) + 1e-12;
-  Eigen::MatrixXd A(n, 6);
-  A << a, v, elementary::tanh(v.array() / slow).matrix(), Eigen::VectorXd::Ones(n),
-      elementary::sin(place.array()).matrix(), elementary::cos(place.array()).matrix();
-  const Eigen::VectorXd size = A.colwise().norm().cwiseMax(1e-12).transpose();
-  A = A * size.cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd normal = A.transpose() * A + 1e-9 * Eigen::MatrixXd::Identity(6, 6);
-  const Eigen::VectorXd x = normal.ldlt().solve(A.transpose() * y), r = y - A * x;
-  const double rho =
-      std::clamp(r.head(n - 1).dot(r.tail(n - 1)) / std::max(r.squaredNorm(), 1e-300), 0.0, 0.99);
-  const Eigen::MatrixXd covariance =
-      r.squaredNorm() / static_cast<double>(n - 6) * (1.0 + rho) / (1.0 - rho) * normal.inverse();
-  Eigen::VectorXd friction =
-      Eigen::VectorXd::Zero(6);  // mean of v times what the friction columns give
-  friction[1] = v.squaredNorm() / size[1];
-  friction[2] = (v.array() * elementary::tanh(v.array() / slow)).sum() / size[2];
-  return {joint.name, joint.measured,
-          friction.dot(x) / std::sqrt(friction.dot(covariance * friction)),
-          x[0] / std::sqrt(covariance(0, 0))};
+/// How much likelier a joint's torque is with the sign that the log declares than with the other.
+struct SignEvidence {
+  std::string channel;
+  double log_odds = 0.0;
+};
+
+/// As the likeliest reading has it: gravity depends on the angle.
+Motion motion_of(const Evidence& e, const Joint& joint) {
+  const Sampled& rows = e.adopted.rows;
+  const double dt = e.log.step * e.adopted.reading.clock;
+  const Eigen::VectorXd q =
+      (joint.turns ? e.adopted.reading.angle : 1.0) * e.log.column(joint.position);
+  return {rows.smoothed(q, rows.value), rows.smoothed(q, rows.first) / dt,
+          rows.smoothed(q, rows.second) / (dt * dt)};
+}
+
+void append(Eigen::MatrixXd& A, const Eigen::VectorXd& column) {
+  A.conservativeResize(column.size(), A.cols() + 1);
+  A.col(A.cols() - 1) = column / std::max(column.norm(), 1e-12);
+}
+
+constexpr Index kSigned = 2;  // own inertia and dry friction, which no joint has negative
+constexpr Index kOfAnother = 6;
+
+/// The torque's columns: own inertia and dry friction; then what may have either sign: the rate,
+/// which viscous friction opposes and a controller's damping as well while another joint drives
+/// this one; a constant, gravity by the own angle, and what other joints transmit, the nearest
+/// first, as far as there are ten rows to a column.
+Eigen::MatrixXd columns_of(const std::vector<Motion>& motions, std::size_t own) {
+  const Motion& motion = motions[own];
+  const Index n = motion.v.size();
+  const double slow = 0.05 * std::sqrt(motion.v.squaredNorm() / static_cast<double>(n)) + 1e-12;
+  Eigen::MatrixXd A(n, 0);
+  const auto append_gravity = [&](const Motion& of) {
+    append(A, elementary::sin(of.place.array()).matrix());
+    append(A, elementary::cos(of.place.array()).matrix());
+  };
+  append(A, motion.a);
+  append(A, elementary::tanh(motion.v.array() / slow).matrix());
+  append(A, motion.v);
+  append(A, Eigen::VectorXd::Ones(n));
+  append_gravity(motion);
+  for (std::size_t away = 1; away < motions.size(); ++away) {
+    for (const std::size_t k : {own + away, own - away}) {  // wraps where there is none
+      if (k >= motions.size() || 10 * (A.cols() + kOfAnother) > n) continue;
+      append(A, motions[k].a);
+      append(A, motions[k].v);
+      append(A, motions[k].v.cwiseAbs2());
+      append(A, motions[k].v.cwiseProduct(motion.v));
+      append_gravity(motions[k]);
+    }
+  }
+  return A;
+}
+
+/// Least squares with `sign` times the first columns' coefficients not below zero: the best of the
+/// subsets of these columns that fulfils it. Returns the residual of the torque `y`.
+Eigen::VectorXd residual_with_sign(const Eigen::MatrixXd& A, const Eigen::VectorXd& y,
+                                   double sign) {
+  const Eigen::MatrixXd normal =
+      A.transpose() * A + 1e-9 * Eigen::MatrixXd::Identity(A.cols(), A.cols());
+  const Eigen::VectorXd right = A.transpose() * y;
+  Eigen::VectorXd best;
+  for (int subset = 0; subset < (1 << kSigned); ++subset) {
+    Eigen::MatrixXd held = normal;
+    for (Index k = 0; k < kSigned; ++k) {
+      if (!(subset >> k & 1)) held(k, k) += 1e15;  // a coefficient held at zero
+    }
+    const Eigen::VectorXd x = held.ldlt().solve(right);
+    if ((sign * x.head(kSigned).array() < -1e-9 * y.norm()).any()) continue;
+    Eigen::VectorXd residual = y - A * x;
+    if (best.size() == 0 || residual.squaredNorm() < best.squaredNorm()) best = std::move(residual);
+  }
+  return best;
+}
+
+/// The likelihood ratio of normal residuals of unknown variance, of as many rows as are
+/// independent.
+SignEvidence sign_of(const Log& log, const Joint& joint, const Sampled& rows,
+                     const std::vector<Motion>& motions, std::size_t own) {
+  const Eigen::VectorXd y = joint.sense * rows.smoothed(log.column(joint.measured), rows.value);
+  const Eigen::MatrixXd A = columns_of(motions, own);
+  const Eigen::VectorXd with = residual_with_sign(A, y, 1.0),
+                        against = residual_with_sign(A, y, -1.0);
+  const double independent =
+      std::min(kMostIndependent, 0.75 * static_cast<double>(with.size() - A.cols()));
+  // Rounding of a torque that is explained to the last digit is no evidence.
+  const double floor = 1e-12 * y.squaredNorm() + 1e-300;
+  return {joint.measured,
+          0.5 * independent *
+              elementary::log((against.squaredNorm() + floor) / (with.squaredNorm() + floor))};
 }
 
 std::vector<Fault> find_power_sign(const Evidence& e) {
   const Sampled& rows = e.adopted.rows;
   std::vector<Fault> out;
   if (rows.half == 0 || rows.centres.size() < 40) return out;
-  std::vector<Power> powers;
+  std::vector<const Joint*> joints;
+  std::vector<Motion> motions;
   for (const Joint& joint : e.log.joints) {
     if (joint.position.empty() || joint.measured.empty()) continue;
     if (robust_deviation(e.log.column(joint.position)) <= 0.0) continue;
-    powers.push_back(power_of(e.log, joint, rows, e.log.step * e.adopted.reading.clock));
+    joints.push_back(&joint);
+    motions.push_back(motion_of(e, joint));
   }
-  int right = 0;
-  for (const Power& power : powers) right += power.dissipation > 4.0;
-  for (const Power& power : powers) {
-    if (power.dissipation >= 0.0 || power.inertia > 3.0) continue;
+  std::vector<SignEvidence> signs;
+  for (std::size_t k = 0; k < joints.size(); ++k) {
+    signs.push_back(sign_of(e.log, *joints[k], rows, motions, k));
+  }
+  const bool right = std::any_of(signs.begin(), signs.end(), [](const SignEvidence& sign) {
+    return sign.log_odds > elementary::log(kCertain / (1.0 - kCertain));
+  });
+  for (const SignEvidence& sign : signs) {
+    const double odds = elementary::exp(-sign.log_odds) * kFaultPrior / (1.0 - kFaultPrior);
     // A drive's torque and its reaction are both logged; joints of one log that differ are not.
-    Fault fault =
-        fault_of(power_sign_fault, posterior_of_p(tail(power.dissipation)), power.channel,
-                 power.channel +
-                     ": the torque takes power out of the motion (friction would drive it, z = " +
-                     brief(power.dissipation) + "): its sign is wrong" +
-                     (right > 0 ? ", that of other joints is right"
-                                : ", or it is the reaction of the load"));
-    fault.stops = right > 0;
+    Fault fault = fault_of(
+        power_sign_fault, odds / (1.0 + odds), sign.channel,
+        sign.channel +
+            ": the joint's own inertia and dry friction explain it with the opposite sign (" +
+            brief(elementary::exp(std::min(-sign.log_odds, 20.0))) +
+            " times as likely), as if they drove the motion: its sign is wrong" +
+            (right ? ", that of other joints is right" : ", or it is the reaction of the load"));
+    fault.stops = right;
     if (fault.probability >= kLikely) out.push_back(fault);
   }
   return out;

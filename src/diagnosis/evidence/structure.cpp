@@ -8,6 +8,7 @@
 #include "core/elementary.h"
 #include "core/linear_algebra.h"
 #include "diagnosis/candidates.h"
+#include "diagnosis/evidence/few_rows.h"
 #include "diagnosis/evidence/marginal.h"
 #include "diagnosis/evidence/priors.h"
 #include "diagnosis/judgement.h"
@@ -144,8 +145,9 @@ bool shares_axis(const Field& field, const std::vector<Member>& members) {
 /// Columns whose Gaussian priors have unit variance, and flat ones, projected out of fields.
 class Background {
  public:
-  Background(Eigen::MatrixXd X, Eigen::VectorXd precision, Eigen::VectorXd y)
+  Background(const Grid& grid, Eigen::MatrixXd X, Eigen::VectorXd precision, Eigen::VectorXd y)
       : X_(std::move(X)), precision_(std::move(precision)), y_(std::move(y)) {
+    at_rest_ = grid.study().is_static();
     update();
   }
   void extend(const Eigen::MatrixXd& columns) {
@@ -157,19 +159,31 @@ class Background {
   }
   double log_factor(const Field& field, double* tau) const {
     const Eigen::MatrixXd& P = field.columns;
-    if (X_.cols() == 0) {
-      return log_field(P.transpose() * P, P.transpose() * y_, prior::kLeastField, prior::kMostField,
-                       tau);
+    Eigen::MatrixXd gram = P.transpose() * P;
+    Eigen::VectorXd match = P.transpose() * y_;
+    if (X_.cols() > 0) {
+      const Eigen::MatrixXd cross = half_ * (X_.transpose() * P);
+      gram -= cross.transpose() * cross;
+      match -= cross.transpose() * match_;
     }
-    const Eigen::MatrixXd cross = half_ * (X_.transpose() * P);
-    return log_field(P.transpose() * P - cross.transpose() * cross,
-                     P.transpose() * y_ - cross.transpose() * match_, prior::kLeastField,
-                     prior::kMostField, tau);
+    if (!at_rest_) return log_field(gram, match, prior::kLeastField, prior::kMostField, tau);
+    return log_student_field(gram, match, square_, freedom_, prior::kLeastField, prior::kMostField,
+                             tau);
   }
-  Linear linear() const { return linear_model(X_, y_, precision_); }
+  /// ln p(y): of rows in time with noise of unit variance.
+  double log_probability() const {
+    const Linear model = linear_model(X_, y_, precision_);
+    if (at_rest_) return log_student_evidence(model, static_cast<double>(y_.size()));
+    return log_evidence(model) - 0.5 * y_.squaredNorm();
+  }
 
  private:
   void update() {
+    if (at_rest_) {
+      const Linear model = linear_model(X_, y_, precision_);
+      square_ = least_square(model);
+      freedom_ = freedom_of(model, static_cast<double>(y_.size()));
+    }
     if (X_.cols() == 0) return;
     Eigen::MatrixXd A = X_.transpose() * X_;
     A.diagonal() += precision_;
@@ -183,6 +197,8 @@ class Background {
   Eigen::VectorXd precision_, y_;
   Eigen::MatrixXd half_;   // inverse of the Cholesky factor of X'X + P
   Eigen::VectorXd match_;  // half_ X'y
+  bool at_rest_ = false;
+  double square_ = 0.0, freedom_ = 0.0;  // there: what X leaves of y
 };
 
 /// Fields one after the other, as long as they gain more than their choice costs.
@@ -234,17 +250,19 @@ NamedEvidence named_evidence(const Setting& setting, const Grid& grid, const Joi
   // The residual with what the nuisance columns took off put back.
   const Eigen::VectorXd target =
       fit.residual + fit.tangent.rightCols(fit.nuisance.size()) * fit.nuisance;
+  Background background(grid, grid.pooled(fit.tangent), precision, grid.pooled(target));
+  const double pooled = background.log_probability();
   double sum =
-      log_evidence(linear_model(fit.tangent, target, precision)) - 0.5 * target.squaredNorm();
+      grid.study().is_static()
+          ? pooled
+          : log_evidence(linear_model(fit.tangent, target, precision)) - 0.5 * target.squaredNorm();
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
     if (!fit.members[m].fixed) sum += log_prior(setting, fit, m);
   }
   const Eigen::MatrixXd errors = model_errors(grid, fit.members);
-  Background background(grid.pooled(fit.tangent), precision, grid.pooled(target));
   if (errors.cols() > 0) {
-    const double before = log_evidence(background.linear());
     background.extend(errors);
-    sum += std::max(0.0, log_evidence(background.linear()) - before);
+    sum += std::max(0.0, background.log_probability() - pooled);
   }
   return {sum, std::move(background)};
 }

@@ -1,0 +1,128 @@
+#include "diagnosis/axis_sense.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/elementary.h"
+#include "dcnn/physics/axis_machine.h"
+#include "diagnosis/evidence/priors.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kLongest = 0.6;  // s, as delays are looked for (effects/time_delay.cpp)
+constexpr int kDelays = 60;       // either way: steps that no motion below 10 Hz turns in
+
+/// Offset, position, velocity and acceleration of one recording, and its reading.
+struct Rows {
+  Eigen::MatrixXd motion;
+  Eigen::VectorXd reading;
+  std::vector<Segment> segments;
+  double dt = 0.0;
+  Index stride = 1;
+};
+
+/// Sums of a regression of the reading on the motion `delay` rows before.
+struct Sums {
+  Eigen::Matrix4d gram = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d match = Eigen::Vector4d::Zero();
+  double square = 0.0, sum = 0.0, rows = 0.0;
+
+  void add(const Rows& log, Index delay) {
+    for (const Segment& s : log.segments) {
+      const Index begin = std::max(s.begin, s.begin + delay), end = std::min(s.end, s.end + delay);
+      if (end <= begin) continue;
+      const Eigen::MatrixXd A =
+          log.motion(Eigen::seq(begin - delay, end - delay - 1, log.stride), Eigen::all);
+      const Eigen::VectorXd y = log.reading(Eigen::seq(begin, end - 1, log.stride));
+      gram.noalias() += A.transpose() * A;
+      match.noalias() += A.transpose() * y;
+      square += y.squaredNorm();
+      sum += y.sum();
+      rows += static_cast<double>(y.size());
+    }
+  }
+};
+
+struct Fit {
+  double sense = 1.0;
+  double left = 1.0;  ///< share of the reading's variance
+};
+
+Fit fit_of(const Sums& sums) {
+  const Eigen::Vector4d scale = sums.gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Eigen::Matrix4d scaled = scale.asDiagonal() * sums.gram * scale.asDiagonal();
+  scaled.diagonal().array() += 1e-9;
+  const Eigen::Matrix4d inverse = scaled.inverse();
+  const Eigen::Vector4d match = scale.cwiseProduct(sums.match);
+  // In units of their own deviations, up to the noise's.
+  const Eigen::Vector4d estimate = (inverse * match).cwiseQuotient(inverse.diagonal().cwiseSqrt());
+  const double along_v = estimate(2), along_a = estimate(3);
+  const double variance = sums.square - sums.sum * sums.sum / std::max(1.0, sums.rows);
+  Fit fit;
+  fit.sense = (std::abs(along_v) > std::abs(along_a) ? along_v : along_a) < 0.0 ? -1.0 : 1.0;
+  // Rounding is what an exact simulator leaves.
+  fit.left = (std::max(0.0, sums.square - match.dot(inverse * match)) + 1e-9 * sums.square) /
+             std::max(variance, 1e-300);
+  return fit;
+}
+
+Rows rows_of(const Recording& recording, const System& system, const Axis& axis,
+             const DerivativeSpec& derivative) {
+  Targets target;
+  target.names = {axis.measured};
+  Rows rows;
+  const Motion motion = axis_motion(recording, axis, derivative);
+  if (motion.v_B.rows() == 0) return rows;
+  rows.motion.resize(motion.samples(), 4);
+  rows.motion.col(0).setOnes();
+  rows.motion.col(1).setZero();
+  if (recording.has(axis.position)) rows.motion.col(1) = recording.column(axis.position);
+  rows.motion.rightCols(2) << motion.v_B.col(0), motion.a_B.col(0);
+  rows.reading = measured(recording, target, system, true).col(0);
+  rows.segments = recording.segments;
+  rows.dt = recording.dt;
+  constexpr Index kEnough = 20'000;  // rows: a limit of computation
+  rows.stride = std::max<Index>(1, rows.motion.rows() / kEnough);
+  return rows;
+}
+
+/// How often the axis turns back: so many independent pieces a motion has.
+double turns_of(const std::vector<Rows>& logs) {
+  double turns = 0.0;
+  for (const Rows& log : logs) {
+    for (Index i = 1; i < log.motion.rows(); ++i) {
+      turns += log.motion(i, 2) * log.motion(i - 1, 2) < 0.0;
+    }
+  }
+  return turns;
+}
+
+}  // namespace
+
+double sense_of(const std::vector<Recording>& recordings, const System& system, const Axis& axis,
+                const DerivativeSpec& derivative) {
+  std::vector<Rows> logs;
+  for (const Recording& recording : recordings) {
+    Rows rows = rows_of(recording, system, axis, derivative);
+    if (rows.motion.rows() > 0) logs.push_back(std::move(rows));
+  }
+  if (logs.empty()) return 1.0;
+  const double turns = turns_of(logs);
+  const double delayed =
+      elementary::log(evidence::prior::kName / (1.0 - evidence::prior::kName) / (2.0 * kDelays));
+  double sense = 1.0, most = -1e300;
+  for (int k = -kDelays; k <= kDelays; ++k) {
+    Sums sums;
+    for (const Rows& log : logs) {
+      sums.add(log, std::llround(kLongest * k / kDelays / log.dt));
+    }
+    const Fit fit = fit_of(sums);
+    const double likely =
+        -0.5 * turns * elementary::log(std::max(fit.left, 1e-12)) + (k == 0 ? 0.0 : delayed);
+    if (likely > most) most = likely, sense = fit.sense;
+  }
+  return sense;
+}
+
+}  // namespace dcnn
