@@ -33,8 +33,8 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"import", {"core", "data"}},  // makes recordings, knows nothing of what is done with them
     {"runtime", {"core", "nn", "data", "physics", "models", "calibration"}},
     {"experiment",
-     {"core", "nn", "data", "physics", "models", "diagnosis", "runtime", "calibration", "teleop",
-      "check", "cells"}},
+     {"core", "nn", "data", "physics", "models", "diagnosis", "identification", "runtime",
+      "calibration", "teleop", "check", "cells"}},
     {"check", {"core", "data", "physics"}},  // the nominal tool of sim.json
     {"tools",
      {"core", "nn", "data", "physics", "models", "diagnosis", "conceal", "rivals", "runtime",

@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
       .between(1, 1000)
       .with_default();
   tool.option("--samples", request.samples, "rows that are drawn where there is no --data")
-      .positive()
+      .positive(10000000)
       .with_default()
       .excludes(data);
   tool.output("--out", out, "folder for bench.html and bench.json", {"bench.html", "bench.json"});

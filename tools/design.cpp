@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
   tool.option("--limits", limits, "what the robot may do (JSON)")
       .required()
       .holds({FileKind::kLimits});
-  tool.option("--seconds", request.seconds, "length of the motion").with_default().positive();
+  tool.option("--seconds", request.seconds, "length of the motion").with_default().positive(3600);
   tool.option("--evaluations", request.evaluations,
               "motions that are judged: time against a better one")
       .with_default()

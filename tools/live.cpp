@@ -62,7 +62,12 @@ int main(int argc, char** argv) {
     const PacketKey key = read_packet_key(key_file);
     const std::uint64_t seed = tool.common().seed.value_or(1);
     if (role == "sensor") {
-      Tool::print(run_live_sensor(config, identifier, sensor, key, seed));
+      const Json times = run_live_sensor(config, identifier, sensor, key, seed);
+      if (tool.common().json) {
+        Tool::print(times);
+      } else {
+        std::cout << live_text(times);
+      }
       return Exit::kDone;
     }
     require(!out.empty(), Exit::kUsage, "--out is required for the controller");

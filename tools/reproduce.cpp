@@ -126,7 +126,7 @@ int main(int argc, char** argv) {
   tool.option("--trainings", trainings, "how many, with --repeat training")
       .between(2, 1000)
       .with_default();
-  tool.option("--epochs", request.epochs, "epochs, instead of the preset's").positive();
+  tool.option("--epochs", request.epochs, "epochs, instead of the preset's").positive(1000000);
   tool.option("--draws", request.draws, "draws of the test noise, instead of the preset's")
       .between(1, 100000);
   tool.option("--commit", request.commit, "of the code, for the report").with_default();

@@ -6,6 +6,7 @@
 #include "dcnn/experiment/configuration.h"
 #include "dcnn/experiment/remainder.h"
 #include "dcnn/models/model.h"
+#include "dcnn/physics/effect_words.h"
 #include "support/apart.h"
 #include "support/tool.h"
 
@@ -16,13 +17,18 @@ using namespace dcnn;
 constexpr const char* kExamples =
     "  dcnn-rivals --sim sim.json --fit a.csv b.csv --holdout c.csv --out rivals\n"
     "  dcnn-rivals --sim sim.json --fit a.csv --holdout c.csv --networks mlp dcnn --out rivals\n"
-    "  tools/challenge --scenarios 30 --seed 1 --rivals --out out/challenge\n";
+    "  tools/challenge --scenarios 30 --seed 1 --rivals --out out/challenge\n"
+    "\n"
+    "The regressions, on the laws of the catalogue, are STLSQ and its ensemble form, LASSO with\n"
+    "cross-validation, orthogonal matching pursuit and greedy selection with BIC. The networks "
+    "fit\n"
+    "what the simulator leaves.";
 
 void show(const std::string& method, const Json& report) {
   std::cout << method << ":";
   for (const Json& f : report["findings"]) {
-    std::cout << " " << f["effect"].get<std::string>();
-    if (f["axis"].is_string()) std::cout << " " << f["axis"].get<std::string>();
+    std::cout << " " << words_of_effect(f["effect"].get<std::string>());
+    if (f["axis"].is_string()) std::cout << " " << words_of_axis(f["axis"].get<std::string>());
     std::cout << ",";
   }
   std::cout << " " << report["verdict"].get<std::string>() << "\n";
@@ -33,9 +39,7 @@ void show(const std::string& method, const Json& report) {
 int main(int argc, char** argv) {
   Tool tool("dcnn-rivals",
             "Other methods on the files of a diagnosis, as a measure for dcnn-diagnose: sparse "
-            "regressions on the laws of the catalogue (STLSQ and its ensemble form, LASSO with "
-            "cross-validation, orthogonal matching pursuit and greedy selection with BIC), and "
-            "networks that fit what the simulator leaves.",
+            "regressions and networks.",
             kExamples);
   rivals::Request request;
   std::filesystem::path out;

@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
                                      "fast as it goes; times, states, memory")
                              .holds({FileKind::kRecording});
   tool.option("--hours", hours, "simulated hours of the rehearsal")
-      .positive()
+      .positive(10000)
       .needs(rehearse_option)
       .with_default();
   tool.option("--plot", plot,
@@ -132,7 +132,11 @@ int main(int argc, char** argv) {
           rehearse(compensator, read_recording(rehearsal, {}, System()),
                    static_cast<std::uint64_t>(std::llround(hours * 3600.0 / compensator.dt())));
     }
-    Tool::print(report);
+    if (tool.common().json) {
+      Tool::print(report);
+    } else {
+      std::cout << cycles_text(report);
+    }
     if (interrupted()) {
       std::cout.flush();
       die_of_interrupt();

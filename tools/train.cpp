@@ -6,6 +6,7 @@
 #include <iostream>
 #include <numeric>
 
+#include "dcnn/core/number.h"
 #include "dcnn/core/ranks.h"
 #include "support/apart.h"
 #include "support/doctor.h"
@@ -83,9 +84,11 @@ void print_comparison(const Json& summary) {
   const Json& references = summary["references"];
   std::cout << std::left << std::setw(24) << "validation RMSE";
   for (std::size_t j = 0; j < summary["targets"].size(); ++j) {
-    std::cout << std::setw(12)
-              << summary["targets"][j].get<std::string>() + " [" +
-                     summary["units"][j].get<std::string>() + "]";
+    const auto unit = summary["units"][j].get<std::string>();
+    const std::string shown = unit_text(unit);
+    const auto more = static_cast<int>(shown.size() - unit.size());  // bytes of the same characters
+    std::cout << std::setw(12 + more)
+              << summary["targets"][j].get<std::string>() + " [" + shown + "]";
   }
   std::cout << "\n";
   print_row(summary["model"].get<std::string>(), summary["validation_rmse"]);
@@ -149,10 +152,12 @@ int main(int argc, char** argv) {
   tool.option("--preset", flags.preset, "fills what the configuration leaves out").one_of(kPresets);
   tool.option("--model", flags.model,
               "which identifier:" + list +
-                  "\n  auto: the best of rigid, mlp and dcnn on rows that none was fitted to");
+                  "\n  auto: the best of rigid, mlp, dcnn and physics (the tool identified, then "
+                  "corrected by "
+                  "a diagnosis) on rows that none was fitted to");
   tool.option("--system", flags.system, "description of another machine (JSON)")
       .holds({FileKind::kSystem});
-  tool.option("--epochs", flags.epochs, "number of epochs").positive();
+  tool.option("--epochs", flags.epochs, "number of epochs").positive(1000000);
   tool.option("--base", request.base,
               "simulator (sim.json or model.json) whose remainder is learned")
       .holds({FileKind::kSimulator, FileKind::kMachine});

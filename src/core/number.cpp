@@ -15,4 +15,18 @@ std::string brief(double value) {
   return text;
 }
 
+std::string unit_text(const std::string& unit) {
+  std::string text;
+  for (std::size_t i = 0; i < unit.size(); ++i) {
+    const std::string two = unit.substr(i, 2);
+    if (two == "^2" || two == "^3") {
+      text += two == "^2" ? "²" : "³";
+      ++i;
+    } else {
+      text += unit[i] == '*' ? "·" : std::string(1, unit[i]);
+    }
+  }
+  return text == "degC" ? "°C" : text;
+}
+
 }  // namespace dcnn

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "dcnn/core/number.h"
+#include "dcnn/physics/effect_words.h"
 
 namespace dcnn::design {
 namespace {
@@ -78,8 +79,9 @@ std::string motion_words(const Played& played, const Question& question, const D
   if (parts.empty()) out << "nothing: the limits leave no room";
   if (!design.verdicts.empty()) {
     const Verdict& first = design.verdicts.front();
-    out << "; if " << first.one << " is right, " << first.other << " is then "
-        << brief(first.separation) << " deviations of the noise away";
+    out << "; if it is " << words_of_structure(first.one) << ", then "
+        << words_of_structure(first.other) << " is " << brief(first.separation)
+        << " deviations of the noise away";
     if (design.probability)
       out << ", and with probability " << brief(*design.probability) << " one model is left";
   }
@@ -121,7 +123,8 @@ Json to_json(const Design& design, double seconds) {
 std::string to_text(const Design& design) {
   std::ostringstream out;
   for (const Verdict& v : design.verdicts) {
-    out << "if          " << v.one << " is right, not " << v.other << ": " << brief(v.separation)
+    out << "if          it is " << words_of_structure(v.one) << ", not "
+        << words_of_structure(v.other) << ": " << brief(v.separation)
         << " deviations apart, left alone with probability " << brief(v.probability) << "\n";
   }
   out << "unknown     probability " << brief(design.unknown) << ", " << brief(design.information)

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "dcnn/core/number.h"
 #include "dcnn/diagnosis/diagnose.h"
 #include "diagnosis/words.h"
 
@@ -27,16 +28,9 @@ double said_value(const Json& finding, const std::string& stem) {
   return number.is_null() ? 0.0 : number["value"].get<double>();
 }
 
-/// A unit with middle dots: "N*m" as "N·m".
-std::string dotted(const std::string& unit) {
-  std::string text;
-  for (const char c : unit) text += c == '*' ? std::string("·") : std::string(1, c);
-  return text;
-}
-
 std::string unit_of(const Json& finding, const std::string& stem) {
   const Json number = numbers_of(finding, stem);
-  return number.is_null() ? "" : dotted(number["unit"].get<std::string>());
+  return number.is_null() ? "" : unit_text(number["unit"].get<std::string>());
 }
 
 bool is_friction(const Json& finding) {
@@ -174,7 +168,7 @@ std::string constant_words(const Json& finding) {
   const std::string axis = finding["axis"].is_string() ? finding["axis"].get<std::string>() : "";
   std::string text = "a constant of " +
                      brief(std::abs(said_value(finding, "k") * said_value(finding, "rest"))) + " " +
-                     dotted(unit.substr(0, unit.rfind('/')));
+                     unit_text(unit.substr(0, unit.rfind('/')));
   const auto colon = axis.find(':');
   if (colon == std::string::npos) return text;
   const std::string line = axis.substr(colon + 1);

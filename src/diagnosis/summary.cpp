@@ -1,7 +1,6 @@
-// The diagnosis in a sentence and ten lines.
+// The diagnosis in a sentence.
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "dcnn/diagnosis/diagnose.h"
 #include "diagnosis/plain_findings.h"
@@ -9,33 +8,6 @@
 
 namespace dcnn {
 namespace {
-
-/// By target, of the held-out recordings; of the fitted ones in reports that do not know theirs.
-const Json& heldout_noise(const Json& fit) {
-  return fit[fit.contains("holdout_noise_floor") ? "holdout_noise_floor" : "noise_floor"];
-}
-
-/// Over the targets that have the first one's unit: newtons and newton metres have no mean.
-double mean_of(const Json& report, const Json& list) {
-  double sum = 0.0, count = 0.0;
-  for (std::size_t j = 0; j < list.size(); ++j) {
-    if (report["units"][j] != report["units"][0]) continue;
-    sum += list[j].get<double>();
-    count += 1.0;
-  }
-  return count > 0.0 ? sum / count : 0.0;
-}
-
-/// " N (mean of fx, fy, fz)".
-std::string of_what(const Json& report) {
-  std::string names;
-  for (std::size_t j = 0; j < report["units"].size(); ++j) {
-    if (report["units"][j] != report["units"][0]) continue;
-    names += (names.empty() ? "" : ", ") + report["targets"][j].get<std::string>();
-  }
-  const bool one = names.find(',') == std::string::npos;
-  return " " + report["units"][0].get<std::string>() + (one ? " (" : " (mean of ") + names + ")\n";
-}
 
 /// The channel on which the findings gain most.
 std::size_t telling_channel(const Json& fit) {
@@ -52,7 +24,7 @@ std::size_t telling_channel(const Json& fit) {
 /// "falls from 0.31 to 0.04 N": the held-out error of a channel, in words.
 std::string change_of(const Json& report, std::size_t j) {
   const Json& fit = report["fit"];
-  const auto unit = report["units"][j].get<std::string>();
+  const auto unit = unit_text(report["units"][j].get<std::string>());
   const double before = fit["holdout_rmse_before"][j], after = fit["holdout_rmse_after"][j];
   const std::string a = brief(before), b = brief(after);
   if (a == b) return "stays at " + a + " " + unit;
@@ -170,7 +142,7 @@ std::string answer(const Json& report) {
   const Json& fit = report["fit"];
   if (fit["holdout_rmse_before"].is_null()) return headline_without(report);
   const std::size_t j = telling_channel(fit);
-  const auto unit = report["units"][j].get<std::string>();
+  const auto unit = unit_text(report["units"][j].get<std::string>());
   const auto at = [&](const char* key) { return brief(fit[key][j].get<double>()); };
   if (report["verdict"] == "consistent") {
     return "Nothing is missing: the simulator leaves " + at("holdout_rmse_before") + " " + unit +
@@ -189,73 +161,16 @@ std::string answer(const Json& report) {
 
 }  // namespace
 
+const Json& heldout_noise(const Json& fit) {
+  return fit[fit.contains("holdout_noise_floor") ? "holdout_noise_floor" : "noise_floor"];
+}
+
 std::string headline(const Json& report) {
   const auto [worthless, varying] = unexplained_targets(report);
   if (worthless.empty()) return answer(report);
   const std::string part = worthless_part(worthless);
   if (worthless.size() < varying) return answer(report) + " " + part.substr(0, part.size() - 1);
   return part + "Check its units, signs, axes and clock first (dcnn-check). " + answer(report);
-}
-
-std::string to_text(const Diagnosis& diagnosis) {
-  const Json& report = diagnosis.report;
-  const Json& fit = report["fit"];
-  std::ostringstream out;
-  out << headline(report) << "\n\n";
-  out << "verdict     " << report["verdict"].get<std::string>() << "\n";
-  if (report.contains("zeroed")) {
-    out << "zeroed      an offset of its own was estimated for each of " << report["zeroed"].size()
-        << " recordings: a constant offset has no name\n";
-  }
-  for (const Json& finding : in_lines(report["findings"])) {
-    out << "found       " << finding["effect"].get<std::string>();
-    if (!finding["axis"].is_null()) out << " " << finding["axis"].get<std::string>();
-    for (const auto& [name, number] : finding["parameters"].items()) {
-      out << "  " << name << " " << brief(number["value"].get<double>());
-      if (number["ci95"][0].is_null()) continue;
-      out << " [" << brief(number["ci95"][0].get<double>()) << ", "
-          << brief(number["ci95"][1].get<double>()) << "]";
-    }
-    if (!finding["confidence"].is_null()) {
-      out << "  confidence " << brief(finding["confidence"].get<double>());
-    }
-    const Json shared = finding.value("shared_with", Json::object());
-    for (const Json& other : finding["alternatives"]) {
-      const auto name = other.get<std::string>();
-      out << "  or " << name;
-      if (shared.contains(name)) out << " " << brief(shared[name].get<double>());
-    }
-    out << "\n";
-  }
-  for (const Json& note : report.value("notes", Json::array())) {
-    out << "note        " << note.get<std::string>() << "\n";
-  }
-  for (const Json& stretch : report.value("left_out", Json::array())) {
-    out << "left out    " << brief(stretch["interval_s"][0].get<double>()) << " to "
-        << brief(stretch["interval_s"][1].get<double>()) << " s of "
-        << stretch["recording"].get<std::string>()
-        << ": far more is left there than elsewhere, as by a collision or a hand\n";
-  }
-  if (!report["search"]["complete"].get<bool>()) {
-    out << "search      ended at its limit: not every exchange of effects was tried\n";
-  }
-  if (fit["holdout_rmse_before"].is_null()) {
-    out << "hold-out    none, noise " << brief(mean_of(report, fit["noise_floor"]))
-        << of_what(report);
-    return out.str();
-  }
-  out << "hold-out    before " << brief(mean_of(report, fit["holdout_rmse_before"]));
-  if (!fit["holdout_rmse_parameters"].is_null()) {
-    out << ", own numbers refitted " << brief(mean_of(report, fit["holdout_rmse_parameters"]));
-  }
-  out << ", after " << brief(mean_of(report, fit["holdout_rmse_after"])) << ", noise "
-      << brief(mean_of(report, heldout_noise(fit))) << of_what(report);
-  if (!report["next_motion"].is_null()) {
-    out << "next        to tell " << report["next_motion"]["separates"][0].get<std::string>()
-        << " from " << report["next_motion"]["separates"][1].get<std::string>() << ": "
-        << report["next_motion"]["words"].get<std::string>() << "\n";
-  }
-  return out.str();
 }
 
 }  // namespace dcnn

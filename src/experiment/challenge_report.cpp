@@ -4,8 +4,8 @@
 
 #include "dcnn/core/file.h"
 #include "dcnn/experiment/report.h"
+#include "dcnn/physics/effect_words.h"
 #include "experiment/challenge_tables.h"
-#include "experiment/report_words.h"
 
 namespace dcnn {
 namespace {

@@ -3,9 +3,12 @@
 #include <algorithm>
 
 #include "dcnn/core/file.h"
+#include "dcnn/core/number.h"
 #include "dcnn/data/csv.h"
 #include "dcnn/experiment/report.h"
+#include "dcnn/physics/effect_words.h"
 #include "experiment/diagnosis_tables.h"
+#include "experiment/finding_words.h"
 #include "experiment/report_words.h"
 #include "experiment/series.h"
 
@@ -148,9 +151,9 @@ std::string to_html(const Diagnosis& diagnosis) {
   add_limits(report, page);
   if (!report["next_motion"].is_null()) {
     page.heading("Next motion");
-    page.paragraph("To tell " + words_of_effect(plain_text(report["next_motion"]["separates"][0])) +
-                   " from " + words_of_effect(plain_text(report["next_motion"]["separates"][1])) +
-                   ": " + plain_text(report["next_motion"]["words"]) + ".");
+    std::string question = question_in_words(report["next_motion"]);
+    question[0] = 'T';
+    page.paragraph(question + ": " + plain_text(report["next_motion"]["words"]) + ".");
   }
   return page.html();
 }

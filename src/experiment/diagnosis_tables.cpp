@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <set>
 
+#include "dcnn/core/number.h"
 #include "dcnn/diagnosis/diagnose.h"
+#include "dcnn/physics/effect_words.h"
+#include "experiment/finding_words.h"
 #include "experiment/markup.h"
 #include "experiment/report_words.h"
 
@@ -50,34 +53,15 @@ std::string one_unit(const Json& report) {
 std::string least_size(const Json& report, const Json& entry) {
   if (entry.contains("least") && entry["least"].is_object()) {
     const Json& least = entry["least"];
-    return words_of_parameter(plain_text(least["parameter"])) + ": " +
+    const std::string effect = plain_text(entry["effect"]), name = plain_text(least["parameter"]);
+    return words_of_parameter(effect, name) + ": " +
            with_unit(least["value"].get<double>(),
-                     unit_in_words(plain_text(least["parameter"]), plain_text(least["unit"])));
+                     unit_in_words(effect, name, plain_text(least["unit"])));
   }
   return with_unit(entry["minimum_detectable_rms"].get<double>(), one_unit(report)) + " rms";
 }
 
-/// "partly explained" for "partly-explained".
-std::string in_plain_words(std::string verdict) {
-  std::replace(verdict.begin(), verdict.end(), '-', ' ');
-  return verdict;
-}
-
-/// "along the tool", "from 12.3 to 14.0 s of fit.csv", or both.
-std::string place_of_finding(const Json& finding) {
-  std::string text = words_of_axis(plain_text(finding["axis"]));
-  const Json& interval = finding["interval_s"];
-  if (interval.is_null()) return text;
-  text += (text.empty() ? "from " : ", from ") + fixed(interval[0].get<double>(), 1) + " to " +
-          fixed(interval[1].get<double>(), 1) + " s";
-  return finding.contains("recording") ? text + " of " + plain_text(finding["recording"]) : text;
-}
-
 }  // namespace
-
-std::string plain_text(const Json& value) {
-  return value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump();
-}
 
 void add_errors(const Json& report, HtmlReport& page) {
   const Json& fit = report["fit"];
@@ -106,7 +90,7 @@ void add_errors(const Json& report, HtmlReport& page) {
                      unit_text(plain_text(report["units"][j])) + "]");
   }
   page.table(header, rows);
-  page.paragraph("Verdict: " + in_plain_words(plain_text(report["verdict"])) +
+  page.paragraph("Verdict: " + verdict_in_words(plain_text(report["verdict"])) +
                  ". RMSE: root mean square of measured - simulated over the samples that were held "
                  "out of the fit, without the first and last 0.5 s of each recording.");
 }
@@ -115,28 +99,11 @@ void add_findings(const Json& report, HtmlReport& page) {
   page.heading("Findings");
   std::vector<std::vector<std::string>> rows;
   for (const Json& f : in_lines(report["findings"])) {
-    std::string parameters;
-    for (const auto& [name, p] : f["parameters"].items()) {
-      parameters += (parameters.empty() ? "" : "; ") + words_of_parameter(name) + ": ";
-      const Json& interval = p["ci95"];
-      const auto value = p["value"].get<double>();
-      const std::string unit = unit_in_words(name, p["unit"].get<std::string>());
-      parameters +=
-          interval[0].is_null() || interval[1].is_null()
-              ? with_unit(value, unit)
-              : with_interval(value, interval[0].get<double>(), interval[1].get<double>(), unit);
-    }
-    std::string alternatives;
-    const Json shared = f.value("shared_with", Json::object());
-    for (const Json& a : f["alternatives"]) {
-      const Json& effect = a.is_object() ? a["effect"] : a;
-      const auto id = plain_text(effect);
-      alternatives += (alternatives.empty() ? "" : ", ") + words_of_effect(id);
-      if (shared.contains(id)) alternatives += " (" + share_text(shared[id]) + ")";
-    }
-    rows.push_back({words_of_effect(plain_text(f["effect"])), place_of_finding(f), parameters,
-                    share_text(f["confidence"]), share_text(f["holdout_gain"]),
-                    alternatives.empty() ? "nothing else" : alternatives});
+    const auto alternatives = alternatives_in_words(f);
+    rows.push_back({words_of_effect(plain_text(f["effect"])), place_in_words(f),
+                    joined(numbers_in_words(f), "; "), share_text(f["confidence"]),
+                    share_text(f["holdout_gain"]),
+                    alternatives.empty() ? "nothing else" : joined(alternatives, ", ")});
   }
   std::string refuted;
   for (const Json& name : report.value("refuted", Json::array())) {

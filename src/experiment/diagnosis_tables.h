@@ -8,9 +8,6 @@
 
 namespace dcnn {
 
-/// A text as it is, nothing for null, anything else as JSON.
-std::string plain_text(const Json& value);
-
 /// The error on held-out data, stage by stage, and the verdict.
 void add_errors(const Json& report, HtmlReport& page);
 void add_findings(const Json& report, HtmlReport& page);

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "dcnn/core/file.h"
+#include "dcnn/core/number.h"
 #include "dcnn/experiment/evaluate.h"
 #include "dcnn/experiment/report.h"
 #include "dcnn/experiment/train.h"
@@ -50,7 +51,7 @@ Chart level_chart(const Evaluation& evaluation, const std::string& title, const 
 /// The first model's error in one sentence, beside the references.
 std::string answer(const Evaluation& evaluation) {
   const EvaluationSummary& s = evaluation.summary.front();
-  const auto& unit = evaluation.targets.units.front();
+  const std::string unit = unit_text(evaluation.targets.units.front());
   const auto& beside = evaluation.references;
   if (!s.overall) return s.file + " on " + std::to_string(evaluation.samples) + " samples.";
   std::string text = s.file + " predicts " + evaluation.data.front() + " with an RMSE of " +
@@ -72,9 +73,10 @@ void add_table(HtmlReport& page, const Evaluation& evaluation) {
     header.push_back(evaluation.targets.names[j] + " [" + unit_text(evaluation.targets.units[j]) +
                      "]");
   }
-  const std::string& unit = evaluation.targets.units.front();
-  const auto forces = static_cast<std::ptrdiff_t>(
-      std::count(evaluation.targets.units.begin(), evaluation.targets.units.end(), unit));
+  const std::string unit = unit_text(evaluation.targets.units.front());
+  const auto forces = static_cast<std::ptrdiff_t>(std::count(evaluation.targets.units.begin(),
+                                                             evaluation.targets.units.end(),
+                                                             evaluation.targets.units.front()));
   header.insert(header.end(),
                 {"overall [" + unit + "]", "largest error [" + unit + "]", "least R²"});
   const std::vector<int> decimals = column_decimals(evaluation);

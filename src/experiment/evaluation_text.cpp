@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "dcnn/core/number.h"
 #include "dcnn/experiment/evaluate.h"
 #include "experiment/evaluation_table.h"
 #include "experiment/levels.h"
@@ -104,7 +105,8 @@ std::string to_text(const Evaluation& evaluation) {
   for (const auto& warning : evaluation.references.warnings) text += warning + "\n";
   text += padded("file", width) + padded("SNR [dB]", 10) + padded("runs", 6);
   for (std::size_t j = 0; j < evaluation.targets.names.size(); ++j) {
-    text += padded(evaluation.targets.names[j] + " [" + evaluation.targets.units[j] + "]", column);
+    text += padded(
+        evaluation.targets.names[j] + " [" + unit_text(evaluation.targets.units[j]) + "]", column);
   }
   text += "overall\n";
   const auto line = [&](const std::string& name, const std::string& level, int runs,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dcnn/core/number.h"
 #include "dcnn/experiment/evaluate.h"
 #include "dcnn/experiment/train.h"
 #include "experiment/markup.h"
@@ -87,7 +88,8 @@ std::vector<std::string> warnings(const std::string& model, const std::vector<do
     if (!(rmse[j] > kTie * references.none[j])) continue;
     lines.push_back(model + ": " + targets.names[j] + " is predicted worse than by zero (" +
                     significant(rmse[j], 3) + " against " + significant(references.none[j], 3) +
-                    " " + targets.units[j] + "): of no use there; try dcnn-train --model auto");
+                    " " + unit_text(targets.units[j]) +
+                    "): of no use there; try dcnn-train --model auto");
   }
   if (references.rigid.empty()) return lines;
   const double ratio = mean_ratio(rmse, references.rigid);

@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
+#include "dcnn/core/number.h"
 #include "dcnn/physics/effect.h"
+#include "dcnn/physics/effect_words.h"
 #include "experiment/markup.h"
 
 namespace dcnn {
@@ -51,11 +54,30 @@ const std::map<std::string, std::string>& stem_words() {
       {"a", "drift"},
       {"t_ref", "reference temperature"},
       {"rate", "growth"},
-      {"step", "size of the step"},
-      {"limit", "limit"},
       {"sin", "sine part"},
       {"cos", "cosine part"},
       {"inertia", "inertia"}};
+  return kWords;
+}
+
+/// Names that mean something else in these laws: "effect.parameter".
+const std::map<std::string, std::string>& special_words() {
+  static const std::map<std::string, std::string> kWords{
+      {"creep.a", "share that settles late"},
+      {"gear_friction.a", "variation with the position"},
+      {"hysteresis.beta", "shape beta"},
+      {"hysteresis.gamma", "shape gamma"},
+      {"hysteresis.m", "sharpness"},
+      {"step_bias.step", "size of the step"},
+      {"quantisation.step", "step of the reading"},
+      {"saturation.limit", "limit of the reading"},
+      {"thermal_drift.k", "drift per degree"},
+      {"crosstalk.c_xy", "share of fy in fx"},
+      {"crosstalk.c_xz", "share of fz in fx"},
+      {"crosstalk.c_yx", "share of fx in fy"},
+      {"crosstalk.c_yz", "share of fz in fy"},
+      {"crosstalk.c_zx", "share of fx in fz"},
+      {"crosstalk.c_zy", "share of fy in fz"}};
   return kWords;
 }
 
@@ -73,28 +95,13 @@ constexpr std::array kSmallerUnits{
     SmallerUnit{"N/s", "mN/s", 0.1}, SmallerUnit{"N*m/s", "mN·m/s", 0.1},
     SmallerUnit{"m/s", "mm/s", 0.1}};
 
-/// "N·s/m" for "N*s/m", "N·s²/m²" for "N*s^2/m^2".
-std::string typeset(const std::string& unit) {
-  std::string text;
-  for (std::size_t i = 0; i < unit.size(); ++i) {
-    const std::string two = unit.substr(i, 2);
-    if (two == "^2" || two == "^3") {
-      text += two == "^2" ? "²" : "³";
-      ++i;
-    } else {
-      text += unit[i] == '*' ? "·" : std::string(1, unit[i]);
-    }
-  }
-  return text == "degC" ? "°C" : text;
-}
-
 /// Factor and name of the unit in which a number of this size is read best.
 std::pair<double, std::string> readable(double size, const std::string& unit) {
   if (unit == kShare) return {100.0, "%"};
   for (const SmallerUnit& smaller : kSmallerUnits) {
     if (unit == smaller.unit && std::abs(size) < smaller.below) return {1e3, smaller.name};
   }
-  return {1.0, typeset(unit)};
+  return {1.0, unit_text(unit)};
 }
 
 /// A number of a discovered law, by its stem: "scale_2" belongs to the second of its variables.
@@ -137,28 +144,6 @@ std::pair<std::string, std::string> without_letters(const std::string& stem) {
 
 }  // namespace
 
-std::string words_of_effect(const std::string& id) {
-  const EffectKind* kind = find_effect(id);
-  return kind && kind->meaning ? kind->meaning : spaced(id);
-}
-
-std::string words_of_axis(const std::string& axis) {
-  if (axis == "tool_z") return "along the tool";
-  const auto colon = axis.find(':');
-  if (colon != axis.npos) {
-    return words_of_axis(axis.substr(colon + 1)) + ", by the angle " + axis.substr(0, colon);
-  }
-  for (const auto& [start, words] :
-       {std::pair{"base_", "along the base's "}, std::pair{"sensor_", "along the sensor's "},
-        std::pair{"w_sensor_", "against turning about the sensor's "}}) {
-    const std::string begin = start;
-    if (axis.starts_with(begin) && axis.size() == begin.size() + 1) {
-      return words + axis.substr(begin.size()) + " axis";
-    }
-  }
-  return axis;
-}
-
 std::string words_of_signal(const std::string& signal) {
   if (signal == "v_z") return "velocity along the tool";
   if (signal == "t") return "time";
@@ -183,35 +168,37 @@ std::string words_of_part(const std::string& part) {
   return known == kWords.end() ? part : known->second;
 }
 
-std::string words_of_parameter(const std::string& name) {
-  if (name.size() == 4 && name.starts_with("c_")) {
-    std::string text = "share of f";
-    text += name[3];
-    text += " in f";
-    text += name[2];
-    return text;
+std::string words_of_parameter(const std::string& effect, const std::string& name) {
+  if (const auto dot = name.find('.'); dot != name.npos) {  // one law among several of a line
+    const std::string law = name.substr(0, dot);
+    return words_of_parameter(law, name.substr(dot + 1)) + " of " + words_of_effect(law);
   }
-  const auto& words = stem_words();
   const auto look_up = [&](const std::string& text) -> std::string {
-    const auto [stem, letters] = without_letters(text);
-    const auto found = words.find(stem);
-    if (found == words.end()) return "";
-    return letters.empty() ? found->second : found->second + ", " + letters;
+    for (const auto& [stem, letters] : {std::pair{text, std::string()}, without_letters(text)}) {
+      const std::string end = letters.empty() ? "" : ", " + letters;
+      const auto special = special_words().find(effect + "." + stem);
+      if (special != special_words().end()) return special->second + end;
+      const auto found = stem_words().find(stem);
+      if (found != stem_words().end()) return found->second + end;
+    }
+    return "";
   };
-  if (const std::string whole = look_up(name); !whole.empty()) return whole;
-  const auto cut = name.rfind('_');
-  if (cut != name.npos && !unit_of_parameter(name).empty()) {
-    const std::string stem = name.substr(0, cut);
-    if (const std::string known = look_up(stem); !known.empty()) return known;
-    if (const std::string known = words_of_law(stem); !known.empty()) return known;
+  const auto cut = unit_of_parameter(name).empty() ? name.npos : name.rfind('_');
+  for (const std::string& stem : {name, name.substr(0, cut)}) {
+    if (effect == "discovered") {
+      if (const std::string known = words_of_law(stem); !known.empty()) return known;
+    } else if (const std::string known = look_up(stem); !known.empty()) {
+      return known;
+    }
   }
-  const std::string known = words_of_law(name);
-  return known.empty() ? spaced(name) : known;
+  return spaced(name);
 }
 
-std::string unit_in_words(const std::string& name, const std::string& unit) {
-  const bool share = name.starts_with("gain_") || (name.size() == 4 && name.starts_with("c_")) ||
-                     name == "fraction";
+std::string unit_in_words(const std::string& effect, const std::string& name,
+                          const std::string& unit) {
+  static const std::set<std::string> kOfShares{"gain", "crosstalk", "creep"};
+  const bool share = kOfShares.contains(effect) || name == "fraction" ||
+                     (effect == "gear_friction" && name == "a");
   return unit.empty() && share ? kShare : unit;
 }
 
@@ -219,8 +206,6 @@ std::string with_unit(double value, const std::string& unit) {
   const auto [factor, name] = readable(value, unit);
   return significant(factor * value, 3) + (name.empty() || name == "1" ? "" : " " + name);
 }
-
-std::string unit_text(const std::string& unit) { return typeset(unit); }
 
 std::string with_interval(double value, double low, double high, const std::string& unit) {
   const auto [factor, name] =

@@ -1,5 +1,6 @@
 #include "experiment/splitter.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dcnn/data/pose_noise.h"
@@ -12,6 +13,10 @@ constexpr std::uint64_t kPoseStream = 200;  // of random numbers, apart from tho
 
 std::string signal_of(const Json& configuration) {
   return configuration.value("noise", Json::object()).value("on", std::string());
+}
+
+Index validation_rows(const Recording& recording, double share) {
+  return static_cast<Index>(std::lround(share * static_cast<double>(recording.samples())));
 }
 
 /// Adds the given rows of one matrix to another.
@@ -62,6 +67,14 @@ struct Splitter::Rows {
   }
 };
 
+Index training_rows(const Recording& recording, double share) {
+  const Index held = validation_rows(recording, share);
+  const auto gap = held > 0 && recording.dt > 0.0
+                       ? static_cast<Index>(std::lround(kValidationGapSeconds / recording.dt))
+                       : 0;
+  return std::max<Index>(0, recording.samples() - held - gap);
+}
+
 bool wants_pose_noise(const Json& configuration) {
   const auto wants = [](const Json& json) {
     const std::string on = signal_of(json);
@@ -111,18 +124,14 @@ void Splitter::add(const Recording& recording, double share, Samples& training,
                    Samples& validation) const {
   const Rows all = read(recording);
   const Index total = recording.samples();
-  const auto held = static_cast<Index>(std::lround(share * static_cast<double>(total)));
-  const auto gap = held > 0 && recording.dt > 0.0
-                       ? static_cast<Index>(std::lround(kValidationGapSeconds / recording.dt))
-                       : 0;
-  const auto rows = all.valid(0, total - held - gap);
+  const auto rows = all.valid(0, training_rows(recording, share));
   const auto noise = draws(recording, training.rows());
   training.pose_noise.resize(noise.size());
   for (std::size_t k = 0; k < noise.size(); ++k) {
     append_rows(training.pose_noise[k], noise[k], rows);
   }
   all.append_to(training, recording, rows);
-  all.append_to(validation, recording, all.valid(total - held, total));
+  all.append_to(validation, recording, all.valid(total - validation_rows(recording, share), total));
 }
 
 void Splitter::add_whole(const Recording& recording, Samples& samples) const {

@@ -5,6 +5,10 @@
 
 namespace dcnn {
 
+/// How many rows a recording of which the last `share` is for validation gives to training: those
+/// that end 1 s before.
+Index training_rows(const Recording& recording, double share);
+
 /// The configuration, or one of its candidates, trains with noise on the pose.
 bool wants_pose_noise(const Json& configuration);
 

@@ -6,6 +6,7 @@
 #include "dcnn/experiment/train.h"
 #include "experiment/markup.h"
 #include "experiment/references.h"
+#include "experiment/train_physics.h"
 #include "experiment/training_checks.h"
 
 namespace dcnn {
@@ -13,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kTried[] = {"rigid", "mlp", "dcnn"};
+constexpr const char* kPhysics = "physics";
+constexpr const char* kTried[] = {"rigid", kPhysics, "mlp", "dcnn"};
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // of a model file
 
 struct Tried {
@@ -23,9 +25,10 @@ struct Tried {
   double error = 0.0;  ///< mean over targets of the RMSE over that of predicting zero
 };
 
-double relative_error(const Json& summary) {
+/// `references`: those of a model that predicts the whole force.
+double relative_error(const Json& summary, const Json& references) {
   const auto rmse = summary["validation_rmse"].get<std::vector<double>>();
-  const auto none = summary["references"]["none"].get<std::vector<double>>();
+  const auto none = references["none"].get<std::vector<double>>();
   double sum = 0.0;
   for (std::size_t j = 0; j < rmse.size(); ++j) sum += rmse[j] / std::max(none[j], 1e-300);
   return sum / static_cast<double>(rmse.size());
@@ -57,15 +60,27 @@ Json choice(const std::vector<Tried>& tried, const Tried& best) {
 /// Trains one of them; nothing where the recordings suffice for an earlier one and not for it.
 std::optional<TrainingOutcome> attempt(const TrainingRequest& request, bool is_first,
                                        const TrainingObserver& observer) {
+  const std::string model = *request.configuration.model;
   try {
-    return train(request, observer);
+    if (model != kPhysics) return train(request, observer);
+    return train_physics(request, request.out.parent_path() / kPhysics, observer);
   } catch (const Error& error) {
     if (is_first || error.exit() != Exit::kData) throw;
-    if (observer.note) {
-      observer.note(*request.configuration.model + " is left out: " + error.what());
-    }
+    if (observer.note) observer.note(model + " is left out: " + error.what());
     return std::nullopt;
   }
+}
+
+/// The corrected simulator was compared with what it leaves itself: here it is beside the
+/// references of the others.
+void compare_with(const Json& references, const std::string& file, Json& summary) {
+  References beside{references["none"], {}, references["white_noise"]};
+  if (!references["rigid"].is_null()) beside.rigid = references["rigid"];
+  summary["model"] = kPhysics;
+  summary["references"] = references;
+  summary["warnings"] =
+      warnings(file, summary["validation_rmse"], beside, {summary["targets"], summary["units"]});
+  summary.erase("trust");
 }
 
 /// The rigid tool that stands beside every model: noise-free, a body that can exist. It has no
@@ -79,7 +94,7 @@ std::optional<Tried> rigid_tool(const TrainingRequest& request, const Tried& lik
   tool.summary["validation_rmse"] = rmse;
   tool.summary["parameters"] = read_identifier(file).model->parameter_count();
   tool.summary["warnings"] = Json::array();
-  tool.error = relative_error(tool.summary);
+  tool.error = relative_error(tool.summary, like.summary["references"]);
   return tool;
 }
 
@@ -90,7 +105,9 @@ TrainingOutcome train_best(const TrainingRequest& request, const TrainingObserve
   std::vector<Tried> tried;
   const bool list = !has_time(read_table(request.training.front()).table);
   for (const char* model : kTried) {
-    if (list && !model_kind(model, Exit::kUsage).takes_static_lists) {
+    const bool physics = model == std::string(kPhysics);
+    if (physics && !can_be_physics(request)) continue;
+    if (list && (physics || !model_kind(model, Exit::kUsage).takes_static_lists)) {
       if (observer.note) observer.note(std::string(model) + " is left out: it learns from motion");
       continue;
     }
@@ -98,14 +115,23 @@ TrainingOutcome train_best(const TrainingRequest& request, const TrainingObserve
     one.configuration.model = model;
     if (std::string(model) == "rigid") one.configuration.epochs.reset();  // has none
     one.out = folder / (std::string(model) + "_tried.dcnn");
-    if (observer.note) observer.note(std::string("trying ") + model);
+    if (observer.note) {
+      observer.note(std::string("trying ") + model +
+                    (physics ? ": the tool identified, then corrected by a diagnosis" : ""));
+    }
     std::optional<TrainingOutcome> outcome = attempt(one, tried.empty(), observer);
     if (!outcome) continue;
     if (!outcome->finished) return *outcome;
     require(outcome->summary.contains("references"), Exit::kUsage,
             "--model auto compares models on validation rows; give --valid, or a "
             "training.validation above 0");
-    const double error = relative_error(outcome->summary);
+    if (physics) {
+      compare_with(tried.front().summary["references"], request.out.filename().string(),
+                   outcome->summary);
+    }
+    const Json& references =
+        tried.empty() ? outcome->summary["references"] : tried.front().summary["references"];
+    const double error = relative_error(outcome->summary, references);
     tried.push_back({model, one.out, std::move(outcome->summary), error});
   }
   if (auto tool = rigid_tool(request, tried.front())) tried.push_back(std::move(*tool));

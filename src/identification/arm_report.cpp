@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "dcnn/core/number.h"
 #include "dcnn/identification/arm.h"
 
 namespace dcnn {
@@ -50,9 +51,10 @@ std::string summary(const ArmIdentification& id) {
     for (std::size_t k = 1; k < id.payload.size(); ++k) {
       if (id.payload[k].shown) off = std::hypot(off, id.payload[k].value);
     }
-    parts.push_back(id.payload[0].shown
-                        ? arm_line("payload of %.3g kg, centre %.2g cm off the flange", m, 100.0 * off)
-                        : arm_line("no payload above %.2g kg", id.payload[0].high));
+    parts.push_back(
+        id.payload[0].shown
+            ? arm_line("payload of %.3g kg, centre %.2g cm off the flange", m, 100.0 * off)
+            : arm_line("no payload above %.2g kg", id.payload[0].high));
   }
   const std::pair<const char*, const char*> words[] = {
       {"fc", "dry friction"},
@@ -113,10 +115,14 @@ Json to_json(const ArmIdentification& id) {
                          {"deviation", list_of(link.deviation)},
                          {"shown", shown}});
   }
-  return {{"recordings", id.recordings}, {"holdout", id.holdout},
-          {"lowpass_hz", id.lowpass_hz}, {"base_parameters", id.base_parameters},
-          {"payload", estimate_list(id.payload)}, {"joints", joints},
-          {"links", links},              {"words", summary(id)},
+  return {{"recordings", id.recordings},
+          {"holdout", id.holdout},
+          {"lowpass_hz", id.lowpass_hz},
+          {"base_parameters", id.base_parameters},
+          {"payload", estimate_list(id.payload)},
+          {"joints", joints},
+          {"links", links},
+          {"words", summary(id)},
           {"notes", id.notes}};
 }
 
@@ -128,17 +134,19 @@ std::string to_text(const ArmIdentification& id) {
       continue;
     }
     text += arm_line("  %-12s %9.4f  [%.4f, %.4f] %s\n", e.name.c_str(), e.value, e.low, e.high,
-                     e.unit.c_str());
+                     unit_text(e.unit).c_str());
   }
   if (id.lowpass_hz == 0.0) {
-    text += arm_line("%d combinations of inertial parameters are told by these poses at rest; friction "
-                     "and rotors' inertias show in motion alone.\n",
-                     id.base_parameters);
+    text += arm_line(
+        "%d combinations of inertial parameters are told by these poses at rest; friction "
+        "and rotors' inertias show in motion alone.\n",
+        id.base_parameters);
     text += "  joint          torque   residual  held out\n";
   } else {
-    text += arm_line("%d combinations of inertial parameters are told by these motions; torques and "
-                     "regressors low-passed at %.3g Hz.\n",
-                     id.base_parameters, id.lowpass_hz);
+    text += arm_line(
+        "%d combinations of inertial parameters are told by these motions; torques and "
+        "regressors low-passed at %.3g Hz.\n",
+        id.base_parameters, id.lowpass_hz);
     text += "  joint          torque   residual  held out   dry        viscous    path     creep\n";
   }
   for (const JointEstimate& joint : id.joints) {
@@ -147,13 +155,13 @@ std::string to_text(const ArmIdentification& id) {
         joint.holdout_rms ? arm_line("%-9.3g", *joint.holdout_rms) : std::string("-        ");
     if (id.lowpass_hz == 0.0) {
       text += arm_line("  %-12s %8.3g   %-9.3g %s  [%s]\n", joint.name.c_str(), joint.torque_rms,
-                       joint.residual_rms, held.c_str(), joint.unit.c_str());
+                       joint.residual_rms, held.c_str(), unit_text(joint.unit).c_str());
       continue;
     }
-    text += arm_line("  %-12s %8.3g   %-9.3g %s  %-9.3g  %-9.3g  %-7.2g  %.2g s  [%s]\n", joint.name.c_str(),
-                     joint.torque_rms, joint.residual_rms, held.c_str(), fc ? fc->value : 0.0,
-                     c ? c->value : 0.0, joint.presliding, joint.creep_s,
-                     joint.unit.c_str());
+    text += arm_line("  %-12s %8.3g   %-9.3g %s  %-9.3g  %-9.3g  %-7.2g  %.2g s  [%s]\n",
+                     joint.name.c_str(), joint.torque_rms, joint.residual_rms, held.c_str(),
+                     fc ? fc->value : 0.0, c ? c->value : 0.0, joint.presliding, joint.creep_s,
+                     unit_text(joint.unit).c_str());
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "dcnn/core/number.h"
 #include "dcnn/identification/identify.h"
 
 namespace dcnn {
@@ -23,6 +24,21 @@ Json estimates_json(const std::vector<IdentifiedNumber>& estimates) {
   return all;
 }
 
+/// "centre of mass, x" for "com_x_m".
+std::string words_of_number(const std::string& name) {
+  static constexpr std::pair<const char*, const char*> kWords[]{
+      {"com", "centre of mass"}, {"bias_t", "torque offset, "}, {"bias", "force offset"}};
+  std::string words = name.substr(0, name.rfind('_'));  // without the unit
+  for (const auto& [stem, meaning] : kWords) {
+    if (words.starts_with(stem)) {
+      words = meaning + words.substr(std::string(stem).size());
+      break;
+    }
+  }
+  const auto axis = words.rfind('_');
+  return axis == words.npos ? words : words.replace(axis, 1, ", ");
+}
+
 std::string line_of(const IdentifiedNumber& e) {
   char line[200];
   const double half = 0.5 * (e.high - e.low);
@@ -30,9 +46,9 @@ std::string line_of(const IdentifiedNumber& e) {
   const int decimals = half > 0.0 && std::isfinite(half)
                            ? std::clamp(1 - static_cast<int>(std::floor(std::log10(half))), 0, 9)
                            : 6;
-  std::snprintf(line, sizeof line, "  %-20s %*.*f  [%.*f, %.*f] %s%s\n", e.name.c_str(), 11,
-                decimals, e.value, decimals, e.low, decimals, e.high, e.unit.c_str(),
-                e.shown ? "" : "   not shown");
+  std::snprintf(line, sizeof line, "  %-20s %*.*f  [%.*f, %.*f] %s%s\n",
+                words_of_number(e.name).c_str(), 11, decimals, e.value, decimals, e.low, decimals,
+                e.high, unit_text(e.unit).c_str(), e.shown ? "" : "   not shown");
   return line;
 }
 
@@ -50,7 +66,7 @@ std::string missing_text(const std::vector<IdentifiedNumber>& estimates) {
     auto found = std::find_if(motions.begin(), motions.end(),
                               [&](const auto& m) { return m.first == e.motion; });
     if (found == motions.end()) found = motions.insert(motions.end(), {e.motion, {}});
-    found->second.push_back(e.name);
+    found->second.push_back(words_of_number(e.name));
   }
   std::string text;
   for (const auto& [motion, names] : motions) {
@@ -99,7 +115,7 @@ std::string to_text(const ToolIdentification& id) {
                 rms(id.measured_rms.head(3)));
   text += line;
   if (id.residual_rms.size() == 6) {
-    std::snprintf(line, sizeof line, ", %.3g N*m of %.3g N*m", rms(id.residual_rms.tail(3)),
+    std::snprintf(line, sizeof line, ", %.3g N·m of %.3g N·m", rms(id.residual_rms.tail(3)),
                   rms(id.measured_rms.tail(3)));
     text += line;
   }

@@ -146,6 +146,15 @@ Json run_live_sensor(const TeleopConfig& config, const Ends& identifier, const E
   return times.to_json(ticks);
 }
 
+std::string live_text(const Json& times) {
+  return "cycles      " + counts_text(times["states"]) + "\n" +  //
+         "missed      " + times["identifier_misses"].dump() + " by dcnn-run, " +
+         times["controller_misses"].dump() + " by the controller; " + times["overruns"].dump() +
+         " overrun\n" + "clock       " + times_text(times["wake_up_jitter"]) + " late\n" +
+         "dcnn-run    " + times_text(times["identifier_round_trip"]) + " for an answer\n" +
+         "controller  " + times_text(times["controller_round_trip"]) + " for an answer\n";
+}
+
 TeleopTrace run_live_controller(const TeleopConfig& config, const Ends& sensor,
                                 const PacketKey& key, std::uint64_t seed) {
   Exchange other(sensor, key);

@@ -14,7 +14,7 @@ TEST(Flood, OfAWrongKeyChangesNoAnswer) {
   const auto [server, robot] = test::free_ports();
   const test::Process process(
       "run", {"--model", DCNN_SOURCE_DIR "/data/sample/sim.json", "--contact", "0.5", "--late",
-              "1000", "-q", "--listen", server, "--peer", robot, "--key-file", key});
+              "1000", "-q", "--json", "--listen", server, "--peer", robot, "--key-file", key});
   const auto sent =
       test::Process(test::Program{DCNN_FLOOD}, {server, robot, key, "1", "20000"}).wait();
   process.signal(SIGTERM);

@@ -110,6 +110,9 @@ TEST(Dispatch, ListsEveryProgramAndRunsIt) {
     EXPECT_TRUE(std::regex_search(list, std::regex("\n  " + verb + " +[A-Z]"))) << verb << "\n"
                                                                                 << list;
   }
+  EXPECT_EQ(list.find("Other:"), std::string::npos) << "a verb without a group";
+  std::istringstream lines(list);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
   EXPECT_EQ(dcnn("help train").second, test::run("train", {"--help"}).out);
   EXPECT_EQ(dcnn("train --help").second, test::run("train", {"--help"}).out);
   EXPECT_EQ(dcnn("--version").first, 0);

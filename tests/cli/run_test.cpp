@@ -112,7 +112,7 @@ TEST(RunTool, AnswersItsPeerAndNobodyElse) {
   const auto [server, robot] = free_ports();
   test::Process process(
       "run", {"--model", bench().trained("rigid"), "--fallback", bench().simulator, "--listen",
-              server, "--peer", robot, "--key-file", key_file, "--late", "1000"});
+              server, "--peer", robot, "--key-file", key_file, "--late", "1000", "--json"});
   RobotLink link(robot, server, read_packet_key(key_file));
   ASSERT_TRUE(link.connect(20.0));
   UdpSocket stranger("127.0.0.1:" + std::to_string(19000 + ::getpid() % 1000), server);
@@ -156,8 +156,9 @@ TEST(RunTool, AnswersItsPeerAndNobodyElse) {
 }
 
 TEST(RunTool, ARehearsalTellsTimesStatesAndMemory) {
-  const auto result = run("run", {"--model", bench().trained("rigid"), "--fallback",
-                                  bench().simulator, "--rehearse", bench().log, "--hours", "0.02"});
+  const auto result =
+      run("run", {"--model", bench().trained("rigid"), "--fallback", bench().simulator,
+                  "--rehearse", bench().log, "--hours", "0.02", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const Json report = parse_json(result.out, "report", Exit::kFailure);
   EXPECT_EQ(report["cpu"]["cycles"], 36000);
@@ -165,6 +166,16 @@ TEST(RunTool, ARehearsalTellsTimesStatesAndMemory) {
   // A sanitizer keeps what was freed for a while.
   if (kSanitized) return;
   EXPECT_LE(report["memory_growth_bytes"].get<double>(), 65536.0);
+}
+
+TEST(RunTool, PrintsWordsWhereNoJsonIsAskedFor) {
+  const auto result =
+      run("run", {"--model", bench().simulator, "--rehearse", bench().log, "--hours", "0.001"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(result.out.starts_with("cycles      ")) << result.out;
+  for (const char* words : {" PHYSICS", "time        p50 ", "rehearsed   0.001 h"}) {
+    EXPECT_NE(result.out.find(words), std::string::npos) << words << " in\n" << result.out;
+  }
 }
 
 }  // namespace

@@ -149,6 +149,17 @@ TEST(NumberOutOfRange, IsRefusedWithItsBounds) {
                {"--resample", "1e12 is not between 0 and 1000000"});
 }
 
+TEST(NumberOutOfRange, IsRefusedWhereItHasNoEnd) {
+  const std::string sim = kSampleFolder + "sim.json", csv = kSampleFolder + "test.csv";
+  expect_words(refusal("run", {"--model", sim, "--stdin", "--limit", "inf"}),
+               {"--limit: inf is not greater than 0"});
+  expect_words(refusal("run", {"--model", sim, "--rehearse", csv, "--hours", "1e300"}),
+               {"--hours: 1e300 is not greater than 0 and at most 10000"});
+  expect_words(refusal("train", {"--train", csv, "--out", "m.dcnn", "--epochs", "1000001"}),
+               {"--epochs: 1000001 is not", "at most 1000000"});
+  expect_words(refusal("bench", {"--samples", "99999999999"}), {"--samples", "at most 10000000"});
+}
+
 TEST(MistypedOption, IsNamedBeforeAnythingElse) {
   expect_words(refusal("diagnose", {"--smi", "none.json", "--fit", "none.csv"}),
                {"--smi is no option; did you mean --sim?"});

@@ -10,7 +10,7 @@
 
 #include "dcnn/core/file.h"
 #include "dcnn/core/parallel.h"
-#include "dcnn/diagnosis/diagnose.h"
+#include "dcnn/experiment/diagnosis_report.h"
 #include "support/process.h"
 #include "support/sanitizer.h"
 

@@ -60,7 +60,7 @@ TEST(PlainFindings, EveryPartOfTheCurveHasItsWords) {
                      "gear_friction", "a",
                      {{"fc", said(2.0, "N*m")}, {"a", said(0.25, "")}, {"order", said(8.0, "")}}),
                  said_finding("quadratic_drag", "a", {{"c2", said(0.5, "N*m*s^2/rad^2")}})}),
-            "friction: 2 N·m dry, varying by 25 % with order 8 of the position, 0.5 N·m·s^2/rad^2 "
+            "friction: 2 N·m dry, varying by 25 % with order 8 of the position, 0.5 N·m·s²/rad² "
             "of drag");
 }
 

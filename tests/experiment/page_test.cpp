@@ -10,6 +10,8 @@
 #include "dcnn/experiment/calibration_report.h"
 #include "dcnn/experiment/diagnosis_report.h"
 #include "dcnn/experiment/report.h"
+#include "dcnn/physics/effect.h"
+#include "dcnn/physics/effect_words.h"
 #include "experiment/markup.h"
 #include "experiment/report_words.h"
 
@@ -163,13 +165,20 @@ TEST(ReportWords, SayUnitsAndNamesPeopleUse) {
   EXPECT_EQ(with_unit(0.0123, "N*m"), "12.3 mN·m");
   EXPECT_EQ(with_unit(2.5, "N*s^2/m^2"), "2.5 N·s²/m²");
   EXPECT_EQ(with_interval(0.402, 0.398, 0.406, "N"), "0.402 N (0.398 to 0.406)");
-  EXPECT_EQ(with_unit(0.0012, unit_in_words("gain_x", "")), "0.12 %");
+  EXPECT_EQ(with_unit(0.0012, unit_in_words("gain", "gain_x", "")), "0.12 %");
   EXPECT_EQ(words_of_axis("tool_z"), "along the tool");
   EXPECT_EQ(words_of_axis("gamma:sensor_y"), "along the sensor's y axis, by the angle gamma");
   EXPECT_EQ(words_of_axis("shoulder"), "shoulder");
   EXPECT_EQ(words_of_effect("coulomb_friction"), "dry friction");
-  EXPECT_EQ(words_of_parameter("fc_n"), "friction force");
-  EXPECT_EQ(words_of_parameter("c_xy"), "share of fy in fx");
+  EXPECT_EQ(words_of_parameter("coulomb_friction", "fc_n"), "friction force");
+  EXPECT_EQ(words_of_parameter("crosstalk", "c_xy"), "share of fy in fx");
+  EXPECT_EQ(words_of_parameter("gear_friction", "a"), "variation with the position");
+  EXPECT_EQ(with_unit(0.3, unit_in_words("gear_friction", "a", "")), "30 %");
+  EXPECT_EQ(with_unit(0.5, unit_in_words("discovered", "gain_2", "")), "0.5");
+  EXPECT_EQ(words_of_parameter("friction", "coulomb_friction.fc_n"),
+            "friction force of dry friction");
+  EXPECT_EQ(words_of_structure("coulomb_friction tool_z + gain"),
+            "dry friction along the tool and scale error per axis");
   EXPECT_EQ(words_of_signal("v_base_z"), "velocity along the base's z axis");
   EXPECT_EQ(words_of_part("memory"), "history");
 }
@@ -179,21 +188,21 @@ TEST(ReportWords, KnowEveryParameterOfTheCatalogue) {
   for (const EffectKind* kind : effect_kinds()) {
     const Json example = Json::parse(kind->example);
     for (const auto& [name, value] : example.items()) {
-      EXPECT_EQ(words_of_parameter(name).find('_'), std::string::npos) << name;
-      EXPECT_GT(words_of_parameter(name).size(), 4U) << kind->name << ": " << name;
+      EXPECT_EQ(words_of_parameter(kind->name, name).find('_'), std::string::npos) << name;
+      EXPECT_GT(words_of_parameter(kind->name, name).size(), 4U) << kind->name << ": " << name;
     }
   }
 }
 
 TEST(ReportWords, KnowTheNumbersOfDiscoveredLaws) {
-  EXPECT_EQ(words_of_parameter("amplitude_n"), "amplitude");
-  EXPECT_EQ(words_of_parameter("scale_1_m"), "scale of the first variable");
-  EXPECT_EQ(words_of_parameter("centre_2_rad"), "centre of the second variable");
-  EXPECT_EQ(words_of_parameter("power_1"), "exponent of the first variable");
-  EXPECT_EQ(words_of_parameter("gain_2"), "slope of the second variable");
-  EXPECT_EQ(words_of_parameter("memory_1_s"), "time constant of the first variable");
-  EXPECT_EQ(words_of_parameter("lag_s"), "delay");
-  EXPECT_EQ(words_of_parameter("vector_scale_n"), "scale of the direction");
+  EXPECT_EQ(words_of_parameter("discovered", "amplitude_n"), "amplitude");
+  EXPECT_EQ(words_of_parameter("discovered", "scale_1_m"), "scale of the first variable");
+  EXPECT_EQ(words_of_parameter("discovered", "centre_2_rad"), "centre of the second variable");
+  EXPECT_EQ(words_of_parameter("discovered", "power_1"), "exponent of the first variable");
+  EXPECT_EQ(words_of_parameter("discovered", "gain_2"), "slope of the second variable");
+  EXPECT_EQ(words_of_parameter("discovered", "memory_1_s"), "time constant of the first variable");
+  EXPECT_EQ(words_of_parameter("discovered", "lag_s"), "delay");
+  EXPECT_EQ(words_of_parameter("discovered", "vector_scale_n"), "scale of the direction");
 }
 
 TEST(DiagnosisPage, SaysWhenAContactActsAndInWhichRecording) {

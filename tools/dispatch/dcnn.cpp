@@ -42,6 +42,34 @@ std::string summary(const std::string& verb) {
   return line.data();
 }
 
+/// Verbs by what they are for, in the order in which a reader needs them.
+const std::vector<std::pair<std::string, std::vector<std::string>>> kGroups{
+    {"Recordings", {"import", "check", "sim"}},
+    {"What a simulator leaves out", {"diagnose", "identify", "design", "forward"}},
+    {"Models", {"train", "eval", "predict"}},
+    {"On the robot", {"run", "calibrate", "teleop", "live"}},
+    {"Studies", {"reproduce", "bench", "sweep", "conceal", "rivals"}}};
+
+/// A verb and what it does in one sentence, in lines of 96 characters at most.
+std::string row(const std::string& verb) {
+  constexpr std::size_t kWidth = 96, kIndent = 14;
+  std::istringstream words(summary(verb));
+  std::string text =
+      "  " + verb + std::string(kIndent - 3 - std::min<std::size_t>(verb.size(), 10), ' ');
+  std::size_t column = kIndent - 1;
+  std::string before;
+  for (std::string word; words >> word; before = word) {
+    if (before.ends_with('.') && before != "(Fig.") break;
+    if (column + 1 + word.size() > kWidth) {
+      text += "\n" + std::string(kIndent - 1, ' ');
+      column = kIndent - 1;
+    }
+    text += " " + word;
+    column += 1 + word.size();
+  }
+  return text + "\n";
+}
+
 void list() {
   std::cout << "DCNN Toolkit " DCNN_VERSION
                ": what a robot's tool does to its force sensor, from recordings.\n\n"
@@ -49,11 +77,16 @@ void list() {
                "       dcnn help VERB           what it takes\n\n"
                "Examples:\n"
                "  dcnn diagnose --sim sim.json --fit log.csv --out report\n"
-               "  dcnn train --train log.csv --out model.dcnn\n\n";
-  for (const std::string& verb : verbs()) {
-    std::cout << "  " << verb << std::string(12 - std::min<std::size_t>(verb.size(), 11), ' ')
-              << summary(verb) << "\n";
+               "  dcnn train --train log.csv --out model.dcnn\n";
+  std::vector<std::string> others = verbs();
+  for (const auto& [heading, group] : kGroups) {
+    std::cout << "\n" << heading << ":\n";
+    for (const std::string& verb : group) {
+      if (std::erase(others, verb) > 0) std::cout << row(verb);
+    }
   }
+  if (!others.empty()) std::cout << "\nOther:\n";
+  for (const std::string& verb : others) std::cout << row(verb);
 }
 
 int run(const std::string& verb, char** arguments) {

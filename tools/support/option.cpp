@@ -1,6 +1,7 @@
 #include "support/option.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 #include "dcnn/core/options.h"
 #include "support/option_table.h"
@@ -54,8 +55,16 @@ Option Option::between(int low, int high) const {
   return *this;
 }
 
-Option Option::positive() const {
-  option_->check(number_check("greater than 0", [](double v) { return v > 0.0; }));
+Option Option::positive(std::optional<int> most) const {
+  if (most) {
+    const std::string bound = "at most " + std::to_string(*most);
+    option_->check(number_check("greater than 0 and " + bound,
+                                [most](double v) { return v > 0.0 && v <= *most; }));
+    row_->bounds = bound;
+  } else {
+    option_->check(
+        number_check("greater than 0", [](double v) { return v > 0.0 && std::isfinite(v); }));
+  }
   return *this;
 }
 

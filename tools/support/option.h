@@ -2,6 +2,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,8 @@ class Option {
   /// --help shows what the variable holds now.
   Option with_default() const;
   Option between(int low, int high) const;
-  Option positive() const;
+  /// Finite and above 0, and where `most` is given no more than that.
+  Option positive(std::optional<int> most = std::nullopt) const;
   Option not_negative() const;
   Option one_of(const std::vector<std::string>& words) const;
   Option one_of(std::initializer_list<double> numbers) const;

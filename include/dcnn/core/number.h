@@ -1,4 +1,4 @@
-// Numbers as sentences show them.
+// Numbers and units as sentences show them.
 #pragma once
 
 #include <string>
@@ -7,5 +7,8 @@ namespace dcnn {
 
 /// Three significant digits: "0.0412", "1230", "1.23e+06".
 std::string brief(double value);
+
+/// A unit as people write it: "N·m" for "N*m", "N·s²/m²" for "N*s^2/m^2", "°C" for "degC".
+std::string unit_text(const std::string& unit);
 
 }  // namespace dcnn

@@ -57,7 +57,7 @@ Diagnosis diagnose(const DiagnosisRequest& request,
 Json in_lines(const Json& findings);
 /// What was found, in one plain sentence.
 std::string headline(const Json& report);
-/// The headline, then ten lines: what the terminal shows.
-std::string to_text(const Diagnosis& diagnosis);
+/// By target, of the held-out recordings; of the fitted ones in reports that do not know theirs.
+const Json& heldout_noise(const Json& fit);
 
 }  // namespace dcnn

@@ -11,6 +11,9 @@ namespace dcnn {
 /// recording, or, where blocks of the fitted ones were held out, with a column `held_out`.
 void write_diagnosis(const std::filesystem::path& folder, const Diagnosis& diagnosis);
 
+/// The headline, then a few lines: what the terminal shows.
+std::string to_text(const Diagnosis& diagnosis);
+
 /// The page: what was found first, then the pictures that show it.
 std::string to_html(const Diagnosis& diagnosis);
 

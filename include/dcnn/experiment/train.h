@@ -42,8 +42,9 @@ struct TrainingOutcome {
 /// a gap of 1 s, are for validation only; statistics come from the training rows alone.
 TrainingOutcome train(const TrainingRequest& request, const TrainingObserver& observer);
 
-/// What --model auto does: train() for the rigid tool and for networks, in folders of the run
-/// directory, and the one with the least error on the validation rows as `out`. The summary is that
+/// What --model auto does: train() for the rigid tool and for networks, and a simulator that a
+/// diagnosis of the training rows corrects, in folders of the run directory; the one with the least
+/// error on the validation rows is `out`. The summary is that
 /// one's, with `choice`: the errors of all and the reason in words.
 TrainingOutcome train_best(const TrainingRequest& request, const TrainingObserver& observer);
 

@@ -50,4 +50,11 @@ Json serve_lines(OnlineCompensator& compensator, int in, int out, PlotStream* pl
 /// as it goes, for so many cycles: what serve_udp() costs and whether memory grows.
 Json rehearse(OnlineCompensator& compensator, const Recording& recording, std::uint64_t cycles);
 
+/// What serve_udp(), serve_lines() or rehearse() report, in words.
+std::string cycles_text(const Json& report);
+/// "34000 NETWORK, 51 WARMUP", without what never was; "none" where all is zero.
+std::string counts_text(const Json& counts);
+/// "p50 15 µs, p99 23 µs, p99.9 31 µs, most 110 µs", of CycleTimes.
+std::string times_text(const Json& times);
+
 }  // namespace dcnn

@@ -18,6 +18,9 @@ struct Ends {
 Json run_live_sensor(const TeleopConfig& config, const Ends& identifier, const Ends& controller,
                      const PacketKey& key, std::uint64_t seed);
 
+/// What run_live_sensor() reports, in words.
+std::string live_text(const Json& times);
+
 /// The master's side: answers every packet of the sensor with a command; ends after the configured
 /// duration, or with Error(kFailure) when nothing comes for 10 s.
 TeleopTrace run_live_controller(const TeleopConfig& config, const Ends& sensor,
