@@ -56,6 +56,7 @@ const std::map<std::string, std::string>& stem_words() {
       {"rate", "growth"},
       {"sin", "sine part"},
       {"cos", "cosine part"},
+      {"lever", "point where it acts, from the sensor's origin along"},
       {"inertia", "inertia"}};
   return kWords;
 }
