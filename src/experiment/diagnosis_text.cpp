@@ -11,18 +11,18 @@
 namespace dcnn {
 namespace {
 
-constexpr int kIndent = 12, kWidth = 96;
+constexpr int kTextIndent = 12, kTextWidth = 96;
 
 /// Parts side by side, as many as fit in a line; further lines are indented.
 std::string in_columns(const std::vector<std::string>& parts) {
   std::string text;
-  int column = kIndent;
+  int column = kTextIndent;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const std::string part = parts[k] + (k + 1 < parts.size() ? ";" : "");
     const int width = character_count(part) + 1;
-    if (k > 0 && column + width > kWidth) {
-      text += "\n" + std::string(kIndent, ' ');
-      column = kIndent;
+    if (k > 0 && column + width > kTextWidth) {
+      text += "\n" + std::string(kTextIndent, ' ');
+      column = kTextIndent;
     } else if (k > 0) {
       text += " ";
     }
@@ -33,7 +33,7 @@ std::string in_columns(const std::vector<std::string>& parts) {
 }
 
 std::string finding_text(const Json& finding) {
-  const std::string place = place_in_words(finding), indent(kIndent, ' ');
+  const std::string place = place_in_words(finding), indent(kTextIndent, ' ');
   std::string text = words_of_effect(plain_text(finding["effect"]));
   if (!place.empty()) text += ", " + place;
   if (!finding["confidence"].is_null()) {

@@ -105,6 +105,11 @@ std::pair<double, std::string> readable(double size, const std::string& unit) {
   return {1.0, unit_text(unit)};
 }
 
+/// Without an exponent where it can be; "–" for what is not finite.
+std::string three_digits(double value) {
+  return std::isfinite(value) ? brief(value) : significant(value, 3);
+}
+
 /// A number of a discovered law, by its stem: "scale_2" belongs to the second of its variables.
 std::string words_of_law(const std::string& stem) {
   static const std::map<std::string, std::string> kWords{{"amplitude", "amplitude"},
@@ -205,14 +210,14 @@ std::string unit_in_words(const std::string& effect, const std::string& name,
 
 std::string with_unit(double value, const std::string& unit) {
   const auto [factor, name] = readable(value, unit);
-  return significant(factor * value, 3) + (name.empty() || name == "1" ? "" : " " + name);
+  return three_digits(factor * value) + (name.empty() || name == "1" ? "" : " " + name);
 }
 
 std::string with_interval(double value, double low, double high, const std::string& unit) {
   const auto [factor, name] =
       readable(std::max({std::abs(value), std::abs(low), std::abs(high)}), unit);
-  return significant(factor * value, 3) + (name.empty() || name == "1" ? "" : " " + name) + " (" +
-         significant(factor * low, 3) + " to " + significant(factor * high, 3) + ")";
+  return three_digits(factor * value) + (name.empty() || name == "1" ? "" : " " + name) + " (" +
+         three_digits(factor * low) + " to " + three_digits(factor * high) + ")";
 }
 
 }  // namespace dcnn

@@ -70,6 +70,10 @@ UdpSocket::UdpSocket(const std::string& listen, const std::string& peer) {
   const Address here = resolve(listen), there = resolve(peer);
   require(here->ai_family == there->ai_family, Exit::kUsage, "'", listen, "' and '", peer,
           "' are addresses of different kinds; give two of IPv4 or two of IPv6");
+  require(here->ai_addrlen != there->ai_addrlen ||
+              std::memcmp(here->ai_addr, there->ai_addr, here->ai_addrlen) != 0,
+          Exit::kUsage, "'", listen, "' and '", peer,
+          "' are one address, which would hear itself; give the peer's own");
   socket_ = ::socket(here->ai_family, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   require(socket_ >= 0, Exit::kFailure, "cannot open a socket: ", std::strerror(errno));
   const char* step = "listen at ";

@@ -21,7 +21,7 @@ TEST(IdentifyTool, WritesASimulatorAPayloadAndTheNextCommand) {
                                        (folder / "report").string(), "--export", "urdf", "kuka",
                                        "--export-to", (folder / "payload").string()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_TRUE(contains(result.out, "mass_kg")) << result.out;
+  EXPECT_TRUE(contains(result.out, "\n  mass  ")) << result.out;
   EXPECT_TRUE(contains(result.out, "Next: dcnn-diagnose --sim " + out)) << result.out;
   EXPECT_NEAR(read_simulator(out).model.mass, 0.75, 0.01);
   EXPECT_TRUE(std::filesystem::exists(folder / "payload" / "payload.urdf"));

@@ -137,6 +137,9 @@ TEST(NumberOutOfRange, IsRefusedWithItsBounds) {
   expect_words(refusal("run", {"--model", sim, "--listen", "5301", "--peer", "127.0.0.1:0",
                                "--key-file", key}),
                {"port 0 is not between 1 and 65535"});
+  expect_words(refusal("run", {"--model", sim, "--listen", "5301", "--peer", "127.0.0.1:5301",
+                               "--key-file", key}),
+               {"'5301' and '127.0.0.1:5301' are one address"});
   expect_words(refusal("run", {"--model", sim, "--stdin", "--plot", "65536"}),
                {"port 65536 is not between 1 and 65535"});
   expect_words(refusal("run", {"--model", sim, "--stdin", "--average", "17"}),
