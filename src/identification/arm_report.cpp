@@ -23,6 +23,12 @@ const IdentifiedNumber* parameter_of(const JointEstimate& joint, const std::stri
 
 bool clear_of_zero(const IdentifiedNumber* e) { return e && (e->low > 0.0 || e->high < 0.0); }
 
+/// Dry friction that would push in the direction of the motion.
+bool drives(const JointEstimate& joint) {
+  const IdentifiedNumber* fc = parameter_of(joint, "fc");
+  return fc && fc->high < 0.0;
+}
+
 /// "joints 1 to 6" of the joints for which `has` holds; by name where they are not all in a row.
 template <class Has>
 std::string joints_with(const std::vector<JointEstimate>& joints, const Has& has) {
@@ -50,9 +56,10 @@ std::string summary(const ArmIdentification& id) {
     for (std::size_t k = 1; k < id.payload.size(); ++k) {
       if (id.payload[k].shown) off = std::hypot(off, id.payload[k].value);
     }
-    parts.push_back(id.payload[0].shown
-                        ? arm_line("payload of %.3g kg, centre %.2g cm off the flange", m, 100.0 * off)
-                        : arm_line("no payload above %.2g kg", id.payload[0].high));
+    parts.push_back(
+        id.payload[0].shown
+            ? arm_line("payload of %.3g kg, centre %.2g cm off the flange", m, 100.0 * off)
+            : arm_line("no payload above %.2g kg", id.payload[0].high));
   }
   const std::pair<const char*, const char*> words[] = {
       {"fc", "dry friction"},
@@ -63,9 +70,14 @@ std::string summary(const ArmIdentification& id) {
   for (const auto& [stem, text] : words) {
     const std::string name = stem;
     const std::string where = joints_with(id.joints, [&](const JointEstimate& joint) {
-      return clear_of_zero(parameter_of(joint, name));
+      return clear_of_zero(parameter_of(joint, name)) && !(name == "fc" && drives(joint));
     });
     if (!where.empty()) parts.push_back(text + (" on " + where));
+  }
+  if (const std::string where = joints_with(id.joints, drives); !where.empty()) {
+    parts.push_back("dry friction that would drive " + where +
+                    ", so that their torques have the wrong sign or are the reaction to the "
+                    "drives': give these axes \"scale\": -1");
   }
   if (parts.empty()) parts.push_back("the links and the drives' offsets, nothing else");
   std::string text;
@@ -113,10 +125,14 @@ Json to_json(const ArmIdentification& id) {
                          {"deviation", list_of(link.deviation)},
                          {"shown", shown}});
   }
-  return {{"recordings", id.recordings}, {"holdout", id.holdout},
-          {"lowpass_hz", id.lowpass_hz}, {"base_parameters", id.base_parameters},
-          {"payload", estimate_list(id.payload)}, {"joints", joints},
-          {"links", links},              {"words", summary(id)},
+  return {{"recordings", id.recordings},
+          {"holdout", id.holdout},
+          {"lowpass_hz", id.lowpass_hz},
+          {"base_parameters", id.base_parameters},
+          {"payload", estimate_list(id.payload)},
+          {"joints", joints},
+          {"links", links},
+          {"words", summary(id)},
           {"notes", id.notes}};
 }
 
@@ -131,14 +147,16 @@ std::string to_text(const ArmIdentification& id) {
                      e.unit.c_str());
   }
   if (id.lowpass_hz == 0.0) {
-    text += arm_line("%d combinations of inertial parameters are told by these poses at rest; friction "
-                     "and rotors' inertias show in motion alone.\n",
-                     id.base_parameters);
+    text += arm_line(
+        "%d combinations of inertial parameters are told by these poses at rest; friction "
+        "and rotors' inertias show in motion alone.\n",
+        id.base_parameters);
     text += "  joint          torque   residual  held out\n";
   } else {
-    text += arm_line("%d combinations of inertial parameters are told by these motions; torques and "
-                     "regressors low-passed at %.3g Hz.\n",
-                     id.base_parameters, id.lowpass_hz);
+    text += arm_line(
+        "%d combinations of inertial parameters are told by these motions; torques and "
+        "regressors low-passed at %.3g Hz.\n",
+        id.base_parameters, id.lowpass_hz);
     text += "  joint          torque   residual  held out   dry        viscous    path     creep\n";
   }
   for (const JointEstimate& joint : id.joints) {
@@ -150,9 +168,9 @@ std::string to_text(const ArmIdentification& id) {
                        joint.residual_rms, held.c_str(), joint.unit.c_str());
       continue;
     }
-    text += arm_line("  %-12s %8.3g   %-9.3g %s  %-9.3g  %-9.3g  %-7.2g  %.2g s  [%s]\n", joint.name.c_str(),
-                     joint.torque_rms, joint.residual_rms, held.c_str(), fc ? fc->value : 0.0,
-                     c ? c->value : 0.0, joint.presliding, joint.creep_s,
+    text += arm_line("  %-12s %8.3g   %-9.3g %s  %-9.3g  %-9.3g  %-7.2g  %.2g s  [%s]\n",
+                     joint.name.c_str(), joint.torque_rms, joint.residual_rms, held.c_str(),
+                     fc ? fc->value : 0.0, c ? c->value : 0.0, joint.presliding, joint.creep_s,
                      joint.unit.c_str());
   }
   return text;
