@@ -24,7 +24,7 @@ bool is_untold_of(double (*offset)(double)) {
   Member drift =
       make_member(search.study(), kind, kind.fits[0], "", Eigen::VectorXd::Constant(1, 1.0));
   search.settle({drift});
-  return has_untold_drift(search.setting(), search.fit());
+  return has_untold_shape(search.setting(), search.fit());
 }
 
 TEST(UntoldShapes, AnOffsetThatSettlesHasATimeConstant) {
