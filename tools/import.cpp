@@ -161,7 +161,7 @@ class Importer {
     }
     written_.push_back(file);
     write_csv(file, imported.table);
-    const Json axes = axes_of(imported.table);
+    const Json axes = axes_of(imported.table, proposal_.recipe);
     if (!axes.is_null()) write_file(*request_.out / "system.json", axes.dump(2) + "\n");
     tool_.note(file.string() + ": " + std::to_string(imported.table.values.rows()) + " rows, " +
                std::to_string(imported.table.columns.size()) + " columns");

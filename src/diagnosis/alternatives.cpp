@@ -50,7 +50,7 @@ std::vector<std::vector<Alternative>> Search::alternatives() const {
       // Nor does noise stand in its place.
       const double noise = least_gain(*setting_, numbers, rest.members.empty()) - near;
       if (fit_.chi2 - other.chi2 <= least || rest.chi2 - other.chi2 <= noise) continue;
-      if (has_untold_drift(*setting_, other)) continue;
+      if (has_untold_shape(*setting_, other)) continue;
       const Alternative found{trial.member.name(), other.members, other.base, log_odds_of(other),
                               other.chi2 - fit_.chi2};
       const auto listed = std::find_if(all[m].begin(), all[m].end(), [&](const Alternative& a) {

@@ -10,11 +10,11 @@
 namespace dcnn {
 namespace {
 
-constexpr double kLongest = 0.6;  // s, as delays are looked for (effects/time_delay.cpp)
-constexpr int kDelays = 60;       // either way: steps that no motion below 10 Hz turns in
+constexpr double kLongestDelay = 0.6;  // s, as delays are looked for (effects/time_delay.cpp)
+constexpr int kDelays = 60;            // either way: steps that no motion below 10 Hz turns in
 
 /// Offset, position, velocity and acceleration of one recording, and its reading.
-struct Rows {
+struct LaggedRows {
   Eigen::MatrixXd motion;
   Eigen::VectorXd reading;
   std::vector<Segment> segments;
@@ -23,12 +23,12 @@ struct Rows {
 };
 
 /// Sums of a regression of the reading on the motion `delay` rows before.
-struct Sums {
+struct LaggedSums {
   Eigen::Matrix4d gram = Eigen::Matrix4d::Zero();
   Eigen::Vector4d match = Eigen::Vector4d::Zero();
   double square = 0.0, sum = 0.0, rows = 0.0;
 
-  void add(const Rows& log, Index delay) {
+  void add(const LaggedRows& log, Index delay) {
     for (const Segment& s : log.segments) {
       const Index begin = std::max(s.begin, s.begin + delay), end = std::min(s.end, s.end + delay);
       if (end <= begin) continue;
@@ -44,12 +44,12 @@ struct Sums {
   }
 };
 
-struct Fit {
+struct SenseFit {
   double sense = 1.0;
   double left = 1.0;  ///< share of the reading's variance
 };
 
-Fit fit_of(const Sums& sums) {
+SenseFit sense_fit(const LaggedSums& sums) {
   const Eigen::Vector4d scale = sums.gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   Eigen::Matrix4d scaled = scale.asDiagonal() * sums.gram * scale.asDiagonal();
   scaled.diagonal().array() += 1e-9;
@@ -59,7 +59,7 @@ Fit fit_of(const Sums& sums) {
   const Eigen::Vector4d estimate = (inverse * match).cwiseQuotient(inverse.diagonal().cwiseSqrt());
   const double along_v = estimate(2), along_a = estimate(3);
   const double variance = sums.square - sums.sum * sums.sum / std::max(1.0, sums.rows);
-  Fit fit;
+  SenseFit fit;
   fit.sense = (std::abs(along_v) > std::abs(along_a) ? along_v : along_a) < 0.0 ? -1.0 : 1.0;
   // Rounding is what an exact simulator leaves.
   fit.left = (std::max(0.0, sums.square - match.dot(inverse * match)) + 1e-9 * sums.square) /
@@ -67,11 +67,11 @@ Fit fit_of(const Sums& sums) {
   return fit;
 }
 
-Rows rows_of(const Recording& recording, const System& system, const Axis& axis,
-             const DerivativeSpec& derivative) {
+LaggedRows lagged_rows(const Recording& recording, const System& system, const Axis& axis,
+                       const DerivativeSpec& derivative) {
   Targets target;
   target.names = {axis.measured};
-  Rows rows;
+  LaggedRows rows;
   const Motion motion = axis_motion(recording, axis, derivative);
   if (motion.v_B.rows() == 0) return rows;
   rows.motion.resize(motion.samples(), 4);
@@ -88,9 +88,9 @@ Rows rows_of(const Recording& recording, const System& system, const Axis& axis,
 }
 
 /// How often the axis turns back: so many independent pieces a motion has.
-double turns_of(const std::vector<Rows>& logs) {
+double turns_of(const std::vector<LaggedRows>& logs) {
   double turns = 0.0;
-  for (const Rows& log : logs) {
+  for (const LaggedRows& log : logs) {
     for (Index i = 1; i < log.motion.rows(); ++i) {
       turns += log.motion(i, 2) * log.motion(i - 1, 2) < 0.0;
     }
@@ -102,9 +102,9 @@ double turns_of(const std::vector<Rows>& logs) {
 
 double sense_of(const std::vector<Recording>& recordings, const System& system, const Axis& axis,
                 const DerivativeSpec& derivative) {
-  std::vector<Rows> logs;
+  std::vector<LaggedRows> logs;
   for (const Recording& recording : recordings) {
-    Rows rows = rows_of(recording, system, axis, derivative);
+    LaggedRows rows = lagged_rows(recording, system, axis, derivative);
     if (rows.motion.rows() > 0) logs.push_back(std::move(rows));
   }
   if (logs.empty()) return 1.0;
@@ -113,11 +113,11 @@ double sense_of(const std::vector<Recording>& recordings, const System& system, 
       elementary::log(evidence::prior::kName / (1.0 - evidence::prior::kName) / (2.0 * kDelays));
   double sense = 1.0, most = -1e300;
   for (int k = -kDelays; k <= kDelays; ++k) {
-    Sums sums;
-    for (const Rows& log : logs) {
-      sums.add(log, std::llround(kLongest * k / kDelays / log.dt));
+    LaggedSums sums;
+    for (const LaggedRows& log : logs) {
+      sums.add(log, std::llround(kLongestDelay * k / kDelays / log.dt));
     }
-    const Fit fit = fit_of(sums);
+    const SenseFit fit = sense_fit(sums);
     const double likely =
         -0.5 * turns * elementary::log(std::max(fit.left, 1e-12)) + (k == 0 ? 0.0 : delayed);
     if (likely > most) most = likely, sense = fit.sense;

@@ -177,6 +177,8 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
     for (const Json& name : more) refuted_names.push_back(name);
     alternatives = adopt_likelier(search, holdout);
   }
+  // Beside fewer names a variation may be told no more.
+  if (search.even_out_gears()) alternatives = adopt_likelier(search, holdout);
   const Case& study = search.study();
   const JointFit &fit = search.fit(), given = joint_fit(search.setting(), {});
 

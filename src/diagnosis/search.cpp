@@ -281,6 +281,7 @@ void Search::run() {
   weigh();
   hold_untold();
   straighten_drifts();
+  even_out_gears();
 }
 
 }  // namespace dcnn

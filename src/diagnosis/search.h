@@ -85,6 +85,9 @@ class Search {
   std::vector<Member> names() const;
   /// Whitens again for what these members leave, and fits them.
   void settle(const std::vector<Member>& members);
+  /// Leaves of gears' friction what it has at any position, where the variation is not told: whether
+  /// there was such.
+  bool even_out_gears();
   std::vector<Member> members_without(std::size_t member) const;
   /// The model without one member, the others refitted.
   const JointFit& without(std::size_t member) const;
@@ -204,9 +207,9 @@ class Search {
   bool ringing_ = false;  // what shakes the motion unseen rings in the modes that were found
 };
 
-/// Whether a drift is among the members of which the recordings tell no time constant: its 95 %
-/// interval spans two decades.
-bool has_untold_drift(const Setting& setting, const JointFit& fit);
+/// Whether a drift is among the members of which the recordings tell no time constant (its 95 %
+/// interval spans two decades), or a gears' friction of which they tell no variation.
+bool has_untold_shape(const Setting& setting, const JointFit& fit);
 
 /// measured - predicted per recording, of one that was zeroed without its mean.
 Signals difference(const Case& study, const Signals& prediction);

@@ -39,13 +39,57 @@ bool is_untold(const Member& member, const std::vector<Estimate>& numbers) {
   return false;
 }
 
+/// Dry friction of gears whose variation with the position may be none, or of an order that is not
+/// known to a factor of ten.
+bool is_even(const Member& member, const std::vector<Estimate>& numbers) {
+  if (member.kind != find_effect("gear_friction") || member.fixed) return false;
+  return std::any_of(numbers.begin(), numbers.end(), [](const Estimate& number) {
+    return (number.name == "a" && number.low <= 0.0) ||
+           (number.name == "order" && spans_decades(number));
+  });
+}
+
+/// Both make dry friction along the one axis of a machine.
+bool is_dry(const Member& member) {
+  return member.kind == find_effect("coulomb_friction") ||
+         member.kind == find_effect("stribeck_friction");
+}
+
 }  // namespace
 
-bool has_untold_drift(const Setting& setting, const JointFit& fit) {
-  if (std::none_of(fit.members.begin(), fit.members.end(), settles)) return false;
+/// On a machine, whose only position is that of the gears.
+bool Search::even_out_gears() {
+  if (!study_.axis) return false;
+  bool changed = false;
+  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+    if (fit_.members[m].kind != find_effect("gear_friction")) continue;
+    if (!is_even(fit_.members[m], estimates(*setting_, fit_)[m])) continue;
+    std::vector<Member> members = members_without(m);
+    if (std::none_of(members.begin(), members.end(), is_dry)) {
+      const EffectKind& kind = *find_effect("coulomb_friction");
+      members.push_back(make_member(study_, kind, kind.fits[0], axes_of(study_, kind).front(),
+                                    fit_.members[m].shapes.tail(1)));
+      members.back().amplitudes = fit_.members[m].amplitudes.head(1);
+    }
+    settle(members);
+    weigh_once();
+    changed = true;
+    m = static_cast<std::size_t>(-1);  // from the first again
+  }
+  return changed;
+}
+
+bool has_untold_shape(const Setting& setting, const JointFit& fit) {
+  const auto may_be = [&](const Member& member) {
+    return settles(member) || (setting.study.axis && member.kind == find_effect("gear_friction"));
+  };
+  if (std::none_of(fit.members.begin(), fit.members.end(), may_be)) return false;
   const auto numbers = estimates(setting, fit);
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
-    if (is_untold(fit.members[m], numbers[m])) return true;
+    const Member& member = fit.members[m];
+    if (is_untold(member, numbers[m]) || (may_be(member) && is_even(member, numbers[m]))) {
+      return true;
+    }
   }
   return false;
 }
@@ -54,7 +98,7 @@ bool has_untold_drift(const Setting& setting, const JointFit& fit) {
 /// where it settles after the recording: whichever of the two leaves less.
 void Search::straighten_drifts() {
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
-    if (!has_untold_drift(*setting_, fit_)) return;
+    if (!has_untold_shape(*setting_, fit_)) return;
     if (!is_untold(fit_.members[m], estimates(*setting_, fit_)[m])) continue;
     std::optional<JointFit> best;
     for (const char* name : {"bias", "linear_drift"}) {

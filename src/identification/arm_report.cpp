@@ -24,6 +24,12 @@ const IdentifiedNumber* parameter_of(const JointEstimate& joint, const std::stri
 
 bool clear_of_zero(const IdentifiedNumber* e) { return e && (e->low > 0.0 || e->high < 0.0); }
 
+/// Dry friction that would push in the direction of the motion.
+bool drives(const JointEstimate& joint) {
+  const IdentifiedNumber* fc = parameter_of(joint, "fc");
+  return fc && fc->high < 0.0;
+}
+
 /// "joints 1 to 6" of the joints for which `has` holds; by name where they are not all in a row.
 template <class Has>
 std::string joints_with(const std::vector<JointEstimate>& joints, const Has& has) {
@@ -65,9 +71,14 @@ std::string summary(const ArmIdentification& id) {
   for (const auto& [stem, text] : words) {
     const std::string name = stem;
     const std::string where = joints_with(id.joints, [&](const JointEstimate& joint) {
-      return clear_of_zero(parameter_of(joint, name));
+      return clear_of_zero(parameter_of(joint, name)) && !(name == "fc" && drives(joint));
     });
     if (!where.empty()) parts.push_back(text + (" on " + where));
+  }
+  if (const std::string where = joints_with(id.joints, drives); !where.empty()) {
+    parts.push_back("dry friction that would drive " + where +
+                    ", so that their torques have the wrong sign or are the reaction to the "
+                    "drives': give these axes \"scale\": -1");
   }
   if (parts.empty()) parts.push_back("the links and the drives' offsets, nothing else");
   std::string text;

@@ -51,6 +51,13 @@ void guess_column_unit(const LogChannel& channel, ColumnRule* rule) {
   rule->assumed = !rule->unit.empty();
 }
 
+/// An axis may slide: then it has a force, a length and a velocity.
+bool is_of_sliding_axis(const std::string& to, const std::string& quantity) {
+  return (to.starts_with("tau:") && quantity == "force") ||
+         (to.starts_with("q:") && quantity == "length") ||
+         (to.starts_with("qd:") && quantity == "velocity");
+}
+
 void propose_unit(const ForeignLog& log, const ImportWishes& wishes, ColumnRule* rule) {
   const Source source = source_of(log, *rule);
   const std::string quantity = quantity_of_column(rule->to);
@@ -65,9 +72,12 @@ void propose_unit(const ForeignLog& log, const ImportWishes& wishes, ColumnRule*
     return;
   }
   const auto stated = find_unit(source.channel->unit);
-  if (stated && (quantity.empty() || stated->quantity == quantity)) {
+  if (stated && (quantity.empty() || stated->quantity == quantity ||
+                 is_of_sliding_axis(rule->to, stated->quantity))) {
     rule->unit = source.channel->unit;
     rule->why = "its name";
+  } else if (stated && stated->quantity != "number" && rule->gain != 1.0) {
+    rule->why = "its gain, per " + source.channel->unit;
   } else if (stated && stated->quantity != "number") {
     rule->unit = source.channel->unit;
     rule->why = "its name, which is no unit of " + quantity;
@@ -114,6 +124,12 @@ void propose_units(const ForeignLog& log, const ImportWishes& wishes, Proposal* 
       proposal->guesses.push_back(shown(unit) + " behind the name of " + rule.to +
                                   " is no unit that is known here: say --unit " + rule.to +
                                   "=N, or what it is");
+      continue;
+    }
+    if (rule.why.find("no unit of") != std::string::npos) {
+      proposal->guesses.push_back(rule.to + " is in " + rule.unit + " by the name of " +
+                                  shown(rule.channel) + ": say --gain " + rule.to +
+                                  "=NUMBER, what one " + rule.unit + " is in SI");
       continue;
     }
     std::string& list = guessed[rule.unit];

@@ -46,6 +46,7 @@ class JointFinder {
       if (is_joint(rule.to)) count_on(rule);
     }
     by_name();
+    leave_lone();
     ask();
     return found_;
   }
@@ -86,7 +87,9 @@ class JointFinder {
       const std::string to = column->before +
                              std::to_string(column->number + number - channel->number) +
                              column->after;
-      if (!has(to)) found_.push_back({.to = to, .stream = said.stream, .channel = name});
+      if (has(to)) continue;
+      found_.push_back({.to = to, .stream = said.stream, .channel = name});
+      counted_on_.insert(to);
     }
   }
 
@@ -107,6 +110,27 @@ class JointFinder {
         found_.push_back({.to = role, .stream = stream.name, .channel = channel.name});
       }
     }
+  }
+
+  /// A channel that was counted on is a joint's where another channel is that joint's as well, as
+  /// it is of the joint that was said: a drive's other analog channels are no joints.
+  void leave_lone() {
+    const auto joint_of = [](const std::string& to) { return to.substr(to.find(':') + 1); };
+    std::map<std::string, int> known;
+    const auto count = [&](const std::vector<ColumnRule>& rules) {
+      for (const ColumnRule& rule : rules) {
+        if (is_joint(rule.to)) ++known[joint_of(rule.to)];
+      }
+    };
+    count(said_);
+    count(found_);
+    const bool together = std::any_of(said_.begin(), said_.end(), [&](const ColumnRule& rule) {
+      return is_joint(rule.to) && known[joint_of(rule.to)] > 1;
+    });
+    if (!together) return;
+    std::erase_if(found_, [&](const ColumnRule& rule) {
+      return counted_on_.count(rule.to) > 0 && known[joint_of(rule.to)] == 1;
+    });
   }
 
   void ask() {
@@ -135,7 +159,8 @@ class JointFinder {
   const Names& use_;
   Proposal* proposal_;
   std::vector<ColumnRule> found_;
-  Names twice_;  ///< two streams that have one joint
+  std::set<std::string> counted_on_;  ///< of them
+  Names twice_;                       ///< two streams that have one joint
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "dcnn/core/error.h"
 #include "dcnn/core/excerpt.h"
 #include "import/clocks.h"
+#include "import/units.h"
 
 namespace dcnn {
 namespace {
@@ -155,20 +156,25 @@ Json describe_json(const ForeignLog& log, const Proposal& proposal) {
   return json;
 }
 
-Json axes_of(const Table& table) {
+Json axes_of(const Table& table, const Recipe& recipe) {
   const auto has = [&](const std::string& column) {
     return std::find(table.columns.begin(), table.columns.end(), column) != table.columns.end();
   };
   if (has("qw") || has("alpha")) return nullptr;
   Json axes = Json::array();
   for (const std::string& column : table.columns) {
-    if (!column.starts_with("tau_") || !has("q_" + column.substr(4))) continue;
-    const std::string name = column.substr(4);
+    const std::string name = column.substr(std::min<std::size_t>(4, column.size()));
+    if (!column.starts_with("tau_") || (!has("q_" + name) && !has("qd_" + name))) continue;
+    const auto rule =
+        std::find_if(recipe.columns.begin(), recipe.columns.end(),
+                     [&](const ColumnRule& known) { return known.to == "tau:" + name; });
+    const auto unit = rule == recipe.columns.end() ? std::nullopt : find_unit(rule->unit);
+    const bool slides = unit && unit->quantity == std::string("force");
     Json axis = {{"name", name},
                  {"measured", column},
-                 {"unit", "N*m"},
-                 {"position", "q_" + name},
+                 {"unit", slides ? "N" : "N*m"},
                  {"base", Json::array()}};
+    if (has("q_" + name)) axis["position"] = "q_" + name;
     if (has("qd_" + name)) axis["velocity"] = "qd_" + name;
     axes.push_back(std::move(axis));
   }

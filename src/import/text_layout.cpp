@@ -140,22 +140,49 @@ std::string unit_in(std::string_view cell) {
   return std::string(cell);
 }
 
-/// Whether a line holds a row of numbers: at least one, in as many cells as there are columns.
-bool is_row(std::string_view line, const Reading& reading) {
+/// Columns that hold numbers: a cell that is neither number nor missing in half of the judged rows
+/// holds text.
+std::vector<char> numeric_columns(const Lines& lines, const Reading& reading) {
+  std::vector<std::size_t> texts(reading.cells, 0);
+  const auto rows = judged(lines);
+  for (const std::string_view row : rows) {
+    const Cells cells = row_cells(row, reading.separator, reading.cells);
+    for (std::size_t k = 0; k < std::min(cells.size(), texts.size()); ++k) {
+      double value = 0.0;
+      texts[k] += read_cell(cells[k], reading.decimal, &value) == CellKind::kText;
+    }
+  }
+  std::vector<char> numeric;
+  for (const std::size_t count : texts) numeric.push_back(2 * count < rows.size());
+  return numeric;
+}
+
+/// Whether a line above which no row was met is one: it holds numbers, and words in less than half
+/// of the columns of numbers. Instruments write settings above their table, `Interval,0.0005`,
+/// mostly in fewer cells than that has.
+bool is_row(std::string_view line, const Reading& reading, const std::vector<char>& numeric) {
   const Cells cells = row_cells(line, reading.separator, reading.cells);
-  return std::any_of(cells.begin(), cells.end(), [&](std::string_view cell) {
+  std::size_t numbers = 0, texts = 0, columns = 0;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
     double value = 0.0;
-    return read_cell(cell, reading.decimal, &value) == CellKind::kNumber;
-  });
+    const CellKind kind = read_cell(cells[k], reading.decimal, &value);
+    const bool of_numbers = cells.size() != numeric.size() || numeric[k] != 0;
+    numbers += kind == CellKind::kNumber;
+    columns += of_numbers;
+    texts += of_numbers && kind == CellKind::kText;
+  }
+  return numbers > 0 && 2 * texts < columns;
 }
 
 /// Names are what stands above the rows: a line without numbers, or the last such comment; a second
 /// one below it holds units.
 void read_heading(const Lines& lines, const Reading& reading, TextLayout* layout) {
+  layout->numeric = numeric_columns(lines, reading);
+
   Cells names, below, comment;
   std::size_t at = 0;
   for (; at < lines.size(); ++at) {
-    if (!is_aside(lines[at]) && is_row(lines[at], reading)) break;
+    if (!is_aside(lines[at]) && is_row(lines[at], reading, layout->numeric)) break;
     const Cells words = words_of(lines[at], reading, reading.cells);
     if (words.empty()) continue;
     if (is_aside(lines[at])) {
@@ -184,22 +211,10 @@ void make_unique(TextLayout* layout) {
   }
 }
 
-/// A cell that is neither number nor missing in half of the judged rows holds text.
-void find_numeric(const Lines& lines, const Reading& reading, TextLayout* layout) {
-  std::vector<std::size_t> texts(reading.cells, 0);
-  const auto rows = judged(lines);
-  for (const std::string_view row : rows) {
-    const Cells cells = row_cells(row, reading.separator, reading.cells);
-    for (std::size_t k = 0; k < std::min(cells.size(), texts.size()); ++k) {
-      double value = 0.0;
-      texts[k] += read_cell(cells[k], reading.decimal, &value) == CellKind::kText;
-    }
-  }
-  for (std::size_t k = 0; k < texts.size(); ++k) {
-    layout->numeric.push_back(2 * texts[k] < rows.size());
-    if (layout->numeric[k] == 0) {
-      layout->notes.push_back("column " + shown(layout->names[k]) + " holds text: left out");
-    }
+void say_what_holds_text(TextLayout* layout) {
+  for (std::size_t k = 0; k < layout->names.size(); ++k) {
+    if (layout->numeric[k] != 0) continue;
+    layout->notes.push_back("column " + shown(layout->names[k]) + " holds text: left out");
   }
 }
 
@@ -239,7 +254,7 @@ TextLayout find_layout(const Lines& lines, const TextDialect& given, const std::
                            " columns: name them with --columns");
   }
   make_unique(&layout);
-  find_numeric(lines, reading, &layout);
+  say_what_holds_text(&layout);
   return layout;
 }
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "dcnn/core/random.h"
+#include "diagnosis/axis_case.h"
 #include "diagnosis/load.h"
 #include "diagnosis/search.h"
 #include "diagnosis/support.h"
@@ -24,7 +26,7 @@ bool is_untold_of(double (*offset)(double)) {
   Member drift =
       make_member(search.study(), kind, kind.fits[0], "", Eigen::VectorXd::Constant(1, 1.0));
   search.settle({drift});
-  return has_untold_drift(search.setting(), search.fit());
+  return has_untold_shape(search.setting(), search.fit());
 }
 
 TEST(UntoldShapes, AnOffsetThatSettlesHasATimeConstant) {
@@ -34,6 +36,43 @@ TEST(UntoldShapes, AnOffsetThatSettlesHasATimeConstant) {
 // One that was there before the recording settles within any time that is short enough.
 TEST(UntoldShapes, AConstantHasNone) {
   EXPECT_TRUE(is_untold_of([](double) { return 0.05; }));
+}
+
+/// The names on an axis with dry friction that varies by `a` with 9 times the position, after
+/// gears' friction was fitted to it and what is not told of that was left out.
+std::vector<std::string> names_beside_gears(double a) {
+  const test::TemporaryFolder folder;
+  Rng rng({4});
+  Table table{{"t", "q", "torque"}, Eigen::MatrixXd(5000, 3)};
+  for (Index i = 0; i < table.values.rows(); ++i) {
+    const double t = 0.004 * static_cast<double>(i);
+    const double q = std::sin(1.1 * t) + 0.4 * std::sin(2.9 * t),
+                 v = 1.1 * std::cos(1.1 * t) + 1.16 * std::cos(2.9 * t);
+    table.values.row(i) << t, q,
+        (1.0 + a * std::sin(9.0 * q)) * std::tanh(v / 0.02) + 0.05 * rng.normal();
+  }
+  write_csv(folder / "log.csv", table);
+  write_file(folder / "system.json", R"({"kind": "axes", "axes": [
+    {"name": "joint", "measured": "torque", "unit": "N*m", "position": "q", "base": []}]})");
+  DiagnosisRequest request;
+  request.system = folder / "system.json";
+  request.fit = {folder / "log.csv"};
+  Search search(load_axes(request).cases[0].fit, {}, nullptr);
+  const EffectKind& kind = *find_effect("gear_friction");
+  search.settle({make_member(search.study(), kind, kind.fits[0], "alpha:base_x",
+                             Eigen::Vector2d(9.0, 0.02))});
+  search.even_out_gears();
+  std::vector<std::string> names;
+  for (const Member& member : search.fit().members) names.push_back(member.name());
+  return names;
+}
+
+TEST(UntoldShapes, GearsThatVaryKeepTheirName) {
+  EXPECT_EQ(names_beside_gears(0.3), std::vector<std::string>{"gear_friction"});
+}
+
+TEST(UntoldShapes, GearsThatDoNotVaryAreDryFriction) {
+  EXPECT_EQ(names_beside_gears(0.0), std::vector<std::string>{"coulomb_friction"});
 }
 
 }  // namespace

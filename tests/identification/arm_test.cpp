@@ -183,6 +183,16 @@ TEST_F(ArmIdentify, APayloadIsFoundBesideFrictionThatGrowsWithTheLoad) {
   EXPECT_NEAR(of(id.joints[1].parameters, "mu").value, 0.1, 0.02) << to_text(id);
 }
 
+TEST_F(ArmIdentify, FrictionThatDrivesIsAWrongSign) {
+  ArmRequest r = request({}, false);
+  Json json = system_json();
+  json["axes"][1]["scale"] = -1.0;
+  std::ofstream(r.system) << json;
+  const std::string text = to_text(identify_arm(r));
+  EXPECT_NE(text.find("dry friction on joints 1, 3;"), std::string::npos) << text;
+  EXPECT_NE(text.find("would drive joint 2"), std::string::npos) << text;
+}
+
 /// A list of `poses` at rest, without times, of the same arm; noise 0.2 N·m.
 void write_poses(const std::filesystem::path& file, Index poses, double payload,
                  std::uint64_t seed) {

@@ -1,6 +1,7 @@
 // Arms as others log them: names of joints in words of any order, one file per quantity.
 #include <gtest/gtest.h>
 
+#include "dcnn/import/summary.h"
 #include "import/log_builder.h"
 #include "import/logs.h"
 #include "import/number_arrays.h"
@@ -88,6 +89,30 @@ TEST(JointColumns, ThatAreCountedOnFromASaidOneFollow) {
   // What is said of one in the middle says nothing of the others.
   wishes.map = {{"tau:2", "amp2"}};
   EXPECT_FALSE(has_column(import_text(text, wishes), "tau_1"));
+}
+
+// A drive's recorder: its other analog channels are no joints. The axis slides, and has no
+// position.
+TEST(JointColumns, OtherChannelsOfARecorderAreNoJoints) {
+  const std::string text = "t,load [V],Analog 1,Analog 2\n0,0.1,2,3\n0.01,0.3,4,5\n";
+  ImportWishes wishes;
+  wishes.map = {{"tau:1", "load [V]"}, {"qd:1", "Analog 1"}};
+  const TemporaryFolder folder;
+  spill(folder / "log.csv", text);
+  const Proposal asking = propose(read_log({folder / "log.csv"}, {}), wishes);
+  ASSERT_EQ(asking.guesses.size(), 1U);
+  EXPECT_NE(asking.guesses[0].find("--gain tau:1=NUMBER"), std::string::npos) << asking.guesses[0];
+  wishes.gains = {{"tau:1", 200.0}};
+  wishes.units = {{"tau:1", "N"}};
+  const Imported imported = import_text(text, wishes);
+  EXPECT_FALSE(has_column(imported, "qd_2"));
+  EXPECT_DOUBLE_EQ(cell(imported, "tau_1", 1), 60.0);
+  const Proposal told = propose(read_log({folder / "log.csv"}, {}), wishes);
+  const Json axes = axes_of(imported.table, told.recipe);
+  ASSERT_EQ(axes["axes"].size(), 1U) << axes.dump(1);
+  EXPECT_EQ(axes["axes"][0]["unit"], "N");
+  EXPECT_EQ(axes["axes"][0]["velocity"], "qd_1");
+  EXPECT_FALSE(axes["axes"][0].contains("position"));
 }
 
 TEST(JointColumns, WithoutTorquesSayHowToNameThem) {

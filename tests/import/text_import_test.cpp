@@ -71,6 +71,12 @@ INSTANTIATE_TEST_SUITE_P(
         Dialect{"units_in_names",
                 "time_ms,fx (mN),fy/mN,fz [kN]\n0,1500,-250,1\n10,2500,-250,1\n"
                 "20,3500,-250,1\n"},
+        Dialect{"settings_above",
+                "Oscilloscope 7\nNumber of rows,3\nt,fx,fy,fz\ns,N,N,N\n0,1.5,-0.25,1000\n"
+                "0.01,2.5,-0.25,1000\n0.02,3.5,-0.25,1000\n"},
+        Dialect{"settings_in_every_column",
+                "Interval,0.01,Interval,0.01\nt,fx,fy,fz\n0,1.5,-0.25,1000\n"
+                "0.01,2.5,-0.25,1000\n0.02,3.5,-0.25,1000\n"},
         Dialect{"rostopic",
                 "%time,field.header.seq,field.header.stamp,field.wrench.force.x,"
                 "field.wrench.force.y,field.wrench.force.z\n"
@@ -97,6 +103,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "t,fx,fy,fz\n0,1.5,-0.25,1000\n0.01,2.5,-0.25,1000\n"
                 "0.02,3.5,-0.25,1000\n0.03,4."}),
     [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST(TextImport, OfJsonIsRefused) {
+  EXPECT_NE(
+      data_error([] { import_text("{\"q\": [0.1, 0.2], \"tau\": [1, 2]}\n"); }).find("is JSON"),
+      std::string::npos);
+}
 
 TEST(TextImport, WithoutAHeaderColumnsAreNamedByTheUser) {
   ReadLogOptions read;

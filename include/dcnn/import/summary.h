@@ -15,6 +15,6 @@ Json describe_json(const ForeignLog& log, const Proposal& proposal);
 
 /// The description of an arm for --system, from columns q_NAME, qd_NAME and tau_NAME; null where
 /// the recording is of a wrist.
-Json axes_of(const Table& table);
+Json axes_of(const Table& table, const Recipe& recipe);
 
 }  // namespace dcnn
