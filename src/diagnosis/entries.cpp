@@ -1,5 +1,5 @@
 // Effects of several numbers (a gain for each axis, a matrix of crosstalk) of which the recordings
-// tell some alone: the others are held at zero.
+// tell some alone: the others are held at zero. And levers that they do not tell.
 #include <algorithm>
 #include <cmath>
 
@@ -185,6 +185,18 @@ void Search::hold_untold() {
   settle(std::vector<Member>(fitted.members));
   bands_ = band_tests(*setting_, fit_.residual);
   if (!same_names) weigh_once();
+}
+
+void Search::leave_untold_levers() {
+  const double price = setting_->price * rest_loudness();
+  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+    const auto levers = static_cast<double>(fit_.members[m].levers());
+    if (levers == 0.0) continue;
+    std::vector<Member> members = fit_.members;
+    leave_out_lever(members[m]);
+    const JointFit at_origin = joint_fit(*setting_, members);
+    if (at_origin.chi2 - fit_.chi2 < price * levers) settle(at_origin.members);
+  }
 }
 
 }  // namespace dcnn

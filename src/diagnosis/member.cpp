@@ -101,6 +101,13 @@ void add_lever(Member& member) {
   }
 }
 
+void leave_out_lever(Member& member) {
+  const Index own = member.own_shapes();
+  for (Eigen::VectorXd* numbers : {&member.shapes, &member.least_shapes, &member.most_shapes}) {
+    numbers->conservativeResize(own);
+  }
+}
+
 Eigen::Vector3d lever_of(const Member& member) {
   Eigen::Vector3d lever = Eigen::Vector3d::Zero();
   if (member.levers() == 0) return lever;
@@ -116,7 +123,7 @@ Json parameters_of(const Member& member) {
       member.form->parameters(member.amplitudes, member.shapes.head(member.own_shapes()));
   if (member.levers() == 0) return parameters;
   const Eigen::Vector3d lever = lever_of(member);
-  for (Index i = 0; i < 3; ++i) {
+  for (const Index i : told_by_torque(member)) {
     parameters[std::string("lever_") + "xyz"[i] + "_m"] = lever(i);
   }
   return parameters;

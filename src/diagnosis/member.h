@@ -74,6 +74,8 @@ Member make_member(const Case& study, const EffectKind& kind, const EffectFit& f
 
 /// Begins the components of the lever that the member's torque tells of at zero.
 void add_lever(Member& member);
+/// Lets the force act at the origin of S.
+void leave_out_lever(Member& member);
 /// Where the force acts [m, in S]; zero where torques are not measured.
 Eigen::Vector3d lever_of(const Member& member);
 /// The published parameters.

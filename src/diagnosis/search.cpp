@@ -281,6 +281,7 @@ void Search::run() {
   weigh();
   hold_untold();
   straighten_drifts();
+  leave_untold_levers();
   even_out_gears();
 }
 

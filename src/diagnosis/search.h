@@ -67,6 +67,8 @@ class Search {
   void leave_out(const std::vector<std::size_t>& members);
   /// Takes another model, whose members were fitted, and judges what it leaves.
   void adopt(const std::vector<Member>& members);
+  /// Lets forces act at the sensor's origin whose levers gain less than their price.
+  void leave_untold_levers();
   /// Leaves out all but what tests of their own found.
   void begin_anew();
   /// Whether a band holds more than noise and the error of the laws that were found leave.

@@ -68,6 +68,14 @@ TEST(Wrench, ALawWithoutANameActsSomewhereToo) {
   }
 }
 
+TEST(Wrench, AForceThroughTheOriginHasNoLever) {
+  const Bench bench(with_torque(
+      Json::array({hidden("coulomb_friction", "base_y", {{"fc_n", 0.4}, {"v0_mps", 0.01}})})));
+  const Json report = bench.diagnose().report;
+  ASSERT_EQ(test::names(report), std::vector<std::string>{"coulomb_friction"});
+  EXPECT_FALSE(report["findings"][0]["parameters"].contains("lever_x_m"));
+}
+
 TEST(Wrench, NothingIsMissingWhereNothingIs) {
   EXPECT_EQ(Bench(with_torque(Json::array())).diagnose().report["verdict"], "consistent");
 }
