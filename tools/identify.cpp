@@ -111,6 +111,7 @@ Exit identify_joints(Command& command, const Doctor& doctor, const Tool& tool) {
   command.arm.logs = command.request.logs;
   std::vector<Path> logs = command.arm.logs;
   logs.insert(logs.end(), command.arm.loaded.begin(), command.arm.loaded.end());
+  chain_of(command.arm);  // a faulty description is told before the logs are examined by it
   doctor.examine(tool, {logs, {}, "", command.arm.system});
   const ArmIdentification result = identify_arm(command.arm);
   write_file(command.out, result.system.dump(2) + "\n");

@@ -20,28 +20,6 @@ constexpr double kArm95 = 1.959963985;  // half a 95 % interval in standard devi
 constexpr double kHalved = 0.5;         // of what was known before: a parameter is shown below
 constexpr double kShownReach = 0.05;    // m: a payload's centre is shown where it is known better
 
-JointChain chain_for(const ArmRequest& request, const System& system) {
-  require(system.kind == System::Kind::kAxes, Exit::kData, request.system.string(),
-          ": describes a wrist; an arm needs \"kind\": \"axes\"");
-  JointChain chain;
-  if (!request.urdf.empty()) {
-    std::vector<std::string> names;
-    for (const Axis& axis : system.axes) names.push_back(axis.name);
-    chain = read_urdf_chain(request.urdf, request.tip, names);
-  } else {
-    require(system.arm.is_object(), Exit::kData, request.system.string(),
-            ": has no key 'arm' with the DH table; add it, or give --urdf robot.urdf");
-    chain = parse_chain(system.arm, request.system.string() + ": arm", Exit::kData);
-  }
-  require(chain.joints.size() == system.axes.size(), Exit::kData, request.system.string(), ": ",
-          system.axes.size(), " axes for an arm of ", chain.joints.size(),
-          " joints; give one axis per joint, in order");
-  for (std::size_t k = 0; k < chain.joints.size(); ++k) {
-    chain.joints[k].name = system.axes[k].name;
-  }
-  return chain;
-}
-
 IdentifiedNumber normal_estimate(const std::string& name, const std::string& unit, double value,
                                  double deviation) {
   return {name, unit, value, value - kArm95 * deviation, value + kArm95 * deviation};
@@ -150,11 +128,34 @@ void set_torques(const std::vector<ArmLog>& logs, std::vector<JointEstimate>& jo
 
 }  // namespace
 
-ArmIdentification identify_arm(const ArmRequest& request) {
+JointChain chain_of(const ArmRequest& request) {
   const System system = read_system(request.system);
-  const JointChain chain = chain_for(request, system);
+  require(system.kind == System::Kind::kAxes, Exit::kData, request.system.string(),
+          ": describes a wrist; an arm needs \"kind\": \"axes\"");
+  JointChain chain;
+  if (!request.urdf.empty()) {
+    std::vector<std::string> names;
+    for (const Axis& axis : system.axes) names.push_back(axis.name);
+    chain = read_urdf_chain(request.urdf, request.tip, names);
+  } else {
+    require(system.arm.is_object(), Exit::kData, request.system.string(),
+            ": has no key 'arm' with the DH table; add it, or give --urdf robot.urdf");
+    chain = parse_chain(system.arm, request.system.string() + ": arm", Exit::kData);
+  }
   require(!request.drive_gains || !request.urdf.empty(), Exit::kUsage,
           "--drive-gains needs --urdf: torques alone do not tell a gain from heavier links");
+  require(chain.joints.size() == system.axes.size(), Exit::kData, request.system.string(), ": ",
+          system.axes.size(), " axes for an arm of ", chain.joints.size(),
+          " joints; give one axis per joint, in order");
+  for (std::size_t k = 0; k < chain.joints.size(); ++k) {
+    chain.joints[k].name = system.axes[k].name;
+  }
+  return chain;
+}
+
+ArmIdentification identify_arm(const ArmRequest& request) {
+  const System system = read_system(request.system);
+  const JointChain chain = chain_of(request);
   auto logs = identification::read_arm_logs(request.logs, false, system, chain);
   for (auto& log : identification::read_arm_logs(request.loaded, true, system, chain)) {
     logs.push_back(std::move(log));

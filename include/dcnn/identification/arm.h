@@ -51,6 +51,10 @@ struct ArmIdentification {
   Json system;  ///< description with the links found: the simulator at hand of a diagnosis
 };
 
+/// The arm's joints as the request describes them, by a DH table or a URDF. Faults are
+/// Error(kData).
+JointChain chain_of(const ArmRequest& request);
+
 /// One regression for all joints, weighted by their residuals and their correlation in time. Faults
 /// are Error(kData).
 ArmIdentification identify_arm(const ArmRequest& request);
