@@ -9,19 +9,19 @@
 namespace dcnn {
 namespace {
 
-constexpr double kDt = 0.002;
-constexpr Index kRows = 8000;
+constexpr double kSharedStep = 0.002;
+constexpr Index kSharedRows = 8000;
 
 Case recording_of(Index channels) {
   Case study;
   for (Index j = 0; j < channels; ++j) study.channels.push_back(static_cast<int>(j));
   study.motion_hz = 20.0;
   Log log;
-  log.motion.dt = kDt;
-  log.motion.t = Eigen::VectorXd::LinSpaced(kRows, 0.0, kDt * (kRows - 1));
-  log.motion.segments = {{0, kRows}};
-  log.motion.R_BS.resize(kRows);
-  log.measured = Eigen::MatrixXd::Zero(kRows, channels);
+  log.motion.dt = kSharedStep;
+  log.motion.t = Eigen::VectorXd::LinSpaced(kSharedRows, 0.0, kSharedStep * (kSharedRows - 1));
+  log.motion.segments = {{0, kSharedRows}};
+  log.motion.R_BS.resize(kSharedRows);
+  log.measured = Eigen::MatrixXd::Zero(kSharedRows, channels);
   study.logs.push_back(std::move(log));
   return study;
 }
@@ -33,8 +33,8 @@ Eigen::Matrix3d shared() {
 }
 
 /// White noise of unit variance and this correlation.
-Eigen::MatrixXd white(const Eigen::MatrixXd& correlation, Rng& rng) {
-  Eigen::MatrixXd x(kRows, correlation.cols());
+Eigen::MatrixXd correlated_noise(const Eigen::MatrixXd& correlation, Rng& rng) {
+  Eigen::MatrixXd x(kSharedRows, correlation.cols());
   for (double& e : x.reshaped()) e = rng.normal();
   return x * Eigen::MatrixXd(correlation.llt().matrixL()).transpose();
 }
@@ -42,12 +42,12 @@ Eigen::MatrixXd white(const Eigen::MatrixXd& correlation, Rng& rng) {
 TEST(NoiseCorrelation, IsThatOfTheNoiseWhateverItsBurstsAndOutliersAre) {
   const Case study = recording_of(3);
   Rng rng({3});
-  Eigen::MatrixXd x = white(shared(), rng);
-  for (Index i = 0; i < kRows; i += 200) x(i, i % 3) *= 30.0;
+  Eigen::MatrixXd x = correlated_noise(shared(), rng);
+  for (Index i = 0; i < kSharedRows; i += 200) x(i, i % 3) *= 30.0;
   x.middleRows(1000, 1500) *= 4.0;
   // Something slow that no model explains is no noise.
-  for (Index i = 0; i < kRows; ++i) x.row(i).array() += 20.0 * std::sin(0.002 * double(i));
-  const Eigen::MatrixXd R = noise_correlation(study, {x}, {Eigen::MatrixXd::Ones(kRows, 3)});
+  for (Index i = 0; i < kSharedRows; ++i) x.row(i).array() += 20.0 * std::sin(0.002 * double(i));
+  const Eigen::MatrixXd R = noise_correlation(study, {x}, {Eigen::MatrixXd::Ones(kSharedRows, 3)});
   EXPECT_LT((R - shared()).cwiseAbs().maxCoeff(), 0.06) << R;
   EXPECT_EQ(R(2, 0), 0.0);  // no more than chance
 }
@@ -57,8 +57,9 @@ TEST(NoiseCorrelation, OfIndependentChannelsIsNone) {
   Rng rng({4});
   int others = 0;
   for (int k = 0; k < 100; ++k) {
-    const Eigen::MatrixXd R = noise_correlation(
-        study, {white(Eigen::MatrixXd::Identity(6, 6), rng)}, {Eigen::MatrixXd::Ones(kRows, 6)});
+    const Eigen::MatrixXd R =
+        noise_correlation(study, {correlated_noise(Eigen::MatrixXd::Identity(6, 6), rng)},
+                          {Eigen::MatrixXd::Ones(kSharedRows, 6)});
     if (!R.isIdentity(0.0)) ++others;
   }
   EXPECT_LE(others, 2);  // 1,500 pairs, of which chance exceeds the bound in one of 16,000
@@ -70,13 +71,13 @@ class SharedNoise : public ::testing::Test {
     for (int j = 0; j < 3; ++j) {
       Floor floor;
       floor.white = 0.01 * (j + 1);
-      floor.dt = kDt;
+      floor.dt = kSharedStep;
       floors_.push_back(floor);
     }
   }
-  Signals ones() const { return {Eigen::MatrixXd::Ones(kRows, 3)}; }
+  Signals ones() const { return {Eigen::MatrixXd::Ones(kSharedRows, 3)}; }
   Eigen::MatrixXd noise(Rng& rng) const {
-    Eigen::MatrixXd x = white(shared(), rng);
+    Eigen::MatrixXd x = correlated_noise(shared(), rng);
     for (Index j = 0; j < 3; ++j) x.col(j) *= std::sqrt(floors_[std::size_t(j)].white);
     return x;
   }
@@ -104,7 +105,7 @@ TEST_F(SharedNoise, HasTheTransposeOfItsMap) {
   Eigen::VectorXd rows(whitener.rows());
   for (double& e : rows) e = rng.normal();
   const double there = whitener({signal}).dot(rows),
-               back = signal.cwiseProduct(whitener.transposed(rows, {kRows})[0]).sum();
+               back = signal.cwiseProduct(whitener.transposed(rows, {kSharedRows})[0]).sum();
   EXPECT_NEAR(there, back, 1e-9 * std::abs(there));
 }
 
