@@ -1,4 +1,5 @@
 // The correlation of the noise of channels, as strain gauges that share a bridge have it.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -38,7 +39,9 @@ Eigen::MatrixXd noise_correlation(const Case& study, const Signals& residual,
   // Deviations from 0 that chance exceeds in one of 16,000 pairs; of n second differences of white
   // noise, whose squared correlations sum to 1.94, n/1.94 are independent.
   constexpr double kBeyondChance = 4.0, kDependent = 1.94;
-  constexpr double kMost = 0.98;  // of a correlation: channels that are nearly copies tell little
+  // Numerical tolerances, so that no row is divided by next to nothing: of a correlation, and of
+  // what the channels before it leave of a channel's deviation.
+  constexpr double kMost = 0.98, kLeastOwn = 0.1;
   const Index channels = study.channel_count();
   Eigen::MatrixXd all = Eigen::MatrixXd::Identity(channels, channels);
   if (study.is_static()) return all;
@@ -47,8 +50,8 @@ Eigen::MatrixXd noise_correlation(const Case& study, const Signals& residual,
     noise.push_back(second_differences(study, residual, levels, j));
   }
   const double rows = static_cast<double>(noise.front().size());
-  const double chance =
-      kBeyondChance * 0.5 * std::numbers::pi * std::sqrt(kDependent / std::max(1.0, rows));
+  if (rows == 0.0) return all;
+  const double chance = kBeyondChance * 0.5 * std::numbers::pi * std::sqrt(kDependent / rows);
   for (Index i = 0; i < channels; ++i) {
     for (Index j = 0; j < i; ++j) {
       const double r =
@@ -61,7 +64,7 @@ Eigen::MatrixXd noise_correlation(const Case& study, const Signals& residual,
   for (double keep = 1.0; keep > 0.0; keep -= 0.1) {
     shrunk = keep * all + (1.0 - keep) * Eigen::MatrixXd::Identity(channels, channels);
     if (shrunk.llt().info() == Eigen::Success &&
-        shrunk.llt().matrixL().toDenseMatrix().diagonal().minCoeff() > 0.1) {
+        shrunk.llt().matrixL().toDenseMatrix().diagonal().minCoeff() > kLeastOwn) {
       return shrunk;
     }
   }
