@@ -13,8 +13,7 @@ bool is_strength(const Hidden& h, const std::string& name) {
   if (h.effect == "gear_friction" && name == "a") return false;
   return !has(
       "lever_x_m lever_y_m lever_z_m v0_mps vs_mps width_rad asym beta gamma m rest_rad order "
-      "phase_rad gap_m freq_hz "
-      "zeta t_ref_degc",
+      "phase_rad gap_m freq_hz zeta t_ref_degc",
       name);
 }
 

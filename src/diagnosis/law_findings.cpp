@@ -85,8 +85,8 @@ Json law_findings(const Search& search, const std::vector<Discovered>& laws,
                   const HoldOut& holdout) {
   const JointFit& fit = search.fit();
   const double error = holdout.empty() ? 0.0 : holdout.mean_rmse(fit.members, fit.base);
-  const auto levers =
-      laws.empty() ? std::vector<std::vector<Estimate>>() : estimates(search.setting(), fit);
+  std::vector<std::vector<Estimate>> levers(fit.members.size());
+  if (!laws.empty() && search.study().has_torque()) levers = estimates(search.setting(), fit);
   Json list = Json::array();
   std::size_t next = 0;
   for (std::size_t m = 0; m < fit.members.size(); ++m) {

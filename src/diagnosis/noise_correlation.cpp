@@ -63,8 +63,8 @@ Eigen::MatrixXd noise_correlation(const Case& study, const Signals& residual,
   Eigen::MatrixXd shrunk = all;
   for (double keep = 1.0; keep > 0.0; keep -= 0.1) {
     shrunk = keep * all + (1.0 - keep) * Eigen::MatrixXd::Identity(channels, channels);
-    if (shrunk.llt().info() == Eigen::Success &&
-        shrunk.llt().matrixL().toDenseMatrix().diagonal().minCoeff() > kLeastOwn) {
+    const Eigen::LLT<Eigen::MatrixXd> factor(shrunk);
+    if (factor.info() == Eigen::Success && factor.matrixLLT().diagonal().minCoeff() > kLeastOwn) {
       return shrunk;
     }
   }

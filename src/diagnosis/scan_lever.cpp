@@ -10,9 +10,10 @@ void Scan::fit_lever(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& besi
   // At no lever, or another one, a force may explain nothing beside its torque: from the forces
   // alone, which noise that is correlated leaves as they are.
   const Eigen::VectorXd left = residual_(force_rows_);
-  own.amplitudes = least_squares(columns(force_rows_, Eigen::all), left);
+  const Eigen::MatrixXd of_forces = columns(force_rows_, Eigen::all);
+  own.amplitudes = least_squares(of_forces, left);
   if (!own.amplitudes.allFinite() || !is_possible(own)) return;
-  if (left.dot(columns(force_rows_, Eigen::all) * own.amplitudes) < setting_.price) return;
+  if (left.dot(of_forces * own.amplitudes) < setting_.price) return;
   const Index amplitudes = columns.cols(), levers = own.levers(), first = own.own_shapes();
   Eigen::MatrixXd all(columns.rows(), amplitudes + levers);
   all.leftCols(amplitudes) = columns;

@@ -84,10 +84,6 @@ std::string when(const Member& member) {
          " s" + (member.recording.empty() ? "" : " of " + member.recording);
 }
 
-}  // namespace
-
-namespace {
-
 std::string effect_in_words(const Member& member, const Estimates& n) {
   const std::string id = member.name(), where = place(member.axis);
   const auto number = [&](const char* name) { return brief(value_of(n, name)); };

@@ -158,9 +158,9 @@ std::vector<std::string> admitted_axes(AxisRule rule);
 std::vector<EffectSpec> parse_effects(const Json& list, const std::string& where, Exit exit);
 Json to_json(const std::vector<EffectSpec>& effects);
 
-/// Whether the force of an effect may act away from the origin of S: one along a line, or a law, with the
-/// optional parameters lever_x_m, lever_y_m, lever_z_m (in S), 0 where they are absent. It then
-/// adds the torque lever x force.
+/// Whether the force of an effect may act away from the origin of S: one along a line, or a law,
+/// with the optional parameters lever_x_m, lever_y_m, lever_z_m (in S), 0 where they are absent. It
+/// then adds the torque lever x force.
 bool has_lever(const EffectKind& kind);
 
 /// The effect sample by sample; null where EffectKind::stream is. Errors(exit) name `where`.
