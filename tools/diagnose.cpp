@@ -103,6 +103,12 @@ int main(int argc, char** argv) {
             "a constant one has no name (else as dcnn-check finds)")
       .excludes(system)
       .group("Reading recordings");
+  tool.option(
+          "--signals", request.signals,
+          "columns that the strength of a law may follow, such as a pressure (temperature is one "
+          "where it is logged)")
+      .excludes(system)
+      .group("Reading recordings");
   std::vector<std::string> without;
   tool.option("--without", without, "leave out parts of the method, to see what they are worth")
       .one_of(ablations())

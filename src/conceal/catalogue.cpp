@@ -44,8 +44,14 @@ const std::vector<std::string>& unlisted_effects() {
 }
 
 const std::vector<std::string>& hardware_effects() {
-  static const std::vector<std::string> ids{"load_friction", "creep"};
+  static const std::vector<std::string> ids{"load_friction", "creep", "driven_viscous_friction",
+                                            "driven_coulomb_friction", "driven_cable_spring"};
   return ids;
+}
+
+std::string undriven(const std::string& id) {
+  static const std::string kDriven = "driven_";
+  return id.starts_with(kDriven) ? id.substr(kDriven.size()) : id;
 }
 
 const std::vector<std::string>& axis_effects() {
@@ -81,13 +87,14 @@ bool confounded(const std::string& a, const std::string& b) {
   static const std::vector<std::set<std::string>> families{
       {"coulomb_friction", "stribeck_friction", "lugre_friction", "hysteresis", "load_friction",
        "gear_friction"},
-      {"mass", "gain"},                 // a gain of all axes is a mass
-      {"misalignment", "crosstalk"},    // a small turn is antisymmetric leakage
-      {"gain", "crosstalk"},            // one matrix, named in two halves
+      {"mass", "gain"},                            // a gain of all axes is a mass
+      {"misalignment", "crosstalk"},               // a small turn is antisymmetric leakage
+      {"gain", "crosstalk"},                       // one matrix, named in two halves
       {"creep", "mass", "gain", "thermal_drift"},  // of a load that hardly changes
-      {"quantisation", "saturation"}};  // both are read off the raw values
-  return std::any_of(families.begin(), families.end(),
-                     [&](const auto& f) { return f.count(a) != 0 && f.count(b) != 0; });
+      {"quantisation", "saturation"}};             // both are read off the raw values
+  return std::any_of(families.begin(), families.end(), [&](const auto& f) {
+    return f.count(undriven(a)) != 0 && f.count(undriven(b)) != 0;
+  });
 }
 
 }  // namespace dcnn::conceal

@@ -164,12 +164,14 @@ std::optional<Attempt> attempt(const std::string& id, const Request& request, Rn
   bool thermometer = rng.uniform() < 0.3;
   for (const Wanted& w : wanted) {
     Hidden h;
-    h.effect = w.effect;
-    h.axis = w.with_axis_of_first ? s.hidden[0].axis : draw_axis(w.effect, rng);
-    h.parameters = draw_parameters(w.effect, h.axis, rng);
+    h.effect = undriven(w.effect);
+    h.axis = w.with_axis_of_first ? s.hidden[0].axis : draw_axis(h.effect, rng);
+    h.parameters = draw_parameters(h.effect, h.axis, rng);
+    if (h.effect != w.effect) draw_drive(h, rng);
     if (s.conditions.torque_m > 0.0) draw_torques(h, rng);
     h.foreign = request.group == "foreign";
-    thermometer = thermometer || h.parameters.count("t_ref_degc") != 0;
+    thermometer =
+        thermometer || h.parameters.count("t_ref_degc") != 0 || h.parameters.count("slope") != 0;
     place(h, s, paths, rng);
     const auto strong = of_amplitude(paths, s, h, w.amplitude * s.noise.sigma);
     if (!strong) return std::nullopt;

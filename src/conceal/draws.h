@@ -36,6 +36,11 @@ const std::vector<Neighbours>& neighbours();
 /// Whether two effects side by side are one and the same to any reader of the force.
 bool confounded(const std::string& a, const std::string& b);
 
+/// The effect whose strength follows the temperature in "driven_…"; else the id itself.
+std::string undriven(const std::string& id);
+/// Gives its strength a part that grows with the temperature, by 3 to 8 % of it for each kelvin.
+void draw_drive(Hidden& h, Rng& rng);
+
 /// The conditions of a family; those of `plain` draw nothing.
 Conditions draw_conditions(const std::string& family, Rng& rng);
 /// Adds the tremor to a pose (T, 6) at the world's rate.

@@ -54,8 +54,24 @@ VectorXd geared(const Parameters& p, const Guide& g) {
 }
 
 VectorXd along(const Path& path, const Hidden& h, const Guide& g, const Eigen::MatrixXd& field,
+               const Eigen::MatrixXd& carried);
+
+/// A law of strength a + slope T, T the temperature.
+VectorXd driven(const Path& path, const Hidden& h, const Guide& g, const Eigen::MatrixXd& field,
+                const Eigen::MatrixXd& carried) {
+  Hidden unit = h;
+  const double a = h.parameters.at(strength_of(h)), slope = h.parameters.at("slope");
+  unit.parameters.erase("slope");
+  unit.parameters[strength_of(h)] = 1.0;
+  VectorXd f = along(path, unit, g, field, carried);
+  for (Index i = 0; i < f.size(); ++i) f(i) *= a + slope * path.climate(path.time(i));
+  return f;
+}
+
+VectorXd along(const Path& path, const Hidden& h, const Guide& g, const Eigen::MatrixXd& field,
                const Eigen::MatrixXd& carried) {
   const Parameters& p = h.parameters;
+  if (p.count("slope") != 0) return driven(path, h, g, field, carried);
   if (h.effect == "load_friction") return loaded(path, p, g, carried);
   if (h.effect == "gear_friction") return geared(p, g);
   if (h.effect == "lugre_friction") return -lugre(h, g.v);
@@ -107,6 +123,12 @@ void press(const Path& path, const Hidden& h, Eigen::MatrixXd& F) {
 }
 
 }  // namespace
+
+std::string strength_of(const Hidden& h) {
+  return h.effect == "cable_spring"       ? "k_nprad"
+         : h.effect == "viscous_friction" ? "c_nspm"
+                                          : "fc_n";
+}
 
 Guide guide(const Path& path, const std::string& axis) {
   const Index n = path.samples();

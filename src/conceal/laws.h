@@ -15,6 +15,9 @@ struct Guide {
 };
 Guide guide(const Path& path, const std::string& axis);
 
+/// The number that the force of a law that follows the temperature is proportional to.
+std::string strength_of(const Hidden& h);
+
 /// Force against the motion: a function of the speed, or of its history (T).
 double friction(const Hidden& h, double v);
 Eigen::VectorXd lugre(const Hidden& h, const Eigen::VectorXd& v);

@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "conceal/draws.h"
+#include "conceal/laws.h"
 #include "core/elementary.h"
 
 namespace dcnn::conceal {
@@ -158,6 +159,14 @@ Parameters draw_parameters(const std::string& id, const std::string& axis, Rng& 
     p["size"] = 0.3;
   }
   return p;
+}
+
+void draw_drive(Hidden& h, Rng& rng) {
+  constexpr double kUsual = 21.0;  // degC
+  const double share = rng.uniform(0.03, 0.08) * (rng.uniform() < 0.5 ? -1.0 : 1.0);
+  double& strength = h.parameters.at(strength_of(h));
+  h.parameters["slope"] = share * strength;
+  strength *= 1.0 - share * kUsual;
 }
 
 }  // namespace dcnn::conceal

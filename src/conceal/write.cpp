@@ -70,6 +70,7 @@ Json answer(const Hidden& h) {
   one["interval_s"] = h.interval_s ? Json{h.interval_s->first, h.interval_s->second} : Json();
   one["parameters"] = Json::object();
   for (const auto& [name, value] : h.parameters) one["parameters"][name] = value;
+  if (h.parameters.count("slope") != 0) one["driven_by"] = "temperature";
   one["listed"] = is_listed(h.effect);
   one["foreign"] = h.foreign;
   one["amplitude"] = h.amplitude;

@@ -29,11 +29,12 @@ bool same_effects(const Hypothesis& a, const Hypothesis& b) {
 }
 
 /// What acts in one recording, or for some time that is over, is absent from the next; what follows
-/// a temperature no motion shows.
+/// a temperature, or another logged signal, no motion shows.
 void leave_past(std::vector<EffectSpec>& effects) {
   std::erase_if(effects, [](const EffectSpec& e) {
     const EffectKind* kind = find_effect(e.effect);
     return !e.recording.empty() || e.parameters.contains("t_ref_degc") ||
+           e.parameters.contains("driven_by") ||
            (e.interval_s && kind && kind->interval != IntervalRule::kOnset);
   });
 }

@@ -21,6 +21,7 @@ constexpr double kNearRounded = 0.4;  // the same where rounding bends every tan
 /// others.
 bool same_place(const Member& a, const Member& b, double seconds) {
   if (a.kind != b.kind || a.axis != b.axis || a.interval_s || b.interval_s) return false;
+  if (is_undriven(a, b)) return false;
   return a.name() != "hum" || std::abs(a.shapes(0) - b.shapes(0)) < 2.0 / seconds;
 }
 
@@ -87,24 +88,34 @@ std::vector<Trial> Search::additions(const JointFit& fit, bool events,
                                      std::optional<double> needed) const {
   const Scan scan(*setting_, fit);
   const Signals left = difference(study_, scan.chain().prediction());
-  std::vector<Member> list = candidates(scan, left, floors_);
-  keep_apart(list, fit.members);
-  std::vector<Trial> trials(list.size());
   const double seconds = longest_seconds(study_);
-  for_each_piece(static_cast<Index>(list.size()), [&](Index k) {
-    const Member& member = list[static_cast<std::size_t>(k)];
-    const bool taken = std::any_of(fit.members.begin(), fit.members.end(), [&](const Member& m) {
-      return same_place(m, member, seconds) || (study_.axis && both_dry(m, member));
-    });
-    if (!taken) trials[static_cast<std::size_t>(k)] = scan.evaluate(member, Detail::kCoarse);
-  });
   // The best seed of each form of an effect on an axis, then the best places of each effect.
   std::map<std::tuple<std::string, std::string, const EffectFit*>, Trial> places;
-  for (const Trial& trial : trials) {
-    if (!trial.member.kind || trial.gain <= 0.0) continue;
-    Trial& best = places[{trial.member.name(), trial.member.axis, trial.member.form}];
-    if (trial.gain > best.gain) best = trial;
-  }
+  const auto effect_of = [](const Member& member) {
+    return member.name() + (member.driver ? " driven by " + member.driver->signal : "");
+  };
+  const auto look_at = [&](const std::vector<Member>& list) {
+    std::vector<Trial> trials(list.size());
+    for_each_piece(static_cast<Index>(list.size()), [&](Index k) {
+      const Member& member = list[static_cast<std::size_t>(k)];
+      const bool taken = std::any_of(fit.members.begin(), fit.members.end(), [&](const Member& m) {
+        return same_place(m, member, seconds) ||
+               (study_.axis && both_dry(m, member) && !is_undriven(m, member));
+      });
+      if (!taken) trials[static_cast<std::size_t>(k)] = scan.evaluate(member, Detail::kCoarse);
+    });
+    for (const Trial& trial : trials) {
+      if (!trial.member.kind || trial.gain <= 0.0) continue;
+      Trial& best = places[{effect_of(trial.member), trial.member.axis, trial.member.form}];
+      if (trial.gain > best.gain) best = trial;
+    }
+  };
+  std::vector<Member> list = candidates(scan, left, floors_);
+  keep_apart(list, fit.members);
+  look_at(list);
+  std::vector<Member> plain = fit.members;
+  for (const auto& [place, trial] : places) plain.push_back(trial.member);
+  look_at(driven_candidates(study_, plain));
   std::vector<Trial> ranked;
   for (const auto& [place, trial] : places) ranked.push_back(trial);
   std::stable_sort(ranked.begin(), ranked.end(),
@@ -112,7 +123,7 @@ std::vector<Trial> Search::additions(const JointFit& fit, bool events,
   std::map<std::string, int> seen;
   std::vector<Trial> chosen;
   for (const Trial& trial : ranked) {
-    if (seen[trial.member.name()]++ >= 2) continue;
+    if (seen[effect_of(trial.member)]++ >= 2) continue;
     if (chosen.size() >= kRefined && trial.gain < 0.3 * ranked.front().gain) break;
     chosen.push_back(trial);
     if (chosen.size() >= 2 * kRefined) break;

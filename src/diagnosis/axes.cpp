@@ -6,6 +6,7 @@
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/arm_words.h"
 #include "diagnosis/axis_words.h"
+#include "diagnosis/words.h"
 
 namespace dcnn {
 namespace {
@@ -19,7 +20,12 @@ Json outer_finding(Json finding, const AxisPlan& plan) {
     return finding;
   }
   Json parameters = Json::object();
+  std::string strength;  // of a law that a logged signal drives
   for (const auto& [name, number] : finding["parameters"].items()) {
+    if (number["value"].is_string()) {
+      parameters[name] = number;
+      continue;
+    }
     const auto outer = axis_parameter(kind, name, axis, plan.sense);
     if (!outer) continue;
     const auto moved = [&, s = outer->sign, d = outer->shift](const Json& v) {
@@ -27,12 +33,16 @@ Json outer_finding(Json finding, const AxisPlan& plan) {
     };
     double low = moved(number["ci95"][0]), high = moved(number["ci95"][1]);
     if (low > high) std::swap(low, high);
+    if (kind.strength == name) strength = outer->stem;
     parameters[outer->stem] = {
         {"value", moved(number["value"])}, {"ci95", {low, high}}, {"unit", outer->unit}};
   }
+  if (parameters.contains("driven_by")) {
+    parameters["slope"]["unit"] = per_signal(parameters[strength]["unit"], parameters["driven_by"]);
+  }
   finding["parameters"] = parameters;
   finding["axis"] = axis.name;
-  finding["words"] = axis_words(finding, axis);
+  finding["words"] = axis_words(finding, axis, strength);
   return finding;
 }
 

@@ -126,6 +126,19 @@ double end_of_motion(const std::vector<Recording>& recordings, const System& sys
   return std::max(Case().motion_hz, motion_band(positions, recordings.front().dt));
 }
 
+/// The columns that laws of the axis may follow.
+std::vector<std::string> signals_of(const Axis& axis) {
+  std::vector<std::string> names = axis.signals;
+  if (std::find(names.begin(), names.end(), "temperature") == names.end()) {
+    names.emplace_back("temperature");
+  }
+  std::erase_if(names, [&](const std::string& name) {
+    return name == axis.measured || name == axis.simulated || name == axis.position ||
+           name == axis.velocity || name == axis.acceleration;
+  });
+  return names;
+}
+
 Case axis_case(std::shared_ptr<const AxisPlan> plan, double motion_hz) {
   Case study;
   study.own_tool = false;
@@ -254,6 +267,7 @@ LoadedAxes load_axes(const DiagnosisRequest& request) {
     loaded.fit.base_coefficients =
         Eigen::VectorXd::Zero(static_cast<Index>(loaded.fit.axis->columns.size()));
     set_clock(request, all, loaded.fit);
+    loaded.fit.drivers = drivers_of(signals_of(system.axes[k]), fit, holdout);
     loaded.holdout = loaded.fit;
     for (const Recording& r : fit) loaded.fit.logs.push_back(make_log(r, loaded.fit));
     for (const Recording& r : holdout) loaded.holdout.logs.push_back(make_log(r, loaded.fit));

@@ -99,8 +99,20 @@ const std::map<std::string, Sentence>& sentences() {
 
 }  // namespace
 
-std::string axis_words(const Json& finding, const Axis& axis) {
+std::string axis_words(const Json& finding, const Axis& axis, const std::string& strength) {
   const std::string id = finding["effect"];
+  const Json& numbers = finding["parameters"];
+  if (numbers.contains("driven_by")) {
+    const auto low = finding["driven_over"][0].get<double>(),
+               high = finding["driven_over"][1].get<double>();
+    const auto at = [&](double s) {
+      return numbers[strength]["value"].get<double>() + s * numbers["slope"]["value"].get<double>();
+    };
+    return driven_words(*find_effect(id), "",
+                        {numbers["driven_by"]["value"], unit_text(numbers[strength]["unit"]), low,
+                         high, at(low), at(high), numbers["lag"]["value"]}) +
+           " on " + axis.name;
+  }
   if (is_constant(finding)) return constant_words(finding) + " on " + axis.name;
   const auto sentence = sentences().find(id);
   const std::string what = sentence == sentences().end()

@@ -8,7 +8,8 @@
 
 namespace dcnn {
 
-/// One finding of the report, with its published parameters, in words.
-std::string axis_words(const Json& finding, const Axis& axis);
+/// One finding of the report, with its published parameters, in words; `strength` is the one that a
+/// logged signal drives.
+std::string axis_words(const Json& finding, const Axis& axis, const std::string& strength);
 
 }  // namespace dcnn

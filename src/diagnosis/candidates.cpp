@@ -228,7 +228,10 @@ std::vector<Member> candidates(const Scan& scan, const Signals& left,
     for (const EffectFit& form : kind->fits) {
       const bool follows = !form.shapes.empty() && std::string(form.shapes[0].name) == "t_ref";
       if (follows && !has_temperature(study)) continue;
-      if (form.use == (study.axis ? EffectFit::Use::kTools : EffectFit::Use::kMachines)) continue;
+      if (form.use == (study.axis ? EffectFit::Use::kTools : EffectFit::Use::kMachines) ||
+          form.use == EffectFit::Use::kDriven) {
+        continue;
+      }
       for (const auto& axis : axes_of(study, *kind)) {
         const auto grid = follows ? reference_temperatures(study) : seed_grid(study, form, axis);
         for (const auto& shapes : grid) {
@@ -242,6 +245,34 @@ std::vector<Member> candidates(const Scan& scan, const Signals& left,
   add_gear_frictions(study, left, list);
   add_resonances(scan, left, floors, list);
   add_hum(scan, left, floors, list);
+  return list;
+}
+
+std::vector<Member> driven_candidates(const Case& study, const std::vector<Member>& plain) {
+  std::vector<Member> list;
+  const auto add = [&](const EffectKind& kind, const EffectFit& form, const std::string& axis,
+                       const Eigen::VectorXd& own) {
+    Eigen::VectorXd shapes(own.size() + 1);
+    shapes << own, 0.0;
+    for (const Case::Driver& driver : study.drivers) {
+      list.push_back(make_driven(study, kind, form, axis, shapes, driver));
+    }
+  };
+  for (const Member& m : plain) {
+    if (m.kind->strength == nullptr || m.form->amplitudes != 1 || m.driver) continue;
+    add(*m.kind, *m.form, m.axis, m.shapes.head(m.own_shapes()));
+  }
+  for (const EffectKind* kind : effect_kinds()) {
+    if (!is_listed(study, *kind) || !is_testable(study, *kind)) continue;
+    for (const EffectFit& form : kind->fits) {
+      // The offset of a tool has three components, and follows a temperature alone (thermal_drift).
+      const bool vector = kind->axis == AxisRule::kNone && !study.axis;
+      if (form.use != EffectFit::Use::kDriven || vector) continue;
+      for (const auto& axis : axes_of(study, *kind)) {
+        for (const auto& shapes : seed_grid(study, form, axis)) add(*kind, form, axis, shapes);
+      }
+    }
+  }
   return list;
 }
 

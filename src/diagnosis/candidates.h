@@ -17,6 +17,10 @@ constexpr double kFewestTurns = 0.7;
 std::vector<Member> candidates(const Scan& scan, const Signals& left,
                                const std::vector<Floor>& floors);
 
+/// Laws of one strength that follow logged signals, without a lag at first: these plain ones, at
+/// their shapes, and forms that are for such laws alone. None where no signal is logged.
+std::vector<Member> driven_candidates(const Case& study, const std::vector<Member>& plain);
+
 /// What the seeds of a law's speeds and lengths are multiplied by: they are those of a translation,
 /// and a rotation has larger numbers (rad instead of m).
 double seed_scale(const std::string& axis);

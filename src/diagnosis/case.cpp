@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "diagnosis/axis_case.h"
+#include "physics/driven.h"
 
 namespace dcnn {
 
@@ -40,6 +41,9 @@ Motion thinned(const Motion& motion, Index stride) {
   thin.w_S = rows_of(motion.w_S, rows);
   thin.dw_S = rows_of(motion.dw_S, rows);
   if (motion.temperature.size() > 0) thin.temperature = motion.temperature(rows);
+  for (const LoggedSignal& signal : motion.signals) {
+    thin.signals.push_back({signal.name, signal.values(rows)});
+  }
   return thin;
 }
 
@@ -66,12 +70,18 @@ Case thinned(const Case& study, Index stride) {
   return thin;
 }
 
+Motion wrist_motion(const Log& log, const Case& study) {
+  Motion motion = motion_of(log.recording, study.simulator.model, study.derivative);
+  std::vector<std::string> names;
+  for (const Case::Driver& driver : study.drivers) names.push_back(driver.signal);
+  read_signals(log.recording, names, motion);
+  return motion;
+}
+
 void set_derivative(Case& study, const DerivativeSpec& derivative) {
   study.derivative = derivative;
   if (study.axis) return set_axis_motion(study);
-  for (Log& log : study.logs) {
-    log.motion = motion_of(log.recording, study.simulator.model, derivative);
-  }
+  for (Log& log : study.logs) log.motion = wrist_motion(log, study);
 }
 
 bool has_own_offsets(const Case& study) {

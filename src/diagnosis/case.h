@@ -59,6 +59,13 @@ struct Case {
   double end_of_clock = 0.0;  ///< s, end of the last recording
   /// Values on a coarse lattice: what rounding makes of the mean of a noisy force depends on both.
   double rounding_step = 0.0, rounding_noise = 0.0;
+  /// Columns of the recordings that the strength of a law may follow, with their least and greatest
+  /// values in the fitted ones.
+  struct Driver {
+    std::string signal;
+    double low, high;
+  };
+  std::vector<Driver> drivers;
   Ablation without;
   std::shared_ptr<Work> work = std::make_shared<Work>();  ///< shared by copies
 
@@ -83,6 +90,9 @@ Eigen::MatrixXd measured_part(const Case& study, const Wrench& wrench);
 /// The same case seen at every stride-th sample, for searches: motions and positions, and no
 /// measurements.
 Case thinned(const Case& study, Index stride);
+
+/// The motion of a wrist recording by the case's estimator, with the signals that laws may follow.
+Motion wrist_motion(const Log& log, const Case& study);
 
 /// Motions of all logs by this estimator, which becomes the case's.
 void set_derivative(Case& study, const DerivativeSpec& derivative);

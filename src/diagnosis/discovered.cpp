@@ -184,7 +184,7 @@ std::vector<Discovered> add_discovered(Search& search, const HoldOut& holdout) {
   constexpr int kMostRounds = 5;  // a limit of computation: each round searches all places again
   for (int round = 0; round < kMostRounds && name_in_place_of_one(search, laws); ++round) {
   }
-  search.leave_untold_levers();
+  search.leave_untold_parts();
   return laws.found;
 }
 

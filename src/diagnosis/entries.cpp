@@ -187,8 +187,15 @@ void Search::hold_untold() {
   if (!same_names) weigh_once();
 }
 
-void Search::leave_untold_levers() {
+void Search::leave_untold_parts() {
   const double price = setting_->price * rest_loudness();
+  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+    if (!fit_.members[m].driver) continue;
+    std::vector<Member> members = fit_.members;
+    leave_out_lag(members[m]);
+    const JointFit at_once = joint_fit(*setting_, members);
+    if (at_once.chi2 - fit_.chi2 < price) settle(at_once.members);
+  }
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     const auto levers = static_cast<double>(fit_.members[m].levers());
     if (levers == 0.0) continue;

@@ -102,6 +102,14 @@ class Writer {
                {"parameters", parameters_json(numbers)},
                {"words", in_words(member, numbers)}};
     if (!member.axis.empty()) entry["axis"] = member.axis;
+    if (member.driver) {
+      const auto& [signal, low, high] = *member.driver;
+      Json& parameters = entry["parameters"];
+      parameters["driven_by"] = {{"value", signal}, {"ci95", {nullptr, nullptr}}, {"unit", ""}};
+      parameters["slope"]["unit"] =
+          per_signal(unit_of_parameter(member.kind->strength), parameters["driven_by"]);
+      entry["driven_over"] = {low, high};
+    }
     if (is_constant(entry)) entry["words"] = constant_words(entry);
     if (member.interval_s) {
       entry["interval_s"] = {member.interval_s->first, member.interval_s->second};

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "data/held_rows.h"
+#include "physics/effect_law.h"
 
 namespace dcnn {
 namespace {
@@ -72,11 +73,50 @@ Log make_log(Recording recording, const Case& study, bool columns) {
   log.measured = recording.block(study.targets);
   log.zeroed = recording.zeroed;
   log.recording = std::move(recording);
-  log.motion = motion_of(log.recording, study.simulator.model, study.derivative);
+  log.motion = wrist_motion(log, study);
   return log;
 }
 
+/// The columns of a wrist recording that laws may follow.
+std::vector<std::string> wrist_signals(const DiagnosisRequest& request,
+                                       const std::vector<Recording>& recordings) {
+  std::vector<std::string> names = request.signals;
+  for (const std::string& name : names) {
+    for (const Recording& recording : recordings) {
+      require(recording.has(name), Exit::kData, recording.name, ":1: column '", name,
+              "' of --signals is missing; log it, or leave it out");
+    }
+  }
+  const bool asked = std::find(names.begin(), names.end(), "temperature") != names.end();
+  if (!asked) names.emplace_back("temperature");
+  return names;
+}
+
 }  // namespace
+
+std::vector<Case::Driver> drivers_of(const std::vector<std::string>& names,
+                                     const std::vector<Recording>& fit,
+                                     const std::vector<Recording>& holdout) {
+  constexpr double kVaries = 1e-9;  // of its size: what rounding makes
+  std::vector<Case::Driver> drivers;
+  for (const std::string& name : names) {
+    const auto logged = [&](const Recording& r) {
+      return r.has(name) && r.column(name).allFinite();
+    };
+    if (!std::all_of(fit.begin(), fit.end(), logged) ||
+        !std::all_of(holdout.begin(), holdout.end(), logged)) {
+      continue;
+    }
+    double low = kInfinity, high = -kInfinity;
+    for (const Recording& r : fit) {
+      low = std::min(low, r.column(name).minCoeff());
+      high = std::max(high, r.column(name).maxCoeff());
+    }
+    const double size = std::max(std::abs(low), std::abs(high));
+    if (high - low > kVaries * size) drivers.push_back({name, low, high});
+  }
+  return drivers;
+}
 
 void check_rates(const std::vector<Recording>& recordings) {
   constexpr double kTolerance = 0.01;
@@ -132,6 +172,7 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   choose_channels(all, request, study);
   if (!study.has_torque()) study.simulator.model.inertia.reset();
   set_clock(request, all, study);
+  study.drivers = drivers_of(wrist_signals(request, all), fit, holdout);
   loaded.holdout = study;
   for (auto& r : fit) study.logs.push_back(make_log(std::move(r), study, !request.simulator));
   for (auto& r : holdout) {

@@ -17,6 +17,12 @@ LoadedCase load_wrist(const DiagnosisRequest& request);
 /// events are judged on one clock.
 void check_rates(const std::vector<Recording>& recordings);
 
+/// Of the columns of these names, which vary over the fitted recordings and stand in all of them;
+/// with their ranges in the fitted ones.
+std::vector<Case::Driver> drivers_of(const std::vector<std::string>& names,
+                                     const std::vector<Recording>& fit,
+                                     const std::vector<Recording>& holdout);
+
 /// Whether the recordings share one clock, and when it ends. Error(kData)
 /// where they are told to share one and overlap.
 void set_clock(const DiagnosisRequest& request, const std::vector<Recording>& recordings,

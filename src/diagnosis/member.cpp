@@ -31,15 +31,19 @@ bool has_entries(const Member& member) {
 const ShapeParameter& Member::shape(Index i) const {
   // A force on a tool acts within a metre of the sensor.
   static const ShapeParameter lever{.name = "lever", .low = -1.0, .high = 1.0, .seeds = {0.0}};
-  return i < own_shapes() ? form->shapes[static_cast<std::size_t>(i)] : lever;
+  // A column is logged up to half a second after what it tells of, and acts within some seconds.
+  static const ShapeParameter lag{.name = "lag", .low = -0.5, .high = 5.0, .seeds = {0.0}};
+  if (i < static_cast<Index>(form->shapes.size())) return form->shapes[static_cast<std::size_t>(i)];
+  return i < own_shapes() ? lag : lever;
 }
 
 int Member::parameters() const {
   const int ends = !interval_s ? 0 : kind->interval == IntervalRule::kOnset ? 1 : 2;
   // A component nothing measures stays 0.
-  const auto fitted =
-      (amplitudes.array() != 0.0).count() + (shapes.tail(levers()).array() != 0.0).count();
-  return static_cast<int>(fitted + own_shapes()) + ends + (kind->special ? 1 : 0);
+  const auto form_shapes = static_cast<Index>(form->shapes.size());
+  const auto fitted = (amplitudes.array() != 0.0).count() +
+                      (shapes.tail(shapes.size() - form_shapes).array() != 0.0).count();
+  return static_cast<int>(fitted + form_shapes) + ends + (kind->special ? 1 : 0) + (driver ? 1 : 0);
 }
 
 double unit_of(const Case& study, const ShapeParameter& shape) {
@@ -59,15 +63,19 @@ std::vector<Index> told_by_torque(const Member& member) {
 
 }  // namespace
 
-Member make_member(const Case& study, const EffectKind& kind, const EffectFit& form,
-                   const std::string& axis, const Eigen::VectorXd& shapes) {
+namespace {
+
+Member make(const Case& study, const EffectKind& kind, const EffectFit& form,
+            const std::string& axis, const Eigen::VectorXd& shapes,
+            const std::optional<Case::Driver>& driver) {
   const bool with_torque = study.has_torque();
   const int count = with_torque && form.with_torque > 0 ? form.with_torque : form.amplitudes;
   Member member;
   member.kind = &kind;
   member.form = &form;
   member.axis = axis;
-  member.amplitudes = Eigen::VectorXd::Ones(count);
+  member.driver = driver;
+  member.amplitudes = Eigen::VectorXd::Ones(driver ? 2 : count);
   member.shapes = shapes;
   member.least_shapes = member.most_shapes = shapes;
   for (Index i = 0; i < shapes.size(); ++i) {
@@ -79,6 +87,29 @@ Member make_member(const Case& study, const EffectKind& kind, const EffectFit& f
   return member;
 }
 
+}  // namespace
+
+bool is_undriven(const Member& plain, const Member& driven) {
+  return driven.driver && !plain.driver && plain.kind == driven.kind && plain.axis == driven.axis;
+}
+
+std::vector<Member> with_member(std::vector<Member> members, const Member& more) {
+  std::erase_if(members, [&](const Member& m) { return is_undriven(m, more); });
+  members.push_back(more);
+  return members;
+}
+
+Member make_member(const Case& study, const EffectKind& kind, const EffectFit& form,
+                   const std::string& axis, const Eigen::VectorXd& shapes) {
+  return make(study, kind, form, axis, shapes, std::nullopt);
+}
+
+Member make_driven(const Case& study, const EffectKind& kind, const EffectFit& form,
+                   const std::string& axis, const Eigen::VectorXd& shapes,
+                   const Case::Driver& driver) {
+  return make(study, kind, form, axis, shapes, driver);
+}
+
 bool is_degenerate(const Member& member) {
   for (Index i = 0; i < member.own_shapes(); ++i) {
     const double most = member.most_shapes(i);
@@ -86,6 +117,11 @@ bool is_degenerate(const Member& member) {
     if (member.shapes(i) > most - size) return true;
   }
   return false;
+}
+
+void leave_out_lag(Member& member) {
+  const Index lag = member.own_shapes() - 1;
+  member.shapes(lag) = member.least_shapes(lag) = member.most_shapes(lag) = 0.0;
 }
 
 void add_lever(Member& member) {
@@ -119,8 +155,19 @@ Eigen::Vector3d lever_of(const Member& member) {
 }
 
 Json parameters_of(const Member& member) {
-  Json parameters =
-      member.form->parameters(member.amplitudes, member.shapes.head(member.own_shapes()));
+  const auto shapes = static_cast<Index>(member.form->shapes.size());
+  Eigen::VectorXd amplitudes = member.amplitudes;
+  double slope = 0.0;
+  if (member.driver) {  // a straight line through the strengths at the ends of the range
+    const auto& [signal, low, high] = *member.driver;
+    slope = (amplitudes(1) - amplitudes(0)) / (high - low);
+    amplitudes = Eigen::VectorXd::Constant(1, amplitudes(0) - slope * low);
+  }
+  Json parameters = member.form->parameters(amplitudes, member.shapes.head(shapes));
+  if (member.driver) {
+    parameters["slope"] = slope;
+    parameters["lag_s"] = member.shapes(shapes);
+  }
   if (member.levers() == 0) return parameters;
   const Eigen::Vector3d lever = lever_of(member);
   for (const Index i : told_by_torque(member)) {
@@ -136,8 +183,9 @@ EffectSpec spec_of(const Member& member) {
     parameters.update(parameters_of(member));
     return {member.kind->name, "", std::nullopt, parameters, "", member.law};
   }
-  return {member.kind->name, member.axis, member.interval_s, parameters_of(member),
-          member.recording};
+  Json parameters = parameters_of(member);
+  if (member.driver) parameters["driven_by"] = member.driver->signal;
+  return {member.kind->name, member.axis, member.interval_s, parameters, member.recording};
 }
 
 std::vector<EffectSpec> specs_of(const std::vector<Member>& members) {

@@ -6,10 +6,9 @@
 #include <vector>
 
 #include "dcnn/physics/effect.h"
+#include "diagnosis/case.h"
 
 namespace dcnn {
-
-struct Case;
 
 struct Member {
   const EffectKind* kind = nullptr;
@@ -20,6 +19,9 @@ struct Member {
   /// Shapes of the form, and after them, where torques are measured, the components of the lever at
   /// which the force acts that its torque tells of [m, in S].
   Eigen::VectorXd amplitudes, shapes;
+  /// Of a law that a logged signal drives: which one, and its range in the fitted recordings. The
+  /// amplitudes are then the strengths at either end, and a shape after the form's own is the lag.
+  std::optional<Case::Driver> driver;
   /// Bounds of the shapes: the effect's own, or closer where these recordings can tell less (a
   /// period that is never completed is a spring; a mode above what the blocks hold does not ring).
   Eigen::VectorXd least_shapes, most_shapes;
@@ -42,7 +44,9 @@ struct Member {
   void hold(Index amplitude, double low, double high);
 
   std::string name() const { return kind->name; }
-  Eigen::Index own_shapes() const { return static_cast<Eigen::Index>(form->shapes.size()); }
+  Eigen::Index own_shapes() const {
+    return static_cast<Eigen::Index>(form->shapes.size()) + (driver ? 1 : 0);
+  }
   Eigen::Index levers() const { return std::max<Eigen::Index>(0, shapes.size() - own_shapes()); }
   /// Bounds and scale of shape i.
   const ShapeParameter& shape(Eigen::Index i) const;
@@ -50,8 +54,8 @@ struct Member {
   Eigen::Index coordinates() const {
     return fixed && law.is_null() ? 0 : amplitudes.size() + shapes.size();
   }
-  /// Numbers that were fitted: amplitudes, shapes and the ends of an interval; and one for the
-  /// choice of a special law.
+  /// Numbers that were fitted: amplitudes, shapes and the ends of an interval; and one each for the
+  /// choice of a special law and of the signal that drives it.
   int parameters() const;
 };
 
@@ -65,12 +69,25 @@ bool has_entries(const Member& member);
 /// Laws of one kind (friction, drift, …) that act along the same axis.
 bool same_family(const Member& a, const Member& b);
 
+/// Whether `plain` is the law of a driven member at a strength that follows nothing.
+bool is_undriven(const Member& plain, const Member& driven);
+/// The members with one more; a driven law takes the place of the undriven one.
+std::vector<Member> with_member(std::vector<Member> members, const Member& more);
+
 /// What a shape's bounds and seeds are multiplied by on the axis of a machine; 1 for a tool.
 double unit_of(const Case& study, const ShapeParameter& shape);
 
 /// A member with these shapes and unit amplitudes.
 Member make_member(const Case& study, const EffectKind& kind, const EffectFit& form,
                    const std::string& axis, const Eigen::VectorXd& shapes);
+
+/// The same driven by a logged signal, which lags by `shapes`' last.
+Member make_driven(const Case& study, const EffectKind& kind, const EffectFit& form,
+                   const std::string& axis, const Eigen::VectorXd& shapes,
+                   const Case::Driver& driver);
+
+/// Lets the strength of a driven law follow its signal at once.
+void leave_out_lag(Member& member);
 
 /// Begins the components of the lever that the member's torque tells of at zero.
 void add_lever(Member& member);

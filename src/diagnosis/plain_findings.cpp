@@ -37,7 +37,8 @@ bool is_friction(const Json& finding) {
   static const std::set<std::string> kFrictions{
       "coulomb_friction", "viscous_friction",    "stribeck_friction", "quadratic_drag",
       "lugre_friction",   "asymmetric_friction", "load_friction",     "gear_friction"};
-  return kFrictions.count(finding["effect"].get<std::string>()) != 0;
+  return kFrictions.count(finding["effect"].get<std::string>()) != 0 &&
+         !finding.contains("driven_over");
 }
 
 bool same_axis(const Json& a, const Json& b) { return a["axis"] == b["axis"]; }
@@ -155,7 +156,7 @@ Json as_constant(Json finding) {
 }  // namespace
 
 bool is_constant(const Json& finding) {
-  if (finding["effect"] != "cable_spring") return false;
+  if (finding["effect"] != "cable_spring" || finding.contains("driven_over")) return false;
   const Json k = numbers_of(finding, "k"), rest = numbers_of(finding, "rest");
   if (k.is_null() || rest.is_null()) return false;
   if (k["ci95"][0].get<double>() <= 0.0 && k["ci95"][1].get<double>() >= 0.0) return true;

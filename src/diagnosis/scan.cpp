@@ -11,8 +11,7 @@ namespace dcnn {
 namespace {
 
 constexpr double kUnit =
-    1e-3;                      // amplitude of a column: small enough for angles, large for rounding
-constexpr int kApproach = 12;  // evaluations of a first refinement
+    1e-3;  // amplitude of a column: small enough for angles, large for rounding
 // Gain, in prices, to name an effect without a number, with one, and for each further one of an
 // effect that is alone: chi-square that noise exceeds in 3 of a million trials (21.8, 25.4, 28.5,
 // 31.1 for 1 to 4). Beside others, which may be a little wrong, each number must pay its price.
@@ -28,7 +27,7 @@ bool is_itself(const Case& study, const Member& member) {
   // A drive's filters are faster than a tenth of a second.
   if (study.axis && name == "lowpass") return member.shapes(0) < 0.1;
   // A spring whose rest is turns away is a constant, which other effects are.
-  if (!study.axis && name == "cable_spring") {
+  if (!study.axis && name == "cable_spring" && !member.driver) {
     return std::abs(member.amplitudes(1)) <=
            2.0 * std::numbers::pi * std::abs(member.amplitudes(0));
   }
@@ -70,6 +69,10 @@ Scan::Scan(const Setting& setting, const JointFit& fit)
 }
 
 bool Scan::is_possible(const Member& member) const {
+  // Beside the same law undriven, amplitudes tell how its strength changes and not what it is.
+  const bool changes = std::any_of(chain_.members().begin(), chain_.members().end(),
+                                   [&](const Member& m) { return is_undriven(m, member); });
+  if (changes) return true;
   const bool wrong_sign = member.form->non_negative && member.amplitudes.minCoeff() < 0.0;
   return !wrong_sign && is_itself(setting_.study, member);
 }
@@ -169,97 +172,6 @@ std::optional<double> Scan::least_detectable(const Member& member) const {
   return most / scale * needed / std::sqrt(energy);
 }
 
-/// A line over all recordings is far narrower than one in a recording, from which its frequency was
-/// seeded: the best of a comb first.
-Trial Scan::tuned(const Trial& start, Detail detail) const {
-  Trial best = start;
-  const double width = 0.6 / longest_seconds(setting_.study);
-  const double step = std::max(0.25 / span_seconds(setting_.study), width / 40.0);
-  for (double away = -width; away <= width; away += step) {
-    Member member = start.member;
-    member.shapes(0) += away;
-    const Trial trial = evaluate(member, detail);
-    if (trial.gain > best.gain) best = trial;
-  }
-  return best;
-}
-
-/// A mode that nothing drives at its own frequency has hollows at many: the best damping at the
-/// frequencies where a comb has its peaks, highest first.
-std::vector<Trial> Scan::hollows(const Member& mode, Detail detail, std::size_t most) const {
-  std::vector<Trial> comb;
-  Member member = mode;
-  for (double hz = 1.5; hz <= mode.most_shapes(0); hz *= 1.15) {
-    comb.emplace_back();
-    for (const double zeta : {0.01, 0.03, 0.1, 0.3}) {
-      member.shapes << hz, zeta;
-      const Trial trial = evaluate(member, detail);
-      if (trial.gain > comb.back().gain) comb.back() = trial;
-    }
-  }
-  std::vector<Trial> peaks;
-  for (std::size_t k = 0; k < comb.size(); ++k) {
-    const bool peak = comb[k].gain > 0.0 && (k == 0 || comb[k].gain >= comb[k - 1].gain) &&
-                      (k + 1 == comb.size() || comb[k].gain >= comb[k + 1].gain);
-    if (peak) peaks.push_back(comb[k]);
-  }
-  std::stable_sort(peaks.begin(), peaks.end(),
-                   [](const Trial& x, const Trial& y) { return x.gain > y.gain; });
-  if (peaks.size() > most) peaks.resize(most);
-  return peaks;
-}
-
-std::vector<Member> Scan::as_likely(const Member& mode, double within) const {
-  std::vector<Trial> seen{evaluate(mode, Detail::kCoarse)};
-  for (const Trial& start : hollows(mode, Detail::kCoarse, 12)) {
-    improved(start, Detail::kCoarse, 40, &seen);
-  }
-  double most = 0.0;
-  for (const Trial& trial : seen) most = std::max(most, trial.gain);
-  std::vector<Member> likely;
-  for (const Trial& trial : seen) {
-    if (trial.gain >= most - within) likely.push_back(trial.member);
-  }
-  return likely;
-}
-
-/// A delay has a local minimum at every turn of the motion: the best of a comb first.
-Trial Scan::combed(const Trial& start) const {
-  constexpr double kStep = 0.02;  // s: an eighth of a turn at 6 Hz
-  Trial best = start;
-  Member member = start.member;
-  for (double delay = kStep; delay < member.form->shapes[0].high; delay += kStep) {
-    member.shapes(0) = delay;
-    const Trial trial = evaluate(member, Detail::kCoarse);
-    if (trial.gain > best.gain) best = trial;
-  }
-  return best;
-}
-
-Trial Scan::approach(const Trial& seed) const {
-  const std::string name = seed.member.name();
-  const auto a_little = [&](const Trial& start) {
-    return refine(start, Detail::kCoarse, kApproach);
-  };
-  if (setting_.study.without.refinement) return seed;
-  if (name == "hum") return a_little(tuned(seed, Detail::kCoarse));
-  const bool fitted_base = !setting_.study.logs.front().regressors.empty();
-  if (name == "time_delay" && fitted_base) return a_little(combed(seed));
-  const Trial best = a_little(seed);
-  if (name != "flexible_resonance" || seed.gain < 2.0 * seed.price) return best;
-  const Trial elsewhere = best_mode(seed.member);
-  return elsewhere.gain > best.gain ? elsewhere : best;
-}
-
-Trial Scan::best_mode(const Member& mode) const {
-  Trial best;
-  for (const Trial& start : hollows(mode, Detail::kCoarse, 4)) {
-    const Trial trial = refine(start, Detail::kCoarse, kApproach);
-    if (trial.gain > best.gain) best = trial;
-  }
-  return best;
-}
-
 Trial Scan::refine(const Trial& start, Detail detail, int evaluations) const {
   if (start.member.own_shapes() == 0 || setting_.study.without.refinement) return start;
   return improved(start, detail, evaluations);
@@ -280,6 +192,7 @@ Trial Scan::improved(const Trial& start, Detail detail, int evaluations,
     if (start.member.name() == "hum")
       size(i) = 0.1 / (span_seconds(setting_.study) * start.member.shapes(i));
     if (start.member.name() == "flexible_resonance" && i == 0) size(i) = 0.05;
+    if (start.member.driver && i == n - 1) size(i) = 0.02 + 0.2 * std::abs(start.member.shapes(i));
   }
   Trial best = start;
   const auto loss = [&](const Eigen::VectorXd& at) {

@@ -66,6 +66,7 @@ class Scan {
   /// Whether its amplitudes are those of such an effect.
   bool is_possible(const Member& member) const;
   Trial combed(const Trial& start) const;
+  Trial lagged(const Trial& start) const;
   Trial tuned(const Trial& start, Detail detail) const;
   std::vector<Trial> hollows(const Member& mode, Detail detail, std::size_t most) const;
   Trial improved(const Trial& start, Detail detail, int evaluations,

@@ -128,9 +128,7 @@ bool Search::grow() {
   const double share = study_.is_static() ? kModelError * kModelError : kLeastGrowth;
   if (best->gain < share * explained(false)) return false;
   if (may_be_slow_noise(best->member) && admit_slow_noise()) return true;
-  std::vector<Member> members = fit_.members;
-  members.push_back(best->member);
-  settle(members);
+  settle(with_member(fit_.members, best->member));
   return true;
 }
 
@@ -195,8 +193,7 @@ bool Search::swap() {
       const double doubtful = is_degenerate(fit_.members[m]) ? kDegenerateError * trial.gain : 0.0;
       if (trial.net_gain() < told - std::max({2.0 * setting_->price, doubt(trial), doubtful}))
         break;
-      std::vector<Member> members = rest.members;
-      members.push_back(trial.member);
+      const std::vector<Member> members = with_member(rest.members, trial.member);
       const JointFit other = joint_fit(*setting_, members);
       const int fewer = fit_.members[m].parameters() - trial.member.parameters();
       const bool gives_way = is_degenerate(fit_.members[m]) && fewer > 0;
@@ -281,7 +278,7 @@ void Search::run() {
   weigh();
   hold_untold();
   straighten_drifts();
-  leave_untold_levers();
+  leave_untold_parts();
   even_out_gears();
 }
 

@@ -67,8 +67,9 @@ class Search {
   void leave_out(const std::vector<std::size_t>& members);
   /// Takes another model, whose members were fitted, and judges what it leaves.
   void adopt(const std::vector<Member>& members);
-  /// Lets forces act at the sensor's origin whose levers gain less than their price.
-  void leave_untold_levers();
+  /// Leaves out levers and lags that gain less than their price: forces then act at the sensor's
+  /// origin, driven laws follow their signal at once.
+  void leave_untold_parts();
   /// Leaves out all but what tests of their own found.
   void begin_anew();
   /// Whether a band holds more than noise and the error of the laws that were found leave.
@@ -87,8 +88,8 @@ class Search {
   std::vector<Member> names() const;
   /// Whitens again for what these members leave, and fits them.
   void settle(const std::vector<Member>& members);
-  /// Leaves of gears' friction what it has at any position, where the variation is not told: whether
-  /// there was such.
+  /// Leaves of gears' friction what it has at any position, where the variation is not told:
+  /// whether there was such.
   bool even_out_gears();
   std::vector<Member> members_without(std::size_t member) const;
   /// The model without one member, the others refitted.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "dcnn/physics/effect_words.h"
+
 namespace dcnn {
 namespace {
 
@@ -25,16 +27,7 @@ double length_of(const Estimates& numbers, const std::string& begin, const std::
   return std::sqrt(square);
 }
 
-std::string place(const std::string& axis) {
-  if (axis == "tool_z") return " along the tool";
-  if (axis.starts_with("base_")) return " along the base's " + axis.substr(5) + " axis";
-  if (axis.starts_with("w_sensor_"))
-    return " against turning about the sensor's " + axis.substr(9) + " axis";
-  if (axis.starts_with("sensor_")) return " along the sensor's " + axis.substr(7) + " axis";
-  const auto colon = axis.find(':');
-  if (colon == std::string::npos) return "";
-  return place(axis.substr(colon + 1)) + " in the angle " + axis.substr(0, colon);
-}
+std::string place(const std::string& axis) { return axis.empty() ? "" : " " + words_of_axis(axis); }
 
 std::string milli(double value, const char* unit) { return brief(1e3 * value) + " " + unit; }
 
@@ -82,6 +75,14 @@ std::string when(const Member& member) {
   const bool onset = member.kind->interval == IntervalRule::kOnset;
   return (onset ? " at " + seconds(begin) : " from " + seconds(begin) + " to " + seconds(end)) +
          " s" + (member.recording.empty() ? "" : " of " + member.recording);
+}
+
+/// Of a law that a logged signal drives.
+std::string driven_in_words(const Member& member, const Estimates& n) {
+  const auto& [signal, low, high] = *member.driver;
+  return driven_words(*member.kind, place(member.axis),
+                      {signal, unit_text(unit_of_parameter(member.kind->strength)), low, high,
+                       member.amplitudes(0), member.amplitudes(1), value_of(n, "lag_s")});
 }
 
 std::string effect_in_words(const Member& member, const Estimates& n) {
@@ -159,8 +160,24 @@ std::string effect_in_words(const Member& member, const Estimates& n) {
 
 }  // namespace
 
+std::string driven_words(const EffectKind& kind, const std::string& place, const Following& law) {
+  const auto at = [&](double strength, double value) {
+    return brief(strength) + (law.unit.empty() ? "" : " " + law.unit) + " at " + brief(value);
+  };
+  const bool offset = kind.stage == Stage::kOffset;
+  std::string text = (offset ? "offset" : kind.meaning) + place + " that follows " + law.signal +
+                     ", " + at(law.at_low, law.low) + " and " + at(law.at_high, law.high);
+  if (law.lag == 0.0) return text;
+  const std::string away = milli(std::abs(law.lag), "ms");
+  return text + ", " + away + (law.lag > 0.0 ? " after it" : " before it");
+}
+
+std::string per_signal(const std::string& unit, const Json& driven_by) {
+  return (unit.empty() ? "1" : unit) + " per unit of " + driven_by["value"].get<std::string>();
+}
+
 std::string in_words(const Member& member, const Estimates& n) {
-  return effect_in_words(member, n) + lever(n);
+  return (member.driver ? driven_in_words(member, n) : effect_in_words(member, n)) + lever(n);
 }
 
 }  // namespace dcnn

@@ -12,4 +12,16 @@ namespace dcnn {
 /// "dry friction of 0.42 N along the tool": what was found, with its leading number.
 std::string in_words(const Member& member, const std::vector<Estimate>& numbers);
 
+/// A law whose strength follows a logged signal: its strengths where the signal is lowest and
+/// highest, and by how long they come after it [s].
+struct Following {
+  std::string signal, unit;
+  double low, high, at_low, at_high, lag;
+};
+/// "a spring along the tool that follows pressure, 0.3 N at 1 and 0.9 N at 4, 200 ms after it".
+std::string driven_words(const EffectKind& kind, const std::string& place, const Following& law);
+
+/// The unit of a strength's slope: "N*s/m per unit of pressure".
+std::string per_signal(const std::string& unit, const Json& driven_by);
+
 }  // namespace dcnn

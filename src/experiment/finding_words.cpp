@@ -25,6 +25,10 @@ std::vector<std::string> numbers_in_words(const Json& finding) {
   std::vector<std::string> words;
   const std::string effect = plain_text(finding["effect"]);
   for (const auto& [name, number] : finding["parameters"].items()) {
+    if (number["value"].is_string()) {
+      words.push_back(words_of_parameter(effect, name) + ": " + plain_text(number["value"]));
+      continue;
+    }
     const auto value = number["value"].get<double>();
     const Json& interval = number["ci95"];
     const std::string unit = unit_in_words(effect, name, plain_text(number["unit"]));

@@ -75,8 +75,7 @@ class LeastSizes {
  public:
   LeastSizes(Simulator simulator, const Recording& recording, bool torque)
       : simulator_(std::move(simulator)),
-        motion_(motion_of(recording, simulator_.model,
-                          simulator_.derivative.value_or(DerivativeSpec()))),
+        motion_(motion_of(recording, simulator_, DerivativeSpec())),
         without_(simulate(simulator_, motion_)),
         torque_(torque) {}
 

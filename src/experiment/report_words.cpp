@@ -57,7 +57,10 @@ const std::map<std::string, std::string>& stem_words() {
       {"sin", "sine part"},
       {"cos", "cosine part"},
       {"lever", "point where it acts, from the sensor's origin along"},
-      {"inertia", "inertia"}};
+      {"inertia", "inertia"},
+      {"driven_by", "logged signal that its strength follows"},
+      {"slope", "growth of its strength with that signal"},
+      {"lag", "by how long it comes after that signal"}};
   return kWords;
 }
 

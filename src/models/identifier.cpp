@@ -61,7 +61,9 @@ Eigen::MatrixXd Identifier::base_prediction(const Recording& recording) const {
   const auto count = static_cast<Eigen::Index>(targets.names.size());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(recording.samples(), count);
   if (!base) return result;
-  const Motion motion = motion_of(recording, base->model, base_derivative(*this));
+  Simulator own = *base;
+  own.derivative = base_derivative(*this);
+  const Motion motion = motion_of(recording, own, *own.derivative);
   const Wrench wrench = simulate(*base, motion, nullptr, nullptr);
   for (Eigen::Index j = 0; j < count; ++j) {
     result.col(j) = wrench_column(wrench, targets.names[static_cast<std::size_t>(j)]);

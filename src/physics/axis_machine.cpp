@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dcnn/data/filter.h"
+#include "physics/driven.h"
 
 namespace dcnn {
 namespace {
@@ -114,10 +115,14 @@ Motion axis_motion(const Recording& recording, const Axis& axis, const Derivativ
     motion.v_B.col(0) = rates.v;
     motion.a_B.col(0) = rates.a;
   }
+  read_signals(recording, axis.signals, motion);
   for (const std::string& signal : axis.signals) {
     if (is_temperature(signal)) motion.temperature = recording.column(signal);
   }
-  if (recording.has("temperature")) motion.temperature = recording.column("temperature");
+  if (recording.has("temperature")) {
+    motion.temperature = recording.column("temperature");
+    motion.signals.push_back({"temperature", motion.temperature});
+  }
   return motion;
 }
 
@@ -134,9 +139,10 @@ MatrixXd base_columns(const Recording& recording, const System& system, std::siz
   if (!own.has_base && !system.arm.is_null()) {
     return arm_columns(chain_of(system), recording, system, axis, derivative);
   }
-  require(own.has_base, Exit::kData, "axis '", own.name,
-          "': no simulator; give 'simulated', 'base' (a list of signals, [] where nothing is known), "
-          "or 'arm' in the system description");
+  require(
+      own.has_base, Exit::kData, "axis '", own.name,
+      "': no simulator; give 'simulated', 'base' (a list of signals, [] where nothing is known), "
+      "or 'arm' in the system description");
   if (own.base.empty()) return VectorXd::Ones(recording.samples());
   const Rates rates = rates_of(recording, own, derivative);
   MatrixXd columns(recording.samples(), static_cast<Index>(own.base.size()));

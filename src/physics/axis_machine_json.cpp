@@ -61,7 +61,7 @@ std::optional<AxisParameter> axis_parameter(const EffectKind& kind, const std::s
   }
   // What adds to the reading has the sign of the reading; what resists the motion the reaction's.
   const bool adds = kind.stage == Stage::kOffset || id == "contact";
-  if (adds && suffix.starts_with('n')) result.sign = -sense;
+  if (adds && (suffix.starts_with('n') || name == "slope")) result.sign = -sense;
   return result;
 }
 
@@ -72,6 +72,10 @@ Json outer_parameters(const EffectSpec& effect, const Axis& axis, double sense) 
   const EffectKind& kind = *find_effect(effect.effect);
   Json parameters = Json::object();
   for (const auto& [name, value] : effect.parameters.items()) {
+    if (value.is_string()) {  // the signal that drives the law
+      parameters[name] = value;
+      continue;
+    }
     const auto outer = axis_parameter(kind, name, axis, sense);
     if (outer) parameters[outer->stem] = outer->sign * value.get<double>() + outer->shift;
   }
@@ -79,8 +83,15 @@ Json outer_parameters(const EffectSpec& effect, const Axis& axis, double sense) 
 }
 
 /// The parameters of the law from the published ones; components that an axis does not have are 0.
-Json inner_parameters(const EffectKind& kind, const Json& outer, const Axis& axis, double sense,
+Json inner_parameters(const EffectKind& kind, Json outer, const Axis& axis, double sense,
                       const std::string& where, Exit exit) {
+  Json drive = Json::object();  // a logged signal's part has the same names on any machine
+  for (const auto& [published, own] : {std::pair{"driven_by", "driven_by"},
+                                       std::pair{"slope", "slope"}, std::pair{"lag", "lag_s"}}) {
+    if (!outer.contains("driven_by") && drive.empty()) break;
+    if (outer.contains(published)) drive[own] = outer[published];
+    outer.erase(published);
+  }
   for (const EffectFit& form : kind.fits) {
     const Json names = form.parameters(VectorXd::Ones(form.amplitudes),
                                        VectorXd::Ones(static_cast<Index>(form.shapes.size())));
@@ -95,7 +106,13 @@ Json inner_parameters(const EffectKind& kind, const Json& outer, const Axis& axi
       inner[name] = parameter->sign * (found->get<double>() - parameter->shift);
       ++used;
     }
-    if (used == outer.size() && inner.size() == names.size()) return inner;
+    if (used != outer.size() || inner.size() != names.size()) continue;
+    inner.update(drive);
+    if (drive.contains("slope") && drive["slope"].is_number()) {
+      inner["slope"] =
+          axis_parameter(kind, "slope", axis, sense)->sign * drive["slope"].get<double>();
+    }
+    return inner;
   }
   fail(exit, where, ": effect '", kind.name, "' does not take the parameters ", outer.dump());
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dcnn/physics/law.h"
+#include "physics/driven.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {
@@ -68,6 +69,7 @@ Eigen::Vector3d read_lever(const EffectKind& kind, Options& parameters) {
 void check_parameters(const EffectKind& kind, const EffectSpec& spec, Options parameters) {
   ToolModel model;
   read_lever(kind, parameters);
+  read_drive(kind, parameters);
   if (kind.change) {
     kind.change(model, parameters);
   } else {
@@ -187,7 +189,8 @@ bool has_lever(const EffectKind& kind) {
 
 EffectStream stream_of(const EffectSpec& effect, const std::string& where, Exit exit) {
   const EffectKind& kind = kind_of(effect);
-  if (!kind.stream) return nullptr;
+  // No signal of the log is there while the force is predicted.
+  if (!kind.stream || effect.parameters.contains("driven_by")) return nullptr;
   Options parameters(effect.parameters, where, exit);
   const Eigen::Vector3d lever = read_lever(kind, parameters);
   EffectStream push = kind.stream(effect, parameters);
@@ -245,7 +248,11 @@ void apply_effect(const EffectSpec& effect, const Motion& motion, const ToolMode
   const Eigen::Vector3d lever = read_lever(kind, parameters);
   const bool turns = wrench.torque.rows() > 0 && !lever.isZero(0.0);
   const Wrench before = effect.interval_s || turns ? wrench : Wrench{};
-  kind.apply(wrench, motion, effect, model, parameters);
+  if (const auto drive = read_drive(kind, parameters)) {
+    apply_driven(*drive, effect, motion, model, wrench);
+  } else {
+    kind.apply(wrench, motion, effect, model, parameters);
+  }
   if (turns) add_moment(lever, before.force, wrench);
   if (effect.interval_s) keep_outside(effect, kind, motion, before, wrench);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dcnn/core/options.h"
+#include "physics/driven.h"
 #include "physics/effect_law.h"
 #include "physics/rigid.h"
 #include "physics/simulator_json.h"
@@ -128,10 +129,16 @@ void set_wrench(const Wrench& wrench, const std::string& suffix, Recording& reco
   }
 }
 
+Motion motion_of(const Recording& recording, const Simulator& simulator,
+                 const DerivativeSpec& derivative) {
+  Motion motion = motion_of(recording, simulator.model, simulator.derivative.value_or(derivative));
+  read_signals(recording, signals_of(simulator.effects), motion);
+  return motion;
+}
+
 Recording predict_motion(const Simulator& simulator, const Recording& motion,
                          const DerivativeSpec& derivative) {
-  const Wrench wrench = simulate(
-      simulator, motion_of(motion, simulator.model, simulator.derivative.value_or(derivative)));
+  const Wrench wrench = simulate(simulator, motion_of(motion, simulator, derivative));
   Recording out = motion;
   set_wrench(wrench, "", out);
   return out;

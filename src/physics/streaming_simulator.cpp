@@ -29,7 +29,7 @@ FeatureLayout layout_for(const ToolModel& model, const DerivativeSpec& derivativ
 bool runs_online(const EffectSpec& effect) {
   const EffectKind* kind = find_effect(effect.effect);
   return kind && !effect.interval_s && effect.recording.empty() && (kind->change || kind->stream) &&
-         (!kind->online || kind->online(effect));
+         !effect.parameters.contains("driven_by") && (!kind->online || kind->online(effect));
 }
 
 Simulator online_part(const Simulator& simulator, std::vector<std::string>& left_out) {
@@ -53,8 +53,8 @@ StreamingSimulator::StreamingSimulator(const Simulator& simulator, const Derivat
   now_.dt = dt;
   for (const EffectSpec& effect : simulator.effects) {
     require(runs_online(effect), exit, where, ": its effect '", effect.effect,
-            "' needs the future, a clock of its own or one recording, which an online sample does "
-            "not show; leave it out");
+            "' needs the future, a clock of its own, a logged signal or one recording, which an "
+            "online sample does not show; leave it out");
   }
   for (const EffectKind* kind : effect_kinds()) {  // in the order in which stages act
     for (const EffectSpec& effect : simulator.effects) {

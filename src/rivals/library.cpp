@@ -43,6 +43,7 @@ std::vector<Law> library(bool thermometer) {
     std::vector<std::string> axes = admitted_axes(kind->axis);
     if (axes.empty()) axes.emplace_back();
     for (const EffectFit& fit : kind->fits) {
+      if (fit.use == EffectFit::Use::kDriven) continue;
       if (fit.parameters == nullptr || searched_for(*kind, fit)) continue;
       for (const VectorXd& shapes : seeds_of(fit)) {
         const Json names = fit.parameters(VectorXd::Ones(fit.amplitudes), shapes);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "conceal/draws.h"
 #include "conceal/laws.h"
 #include "conceal/world.h"
 #include "dcnn/conceal/challenge.h"
@@ -147,6 +148,27 @@ TEST(HardwareTwins, CreepSettlesAsTheCatalogueSays) {
   EXPECT_LT((ours.force - theirs(thin, Eigen::all)).cwiseAbs().maxCoeff(), 2e-3);
 }
 
+TEST(HardwareTwins, AStrengthFollowsTheTemperatureAsTheCatalogueSays) {
+  Path path = axis_path();
+  Rng rng({7});
+  path.climate = draw_climate(rng);
+  Hidden h = hidden_law("viscous_friction", "base_x", {{"c_nspm", -20.0}, {"slope", 1.5}});
+  MatrixXd theirs = MatrixXd::Zero(path.samples(), 3);
+  add_force(path, h, theirs, theirs, theirs);
+  Motion motion = axis_motion_of(path);
+  VectorXd temperature(motion.samples());
+  for (Index k = 0; k < temperature.size(); ++k) temperature(k) = path.climate(path.time(8 * k));
+  motion.signals.push_back({"temperature", temperature});
+  Wrench ours{MatrixXd::Zero(motion.samples(), 3), MatrixXd(0, 3)};
+  const Json parameters{
+      {"c_nspm", -20.0}, {"driven_by", "temperature"}, {"slope", 1.5}, {"lag_s", 0.0}};
+  apply_effect({"viscous_friction", "base_x", std::nullopt, parameters, ""}, motion, ToolModel(),
+               ours);
+  EXPECT_GT(ours.force.col(0).cwiseAbs().maxCoeff(), 1.0);
+  EXPECT_LT((ours.force.col(0) - thinned_x(theirs).head(motion.samples())).cwiseAbs().maxCoeff(),
+            1e-9);
+}
+
 TEST(HardwareFamily, DrawsItsLawsWhereAnotherHasListedOnes) {
   const auto ids = in_family(plan(60, 5), "hardware");
   std::set<std::string> seen;
@@ -162,7 +184,8 @@ TEST(HardwareFamily, ADrawnLawHasTheAmplitudeAskedFor) {
   for (const auto& effect : hardware_effects()) {
     const Scenario s = draw("hardware+single:0.5/" + effect + "/1", 3);
     ASSERT_EQ(s.hidden.size(), 1U);
-    EXPECT_EQ(s.hidden[0].effect, effect);
+    EXPECT_EQ(s.hidden[0].effect, undriven(effect));
+    EXPECT_EQ(truth(s)["hidden"][0].contains("driven_by"), effect != undriven(effect));
     EXPECT_NEAR(s.hidden[0].amplitude, 0.5, 0.05);
     EXPECT_EQ(truth(s)["hidden"][0]["listed"], true);
   }

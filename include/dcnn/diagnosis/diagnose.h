@@ -20,6 +20,9 @@ struct DiagnosisRequest {
   Json arm;  ///< kinematics instead of those of `system`; or null
   std::vector<std::filesystem::path> fit, holdout;
   std::vector<std::filesystem::path> zeroed;  ///< of them, whose sensor was set to zero for each
+  /// Columns that the strength of a law may follow, beside `temperature` and those that a system
+  /// description lists.
+  std::vector<std::string> signals;
   ReadOptions read;
   std::optional<bool> shared_clock;  ///< none: shared where the times do not overlap
   Ablation without;                  ///< for research

@@ -103,8 +103,9 @@ struct EffectFit {
   std::vector<ShapeParameter> shapes = {};
   /// The published parameters that belong to amplitudes and shapes.
   Json (*parameters)(const Eigen::VectorXd& amplitudes, const Eigen::VectorXd& shapes) = nullptr;
-  enum class Use { kEverywhere, kTools, kMachines };
-  Use use = Use::kEverywhere;  ///< what the diagnosis tries this form on
+  enum class Use { kEverywhere, kTools, kMachines, kDriven };
+  /// What the diagnosis tries this form on; kDriven: where a logged signal drives the law, alone.
+  Use use = Use::kEverywhere;
 };
 
 /// What an effect must know of time: nothing, when a row was taken, or the motion between rows.
@@ -130,6 +131,9 @@ struct EffectKind {
   bool of_load = false;        ///< needs Wrench::load
   /// A relative of a commoner law, which it must outdo by the price of a number (prior::kSpecial).
   bool special = false;
+  /// The parameter that the force is proportional to, the others held: it may follow a logged
+  /// signal (parameters driven_by, slope, lag_s); null where there is none.
+  const char* strength = nullptr;
   /// Changes the model before anything is computed (Stage::kTool), else null.
   void (*change)(ToolModel&, Options& parameters) = nullptr;
   /// Changes the wrench (other stages), else null. Internal states start in equilibrium with the

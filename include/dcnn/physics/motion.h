@@ -12,6 +12,12 @@
 
 namespace dcnn {
 
+/// What a recording has beside motion and force, such as a pressure or a current.
+struct LoggedSignal {
+  std::string name;        ///< of its column
+  Eigen::VectorXd values;  ///< (T), in the log's unit
+};
+
 /// Motion of the sensor frame, T samples, SI; a block is (T,3).
 struct Motion {
   std::string recording;  ///< name of the file, for effects that act in one recording only
@@ -21,10 +27,11 @@ struct Motion {
   Eigen::MatrixXd v_B, a_B;   ///< of the sensor's origin, in B; (0,3) where nothing logged tells it
   Eigen::MatrixXd p_B;        ///< position of the sensor's origin as logged; (0,3) where it is not
   Eigen::MatrixXd w_S, dw_S;  ///< angular velocity and acceleration, in S
-  Eigen::VectorXd temperature;  ///< degC, empty where not logged
-  double dt = 0.0;              ///< s; 0 for a list of poses at rest
-  bool has_clock = true;        ///< t is a time
-  bool of_axis = false;         ///< of one axis of a machine (axis_machine.h), not of a tool
+  Eigen::VectorXd temperature;        ///< degC, empty where not logged
+  std::vector<LoggedSignal> signals;  ///< that strengths of laws may follow
+  double dt = 0.0;                    ///< s; 0 for a list of poses at rest
+  bool has_clock = true;              ///< t is a time
+  bool of_axis = false;               ///< of one axis of a machine (axis_machine.h), not of a tool
   std::vector<Segment> segments;
 
   Index samples() const { return t.size(); }

@@ -55,6 +55,11 @@ Wrench simulate(const Simulator& simulator, const Motion& motion,
 /// Sets columns fx…fz, and tx…tz where there are torques, each with `suffix`.
 void set_wrench(const Wrench& wrench, const std::string& suffix, Recording& recording);
 
+/// The motion with the logged signals that the simulator's effects follow, by the simulator's own
+/// derivative where it names one.
+Motion motion_of(const Recording& recording, const Simulator& simulator,
+                 const DerivativeSpec& derivative);
+
 /// The recording with fx,fy,fz (and tx,ty,tz where the model has an inertia) replaced or added by
 /// what the simulator predicts for its motion, by its own derivative where it names one.
 Recording predict_motion(const Simulator& simulator, const Recording& motion,

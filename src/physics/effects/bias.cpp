@@ -25,6 +25,7 @@ const EffectKind effect{
     .meaning = "constant offset",
     .equation = "+ b",
     .example = R"({"delta_bias_x_n": 0.3, "delta_bias_y_n": -0.2, "delta_bias_z_n": 0.1})",
+    .strength = "delta_bias_x_n",
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 3,
@@ -32,7 +33,13 @@ const EffectKind effect{
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return offset_parameters(a, "delta_bias");
-                  }}},
+                  }},
+             {.amplitudes = 1,
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
+                    return offset_parameters(Eigen::Vector3d(a(0), 0.0, 0.0), "delta_bias");
+                  },
+              .use = EffectFit::Use::kDriven}},
 };
 
 }  // namespace dcnn::effects::bias

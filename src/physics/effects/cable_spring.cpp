@@ -18,6 +18,7 @@ const EffectKind effect{
     .equation = "-k (q - rest) n",
     .example = R"({"k_nprad": 0.5, "rest_rad": 0.1})",
     .axis = AxisRule::kAngle,
+    .strength = "k_nprad",
     .apply = pushed<law>,
     .stream = pushing<law>,
     .fits = {{.amplitudes = 2,
@@ -25,7 +26,14 @@ const EffectKind effect{
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"k_nprad", a(0)}, {"rest_rad", a(0) == 0.0 ? 0.0 : a(1) / a(0)}};
-                  }}},
+                  }},
+             {.amplitudes = 1,
+              .shapes = {{"rest", -3.2, 3.2, {0.0}, 1}},
+              .parameters =
+                  [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
+                    return Json{{"k_nprad", a(0)}, {"rest_rad", s(0)}};
+                  },
+              .use = EffectFit::Use::kDriven}},
 };
 
 }  // namespace dcnn::effects::cable_spring

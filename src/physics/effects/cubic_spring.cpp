@@ -19,6 +19,7 @@ const EffectKind effect{
     .example = R"({"k3_nprad3": 0.4})",
     .axis = AxisRule::kAngle,
     .machines_only = true,
+    .strength = "k3_nprad3",
     .apply = pushed<law>,
     .stream = pushing<law>,
     .fits = {{.amplitudes = 1,

@@ -53,6 +53,7 @@ const EffectKind effect{
     .axis = AxisRule::kLine,
     .of_load = true,
     .special = true,
+    .strength = "mu",
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 1,

@@ -20,6 +20,7 @@ const EffectKind effect{
     .equation = "-c2 v abs(v) n",
     .example = R"({"c2_ns2pm2": 5.0})",
     .axis = AxisRule::kLine,
+    .strength = "c2_ns2pm2",
     .apply = resisted<law>,
     .stream = resisting<law>,
     .fits = {{.amplitudes = 1,

@@ -20,6 +20,7 @@ const EffectKind effect{
     .example = R"({"k2_nprad2": 0.5, "rest_rad": 0.1})",
     .axis = AxisRule::kAngle,
     .machines_only = true,
+    .strength = "k2_nprad2",
     .apply = pushed<law>,
     .stream = pushing<law>,
     .fits = {{.amplitudes = 1,
