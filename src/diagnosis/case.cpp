@@ -89,6 +89,36 @@ bool has_own_offsets(const Case& study) {
                      [](const Log& log) { return log.zeroed; });
 }
 
+double end_seconds(double length) { return std::min(0.5, 0.1 * length); }
+
+Index end_samples(const Case& study, const Segment& segment) {
+  constexpr double kPeriods = 5.0;
+  if (study.is_static()) return 0;
+  const double seconds = study.dt() * static_cast<double>(segment.size());
+  const double flank = study.axis ? 0.0 : end_seconds(seconds);
+  return std::llround(std::max(kPeriods / study.motion_hz, flank) / study.dt());
+}
+
+std::vector<Segment> inner_segments(const Case& study, std::size_t log) {
+  std::vector<Segment> inner;
+  for (const Segment& s : study.logs[log].motion.segments) {
+    const Index end = std::min(end_samples(study, s), s.size() / 8);
+    inner.push_back({s.begin + end, s.end - end});
+  }
+  return inner;
+}
+
+double mean_square(const Case& study, const std::vector<Eigen::MatrixXd>& left, Index channel) {
+  double square = 0.0, rows = 0.0;
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    for (const Segment& s : inner_segments(study, k)) {
+      square += left[k].col(channel).segment(s.begin, s.size()).squaredNorm();
+      rows += static_cast<double>(s.size());
+    }
+  }
+  return square / std::max(1.0, rows);
+}
+
 double longest_seconds(const Case& study) {
   double longest = 0.0;
   for (const Log& log : study.logs) {

@@ -69,6 +69,8 @@ std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
   // The share of the channels' chi-squares that is independent: noise in common counts once.
   const auto terms = static_cast<double>(left.size()) * static_cast<double>(channels);
   const double independent = std::min(1.0, lines.front().terms / terms);
+  // Near the smoother's edge the noise of the pose may be far above the floor.
+  const double loudness = std::max(1.0, lines.front().beside);
   double samples = 0.0;
   for (const auto& r : left) samples += static_cast<double>(r.rows());
   // Gain in chi-square of the line at hz, with its amplitudes.
@@ -87,7 +89,7 @@ std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
       const double density = floors[static_cast<std::size_t>(j)].density(hz);
       gain += 0.5 * samples * (sine(0, j) * sine(0, j) + cosine(0, j) * cosine(0, j)) / density;
     }
-    return independent * gain;
+    return independent * gain / loudness;
   };
   const double longest = longest_seconds(study);
   // Recordings one after the other have side lobes, the nearer the further they are apart.
@@ -113,7 +115,7 @@ std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
     member.amplitudes(half + c) = cosine(0, j);
     const double density = floors[static_cast<std::size_t>(j)].density(hz(0));
     member.fixed_deviation(c) = member.fixed_deviation(half + c) =
-        std::sqrt(2.0 * density / samples);
+        std::sqrt(2.0 * density * loudness / samples);
   }
   // Rife and Boorstyn 1974: of the frequency, from the gain as signal-to-noise ratio.
   member.fixed_deviation(member.amplitudes.size()) =

@@ -50,13 +50,9 @@ Json unnamed_part(const Search& search, const std::vector<BandTest>& bands, cons
   const Signals left = difference(study, predict(study, search.names()));
   Json excess = Json::array();
   for (Index j = 0; j < study.channel_count(); ++j) {
-    double square = 0.0, count = 0.0;
-    for (const auto& r : left) {
-      square += r.col(j).squaredNorm();
-      count += static_cast<double>(r.rows());
-    }
+    const double square = mean_square(study, left, j);
     const double s = search.floors()[static_cast<std::size_t>(j)].deviation();
-    excess.push_back(search.remains() ? std::sqrt(std::max(0.0, square / count - s * s)) : 0.0);
+    excess.push_back(search.remains() ? std::sqrt(std::max(0.0, square - s * s)) : 0.0);
   }
   Json part{{"excess_rms", excess}, {"formula", nullptr}, {"words", nullptr}};
   if (!search.remains() && refuted) {

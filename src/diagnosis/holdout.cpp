@@ -8,7 +8,7 @@
 namespace dcnn {
 namespace {
 
-constexpr double kPiece = 5.0, kGuard = 0.5, kEnds = 0.5;  // s
+constexpr double kPiece = 5.0, kGuard = 0.5;  // s
 constexpr int kEvery = 5;
 constexpr Index kLeastPoses = 10;  // 8 remain to fit to, as many as their floor needs
 
@@ -23,8 +23,7 @@ void hold_out_poses(std::size_t log, const Eigen::VectorXd& t, std::vector<Span>
   }
 }
 
-/// A recording that no whole piece fits into is cut into kEvery pieces, guards and ends in
-/// proportion.
+/// A recording that no whole piece fits into is cut into kEvery pieces, guards in proportion.
 double shortened(double seconds, const Motion& motion) {
   const double length = seconds_of(motion);
   return length >= (kEvery - 2) * kPiece ? seconds : seconds * length / (kEvery * kPiece);
@@ -66,7 +65,7 @@ HoldOut::HoldOut(const Case& fitted, const Case& recordings) {
   for (std::size_t k = 0; k < study_.logs.size(); ++k) {
     const Motion& motion = study_.logs[k].motion;
     std::vector<char> held(static_cast<std::size_t>(motion.samples()), own ? 1 : 0);
-    const double ends = motion.is_static() ? 0.0 : shortened(kEnds, motion);
+    const double ends = motion.is_static() ? 0.0 : end_seconds(seconds_of(motion));
     for (Index i = 0; i < motion.samples(); ++i) {
       const double t = motion.t(i);
       char& row = held[static_cast<std::size_t>(i)];
@@ -197,17 +196,6 @@ std::vector<Floor> HoldOut::own_floors(const Search& search) const {
   if (fit.base.size() > 0) set_base(study, fit.base);
   const Signals left = study.lowpass_hz > 0.0 ? unfiltered_left(study, fit.members)
                                               : difference(study, predict(study, fit.members));
-  // Without the ends, as the errors are.
-  for (std::size_t k = 0; k < study.logs.size(); ++k) {
-    std::vector<Segment> kept;
-    for (Segment s : study.logs[k].motion.segments) {
-      const auto held = [&](Index row) { return held_[k][static_cast<std::size_t>(row)] != 0; };
-      while (s.begin < s.end && !held(s.begin)) ++s.begin;
-      while (s.begin < s.end && !held(s.end - 1)) --s.end;
-      if (s.begin < s.end) kept.push_back(s);
-    }
-    study.logs[k].motion.segments = kept;
-  }
   const Signals levels = noise_level(study, left);
   std::vector<Floor> floors = noise_floor(study, left, levels);
   bound_by_residual(study, left, levels, floors);
@@ -230,12 +218,8 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
   for (std::size_t j = 0; j < errors.size(); ++j) {
     double noise = std::max(search.floors()[j].whole_deviation(), floors[j].whole_deviation());
     if (!search.floors()[j].pose_gain.empty()) {
-      double square = 0.0, count = 0.0;
-      for (const auto& left : search.left()) {
-        square += left.col(static_cast<Index>(j)).squaredNorm();
-        count += static_cast<double>(left.rows());
-      }
-      noise = std::max(noise, std::sqrt(square / count));
+      const double square = mean_square(search.study(), search.left(), static_cast<Index>(j));
+      noise = std::max(noise, std::sqrt(square));
     }
     const double ratio = errors[j] / std::max(1e-300, noise);
     if (ratio > kMost * (1.0 + chance) && (!worst || ratio > worst->ratio)) {

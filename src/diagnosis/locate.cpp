@@ -23,13 +23,8 @@ Json axes(const Case& study, const Signals& left, const std::vector<Floor>& floo
   std::vector<double> energy;
   double all = 0.0;
   for (Index j = 0; j < study.channel_count(); ++j) {
-    double square = 0.0, count = 0.0;
-    for (const auto& r : left) {
-      square += r.col(j).squaredNorm();
-      count += static_cast<double>(r.rows());
-    }
     // In units of the floor, so that newtons and newton-metres weigh alike.
-    const double excess = std::max(0.0, square / count - floor_power(floors, j));
+    const double excess = std::max(0.0, mean_square(study, left, j) - floor_power(floors, j));
     list.push_back(
         {{"axis", study.targets[static_cast<std::size_t>(j)]}, {"excess_rms", std::sqrt(excess)}});
     energy.push_back(excess / std::max(1e-300, floor_power(floors, j)));
@@ -52,7 +47,7 @@ Json segments(const Case& study, const Signals& left, const std::vector<Floor>& 
   std::vector<Window> windows;
   for (std::size_t k = 0; k < left.size(); ++k) {
     const auto& motion = study.logs[k].motion;
-    for (const Segment& s : motion.segments) {
+    for (const Segment& s : inner_segments(study, k)) {
       for (Index i = s.begin; i + n <= s.end; i += n) {
         double excess = 0.0;
         for (Index j = 0; j < study.channel_count(); ++j) {
@@ -198,7 +193,7 @@ Json bands(const Case& study, const Signals& left, const std::vector<Floor>& flo
   std::vector<double> excess(edges.size(), 0.0);
   double total = 0.0;
   for (std::size_t k = 0; k < left.size(); ++k) {
-    for (const Segment& s : study.logs[k].motion.segments) {
+    for (const Segment& s : inner_segments(study, k)) {
       for (Index j = 0; j < study.channel_count(); ++j) {
         Eigen::VectorXd x = Eigen::VectorXd::Zero(fast_length(s.size()));
         x.head(s.size()) = left[k].col(j).segment(s.begin, s.size());

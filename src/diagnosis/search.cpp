@@ -92,7 +92,10 @@ void Search::forget_places() {
 
 double Search::explained(bool all) const {
   std::vector<Member> exact = fit_.members;
-  std::erase_if(exact, [&](const Member& m) { return m.fixed || all || m.parameters() > 0; });
+  std::erase_if(exact, [&](const Member& m) {
+    const bool fitted = m.fixed || all || m.parameters() > 0;
+    return fitted && (m.driver || !m.kind->is_constant);
+  });
   return std::max(0.0, joint_fit(*setting_, exact).chi2 - fit_.chi2);
 }
 
@@ -275,8 +278,10 @@ void Search::run() {
   }
   let_ring();
   judge();
+  hold_untold();  // a number that is not told would weigh against its effect
+  const std::size_t judged = fit_.members.size();
   weigh();
-  hold_untold();
+  if (fit_.members.size() < judged) hold_untold();
   straighten_drifts();
   leave_untold_parts();
   even_out_gears();

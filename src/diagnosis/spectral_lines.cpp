@@ -7,6 +7,7 @@
 
 #include "core/elementary.h"
 #include "data/bridge.h"
+#include "data/median.h"
 #include "dcnn/data/fourier.h"
 
 namespace dcnn {
@@ -40,13 +41,13 @@ Eigen::VectorXd evenly(const Motion& motion, const Segment& s, const Eigen::Vect
 /// tell a frequency less exactly.
 std::vector<Eigen::VectorXd> pieces_of(const Case& study, const Signals& signals, Index channel) {
   Index longest = 0;
-  for (const Log& log : study.logs) {
-    for (const Segment& s : log.motion.segments) longest = std::max(longest, s.size());
+  for (std::size_t k = 0; k < study.logs.size(); ++k) {
+    for (const Segment& s : inner_segments(study, k)) longest = std::max(longest, s.size());
   }
   std::vector<Eigen::VectorXd> pieces;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     const Motion& motion = study.logs[k].motion;
-    for (const Segment& s : motion.segments) {
+    for (const Segment& s : inner_segments(study, k)) {
       if (2 * s.size() < longest) continue;
       pieces.push_back(evenly(motion, s, signals[k].col(channel)));
     }
@@ -61,20 +62,25 @@ Index length_of(const std::vector<Eigen::VectorXd>& pieces) {
   return fast_length(longest);
 }
 
-/// The mean level beside bin k of a sum of so many independent periodograms, from its median; none
-/// of a spectrum with nothing beside it.
+/// The mean level beside bin k of a sum of so many independent periodograms, from its median on the
+/// louder side, for where a filter of the pose ends noise falls at once; none of a spectrum with
+/// nothing beside it.
 std::optional<double> level_beside(const Eigen::VectorXd& power, Index k, Index around,
                                    double terms) {
-  std::vector<double> beside;
-  for (Index i = std::max<Index>(1, k - around); i < std::min(power.size(), k + around); ++i) {
-    if (std::abs(i - k) > 3) beside.push_back(power(i));
-  }
-  if (beside.empty()) return std::nullopt;
-  const auto middle = beside.begin() + static_cast<std::ptrdiff_t>(beside.size() / 2);
-  std::nth_element(beside.begin(), middle, beside.end());
+  constexpr Index kOfLine = 3;  // bins of a line on either side
+  const auto median_of = [&](Index from, Index end) {
+    std::vector<double> beside;
+    for (Index i = std::max<Index>(1, from); i < std::min(power.size(), end); ++i) {
+      beside.push_back(power(i));
+    }
+    return beside.empty() ? -1.0 : dcnn::median(std::move(beside));
+  };
+  const double loudest =
+      std::max(median_of(k - around, k - kOfLine), median_of(k + kOfLine + 1, k + around));
+  if (loudest < 0.0) return std::nullopt;
   // Of an exponential distribution, and nearly of a gamma distribution.
   const double median = terms == 1.0 ? elementary::log(2.0) : 1.0 - 1.0 / (3.0 * terms);
-  return *middle / median;
+  return loudest / median;
 }
 
 /// Of how many independent periodograms those of all channels are the sum. Noise that channels
@@ -174,7 +180,8 @@ std::vector<CommonLine> common_lines(const Case& study, const Signals& left,
     const auto level = level_beside(sum, k, around, terms);
     if (!level) continue;
     const double excess = (sum(k) / std::max(1e-300, *level) - 1.0) * terms;
-    lines.push_back({static_cast<double>(k) * bin_hz, sum(k), excess, terms});
+    const auto count = static_cast<double>(channels.size() * channels.front().size());
+    lines.push_back({static_cast<double>(k) * bin_hz, sum(k), excess, terms, *level / count});
   }
   return lines;
 }

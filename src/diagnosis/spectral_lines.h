@@ -28,6 +28,7 @@ struct CommonLine {
   double ratio;   ///< of its power to the floor's
   double excess;  ///< of its power, in units of the mean level beside it, over `terms`
   double terms;
+  double beside;  ///< the mean level beside it, over the floor's
   /// More than one of 1e8 bins of noise: a line stands out of what is beside it, whatever the floor
   /// may be there.
   bool stands_out() const;

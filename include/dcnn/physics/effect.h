@@ -131,6 +131,8 @@ struct EffectKind {
   bool of_load = false;        ///< needs Wrench::load
   /// A relative of a commoner law, which it must outdo by the price of a number (prior::kSpecial).
   bool special = false;
+  /// A constant: no error of a law or of the motion comes with it, however large it is.
+  bool is_constant = false;
   /// The parameter that the force is proportional to, the others held: it may follow a logged
   /// signal (parameters driven_by, slope, lag_s); null where there is none.
   const char* strength = nullptr;

@@ -100,7 +100,8 @@ Eigen::MatrixXd model_errors(const Grid& grid, const std::vector<Member>& member
   std::vector<Eigen::VectorXd> columns;
   const Chain chain(study, members);
   for (std::size_t m = 0; m < members.size(); ++m) {
-    if (members[m].fixed || members[m].parameters() == 0) continue;
+    const bool exact = members[m].parameters() == 0 || members[m].kind->is_constant;
+    if (members[m].fixed || (exact && !members[m].driver)) continue;
     std::vector<Member> rest = members;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(m));
     const Signals without = predict(study, rest);
@@ -242,6 +243,7 @@ Unknown unknown_beside(const Grid& grid, const std::vector<Member>& members,
 /// ln p(recordings, members) and what it leaves as a background of fields.
 struct NamedEvidence {
   double logarithm = 0.0;
+  double errors = 0.0;  ///< of it, what the laws' relative errors explain
   Background background;
 };
 
@@ -260,11 +262,12 @@ NamedEvidence named_evidence(const Setting& setting, const Grid& grid, const Joi
     if (!fit.members[m].fixed) sum += log_prior(setting, fit, m);
   }
   const Eigen::MatrixXd errors = model_errors(grid, fit.members);
+  double explained = 0.0;
   if (errors.cols() > 0) {
     background.extend(errors);
-    sum += std::max(0.0, background.log_probability() - pooled);
+    explained = std::max(0.0, background.log_probability() - pooled);
   }
-  return {sum, std::move(background)};
+  return {sum + explained, explained, std::move(background)};
 }
 
 }  // namespace
@@ -280,6 +283,8 @@ Structure structure_of(const Setting& setting, const Grid& grid, const JointFit&
   structure.chi2 = fit.chi2;
   structure.log_named = named.logarithm;
   structure.noise = slow_noise(grid, grid.pooled(fit.residual));
+  // Of the whole residual: in place of the laws' errors, not beside them.
+  structure.noise.log_factor -= named.errors;
   structure.unknown = unknown_beside(grid, fit.members, std::move(named.background));
   return structure;
 }

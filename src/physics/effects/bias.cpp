@@ -25,6 +25,7 @@ const EffectKind effect{
     .meaning = "constant offset",
     .equation = "+ b",
     .example = R"({"delta_bias_x_n": 0.3, "delta_bias_y_n": -0.2, "delta_bias_z_n": 0.1})",
+    .is_constant = true,
     .strength = "delta_bias_x_n",
     .apply = apply,
     .stream = stream,
