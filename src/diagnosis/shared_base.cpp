@@ -44,22 +44,22 @@ void set_sense(LoadedCase& joint, double sense) {
 }
 
 /// Links of one arm beside an offset and friction of each joint. The torque of one joint, which
-/// others drive as well, may look like a reaction beside its own motion alone: joints are turned,
-/// the likeliest first, while the arm predicts pieces of time that were left out better. Which way
-/// all of them go most joints say alone, or, of as many each way, friction, which resists.
+/// others drive as well, may look like a reaction beside its own motion alone: a joint whose
+/// friction would drive it is turned, the likeliest first, while the arm predicts pieces of time
+/// that were left out better.
 ArmModel turned_model(const ArmSums& sums, const MatrixXd& told, const VectorXd& senses) {
-  const auto joints = static_cast<Index>(sums.joints());
   std::vector<Index> friction;
   for (Index k = 0; k < kOwnFriction; ++k) friction.push_back(k);
   ArmModel model{told, std::vector<std::vector<Index>>(sums.joints(), friction),
-                 VectorXd::Ones(joints)};
+                 VectorXd::Ones(senses.size())};
   while (true) {
     ArmRegression now(sums, model);
     now.reweight();
+    const VectorXd resisted = now.resisted().cwiseProduct(senses);
     double most = 0.0;
     Index best = -1;
-    for (Index j = 0; j < joints; ++j) {
-      if (model.turned(j) < 0.0) continue;
+    for (Index j = 0; j < senses.size(); ++j) {
+      if (model.turned(j) < 0.0 || resisted(j) >= 0.0) continue;
       ArmModel other = model;
       other.turned(j) = -1.0;
       ArmRegression then(sums, std::move(other));
@@ -67,14 +67,8 @@ ArmModel turned_model(const ArmSums& sums, const MatrixXd& told, const VectorXd&
       const double support = then.log_support_against(now);
       if (support > most) most = support, best = j;
     }
-    if (best >= 0) {
-      model.turned(best) = -1.0;
-      continue;
-    }
-    const double kept = model.turned.sum();
-    const double resisted = now.resisted().dot(senses.cwiseProduct(model.turned));
-    if (kept < 0.0 || (kept == 0.0 && resisted < 0.0)) model.turned *= -1.0;
-    return model;
+    if (best < 0) return model;
+    model.turned(best) = -1.0;
   }
 }
 
