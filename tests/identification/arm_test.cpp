@@ -266,6 +266,12 @@ TEST_F(ArmIdentify, PosesAtRestTellWeightsAndAPayload) {
     EXPECT_NEAR(joint.residual_rms, 0.2, 0.03) << joint.name;
   }
   EXPECT_EQ(to_text(id).find("friction on"), std::string::npos) << to_text(id);
+  try {  // where motion is wanted
+    read_recording(folder_ / "poses.csv", ReadOptions(), read_system(r.system));
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("dcnn-identify"), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(ArmIdentify, MistakesAreOneLine) {
