@@ -44,8 +44,8 @@ void set_sense(LoadedCase& joint, double sense) {
 }
 
 /// Links of one arm beside an offset and friction of each joint. The torque of one joint, which
-/// others drive as well, may look like a reaction beside its own motion alone: a joint whose
-/// friction would drive it is turned, the likeliest first, while the arm predicts pieces of time
+/// others drive as well, may look like a reaction beside its own motion alone: joints whose
+/// friction then resists are turned, the likeliest first, while the arm predicts pieces of time
 /// that were left out better.
 ArmModel turned_model(const ArmSums& sums, const MatrixXd& told, const VectorXd& senses) {
   std::vector<Index> friction;
@@ -55,15 +55,15 @@ ArmModel turned_model(const ArmSums& sums, const MatrixXd& told, const VectorXd&
   while (true) {
     ArmRegression now(sums, model);
     now.reweight();
-    const VectorXd resisted = now.resisted().cwiseProduct(senses);
     double most = 0.0;
     Index best = -1;
     for (Index j = 0; j < senses.size(); ++j) {
-      if (model.turned(j) < 0.0 || resisted(j) >= 0.0) continue;
+      if (model.turned(j) < 0.0) continue;
       ArmModel other = model;
       other.turned(j) = -1.0;
       ArmRegression then(sums, std::move(other));
       then.set_variances(now.variances());
+      if (then.resisted()(j) * senses(j) >= 0.0) continue;
       const double support = then.log_support_against(now);
       if (support > most) most = support, best = j;
     }
