@@ -204,10 +204,11 @@ Recording make_recording(SourceTable source, const std::filesystem::path& path,
   recording.table = std::move(source.table);
   recording.notes = std::move(source.notes);
   recording.zeroed = source.zeroed;
+  const bool wrist = system.kind == System::Kind::kWrist;
   require(recording.has("t") || options.static_list, Exit::kData, file,
           ":1: column 't' is missing; log the time in seconds: a list of poses at rest, which has "
-          "none, is not enough here");
-  const bool wrist = system.kind == System::Kind::kWrist;
+          "none, is not enough here",
+          wrist ? "" : "; dcnn-identify takes one of an arm");
   if (wrist) check_wrist_columns(recording, options.motion_only, file);
   if (!wrist) check_axis_columns(recording, system, options.motion_only, file);
   set_clock(recording, file, wrist && options.static_list);

@@ -8,6 +8,7 @@ namespace dcnn {
 /// Own terms of a joint that are fitted beside an arm's base: an offset, viscous friction, and dry
 /// friction of three widths; then those that only a given base is tested against.
 constexpr Index kOwnFriction = 5;
+constexpr Index kOwnRate = 1;  ///< the column of viscous friction
 constexpr Index kOwnAliases =
     6;  ///< spring, drag, inertia, and the given torque, its rate, and its friction
 

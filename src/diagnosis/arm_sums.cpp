@@ -46,6 +46,7 @@ ArmRegression::ArmRegression(const ArmSums& sums, ArmModel model)
     const Index all = sums.sums_[j].front().gram.rows();
     Eigen::MatrixXd T = Eigen::MatrixXd::Zero(all, shared_ + more);
     T.topLeftCorner(sums.links_, shared_) = model.shared;
+    if (model.turned.size() > 0) T.leftCols(shared_) *= model.turned(static_cast<Index>(j));
     for (Index k = 0; k < more; ++k)
       T(sums.links_ + own[static_cast<std::size_t>(k)], shared_ + k) = 1.0;
     std::vector<ArmSums::Piece> pieces;
@@ -137,6 +138,19 @@ double ArmRegression::log_support_against(const ArmRegression& other) const {
     if (rows > 0.0) blocks.push_back(change);
   }
   return evidence::log_support(blocks);
+}
+
+Eigen::VectorXd ArmRegression::resisted() const {
+  const Eigen::VectorXd x = fit(-1, 0, pieces_.size());
+  Eigen::VectorXd power = Eigen::VectorXd::Zero(variance_.size());
+  for (std::size_t j = 0; j < pieces_.size(); ++j) {
+    const Eigen::VectorXd c = coefficients(j, x).tail(maps_[j].rows() - sums_.links_);
+    for (const ArmSums::Piece& piece : sums_.sums_[j]) {
+      const auto rate = piece.gram.row(sums_.links_ + kOwnRate);
+      power(static_cast<Index>(j)) += rate.tail(c.size() - 1).dot(c.tail(c.size() - 1));
+    }
+  }
+  return power.cwiseQuotient(variance_);
 }
 
 Eigen::VectorXd ArmRegression::left_out_alone(std::size_t joint) const {

@@ -10,6 +10,8 @@ namespace dcnn {
 struct ArmModel {
   Eigen::MatrixXd shared;               ///< (10·joints, p): links' parameters from the shared ones
   std::vector<std::vector<Index>> own;  ///< columns of JointRows::own in use, by joint
+  /// 1, or -1 where a joint measures what the rows take for the other's reaction.
+  Eigen::VectorXd turned = {};
 };
 
 /// Sums of products of all columns and the target over each piece of time.
@@ -49,6 +51,9 @@ class ArmRegression {
   /// another of the same sums and variances (diagnosis/evidence/support.h), each piece a
   /// block.
   double log_support_against(const ArmRegression& other) const;
+  /// (joints): the power that the joints' own terms take by the rate in JointRows::own, summed over
+  /// rows, in units of their variances.
+  Eigen::VectorXd resisted() const;
   /// (pieces): the same of one joint with shared parameters of its own.
   Eigen::VectorXd left_out_alone(std::size_t joint) const;
 

@@ -145,6 +145,15 @@ Json deviations(const std::vector<Floor>& floors) {
   return list;
 }
 
+/// Of names that laws took the place of, where held-out data refuted all those laws: they stand
+/// again if the held-out data bear them out better than what stood beside the laws.
+void take_back_names(Search& search, const HoldOut& holdout, const std::vector<Member>& names) {
+  const JointFit before = joint_fit(search.setting(), names);
+  const Signals with = holdout.prediction(before.members, before.base);
+  const Signals without = holdout.prediction(search.fit().members, search.fit().base);
+  if (holdout.log_support(with, without, search.floors()) > 0.0) search.hold(names);
+}
+
 }  // namespace
 
 CaseDiagnosis diagnose_case(LoadedCase loaded,
@@ -160,10 +169,11 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   Json refuted_names = leave_refuted(search, holdout);
   const std::vector<BandTest> bands = search.bands();
   const double unnamed = search.posterior().unknown + search.posterior().named_and_unknown;
+  const std::vector<Member> names = search.names();
   auto laws = add_discovered(search, holdout);
-  for (const Json& law : leave_refuted_laws(search, holdout, unnamed, laws)) {
-    refuted_names.push_back(law);
-  }
+  const Json refuted_laws = leave_refuted_laws(search, holdout, unnamed, laws);
+  for (const Json& law : refuted_laws) refuted_names.push_back(law);
+  if (laws.empty() && !refuted_laws.empty()) take_back_names(search, holdout, names);
   // Names that were found beside laws, or in the place of one.
   for (const Json& name : leave_refuted(search, holdout)) refuted_names.push_back(name);
   auto alternatives = adopt_likelier(search, holdout);

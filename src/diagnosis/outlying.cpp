@@ -15,6 +15,17 @@ constexpr double kOutlyingSeconds = 0.5;  // bursts of the noise are followed in
 constexpr double kByChance = 0.01;        // that any stretch of a recording is called outlying
 constexpr std::size_t kFewestHalfSeconds = 10;
 
+/// Whether the log's readings are one and the same from `begin` to `end`: there they tell no level.
+bool repeats(const Log& log, double begin, double end) {
+  const Eigen::MatrixXd& readings = log.unfiltered.rows() > 0 ? log.unfiltered : log.measured;
+  const Eigen::VectorXd& t = log.motion.t;
+  const Index first = std::lower_bound(t.begin(), t.end(), begin) - t.begin();
+  const Index rows = std::lower_bound(t.begin(), t.end(), end) - t.begin() - first;
+  if (rows == 0) return true;
+  const auto part = readings.middleRows(first, rows);
+  return (part.rowwise() - part.row(0)).isZero(0.0);
+}
+
 struct HalfSecond {
   std::size_t log;
   double begin, size;  ///< s; logarithm of the mean square
@@ -36,9 +47,10 @@ std::vector<HalfSecond> half_seconds(const Setting& setting, const Signals& left
   }
   std::vector<HalfSecond> list;
   for (const auto& [key, sum] : sums) {
-    if (sum.first == 0.0) continue;  // a reading that repeats its value
-    list.push_back({key.first, static_cast<double>(key.second) * seconds,
-                    elementary::log(sum.first / sum.second)});
+    const double begin = static_cast<double>(key.second) * seconds;
+    const bool still = repeats(setting.study.logs[key.first], begin, begin + seconds);
+    if (still || sum.first == 0.0) continue;
+    list.push_back({key.first, begin, elementary::log(sum.first / sum.second)});
   }
   return list;
 }

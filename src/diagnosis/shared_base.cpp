@@ -29,13 +29,59 @@ std::vector<JointRows> all_rows(const std::vector<LoadedCase>& cases, const Vect
   return rows;
 }
 
+void set_sense(LoadedCase& joint, double sense) {
+  AxisPlan plan = *joint.fit.axis;
+  if (plan.sense == sense) return;
+  plan.sense = sense;
+  for (Case* study : {&joint.fit, &joint.holdout}) {
+    for (Log& log : study->logs) {
+      log.measured = -log.measured;
+      log.unfiltered = -log.unfiltered;
+    }
+    study->axis = std::make_shared<const AxisPlan>(plan);
+    set_axis_motion(*study);
+  }
+}
+
+/// Links of one arm beside an offset and friction of each joint. The torque of one joint, which
+/// others drive as well, may look like a reaction beside its own motion alone: joints whose
+/// friction then resists are turned, the likeliest first, while the arm predicts pieces of time
+/// that were left out better.
+ArmModel turned_model(const ArmSums& sums, const MatrixXd& told, const VectorXd& senses) {
+  std::vector<Index> friction;
+  for (Index k = 0; k < kOwnFriction; ++k) friction.push_back(k);
+  ArmModel model{told, std::vector<std::vector<Index>>(sums.joints(), friction),
+                 VectorXd::Ones(senses.size())};
+  while (true) {
+    ArmRegression now(sums, model);
+    now.reweight();
+    double most = 0.0;
+    Index best = -1;
+    for (Index j = 0; j < senses.size(); ++j) {
+      if (model.turned(j) < 0.0) continue;
+      ArmModel other = model;
+      other.turned(j) = -1.0;
+      ArmRegression then(sums, std::move(other));
+      then.set_variances(now.variances());
+      if (then.resisted()(j) * senses(j) >= 0.0) continue;
+      const double support = then.log_support_against(now);
+      if (support > most) most = support, best = j;
+    }
+    if (best < 0) return model;
+    model.turned(best) = -1.0;
+  }
+}
+
 void fit_links(std::vector<LoadedCase>& cases) {
   const std::vector<JointRows> rows = all_rows(cases, VectorXd());
   const ArmSums sums(rows);
-  std::vector<Index> friction;
-  for (Index k = 0; k < kOwnFriction; ++k) friction.push_back(k);
   const MatrixXd told = told_parameters(rows);
-  ArmRegression regression(sums, {told, std::vector<std::vector<Index>>(cases.size(), friction)});
+  VectorXd senses(static_cast<Index>(cases.size()));
+  for (std::size_t j = 0; j < cases.size(); ++j) {
+    senses(static_cast<Index>(j)) = cases[j].fit.axis->sense;
+  }
+  const ArmModel model = turned_model(sums, told, senses);
+  ArmRegression regression(sums, model);
   regression.reweight();
   std::vector<Index> columns;
   for (Index k = 0; k < told.rows(); ++k) {
@@ -44,7 +90,9 @@ void fit_links(std::vector<LoadedCase>& cases) {
   const VectorXd parameters = regression.shared(-1);
   const VectorXd shared = regression.left_out().colwise().sum();
   for (std::size_t j = 0; j < cases.size(); ++j) {
-    if (shared(static_cast<Index>(j)) > regression.left_out_alone(j).sum()) continue;
+    const auto joint = static_cast<Index>(j);
+    set_sense(cases[j], model.turned(joint) * senses(joint));
+    if (shared(joint) > regression.left_out_alone(j).sum()) continue;
     AxisPlan plan = *cases[j].fit.axis;
     plan.columns = columns;
     plan.base_is_known = true;
@@ -56,20 +104,7 @@ void fit_links(std::vector<LoadedCase>& cases) {
 void vote_on_sense(std::vector<LoadedCase>& cases) {
   double votes = 0.0;
   for (const LoadedCase& joint : cases) votes += joint.fit.axis->sense;
-  for (LoadedCase& joint : cases) {
-    AxisPlan plan = *joint.fit.axis;
-    const double sense = votes < 0.0 ? -1.0 : 1.0;
-    if (plan.sense == sense) continue;
-    plan.sense = sense;
-    for (Case* study : {&joint.fit, &joint.holdout}) {
-      for (Log& log : study->logs) {
-        log.measured = -log.measured;
-        log.unfiltered = -log.unfiltered;
-      }
-      study->axis = std::make_shared<const AxisPlan>(plan);
-      set_axis_motion(*study);
-    }
-  }
+  for (LoadedCase& joint : cases) set_sense(joint, votes < 0.0 ? -1.0 : 1.0);
 }
 
 Json correct_given(std::vector<LoadedCase>& cases, const VectorXd& bodies) {

@@ -31,6 +31,8 @@ std::vector<std::string> numbers_in_words(const Json& finding) {
     }
     const auto value = number["value"].get<double>();
     const Json& interval = number["ci95"];
+    // Held at nothing, as a spring's rest is beside a constant: no number of its own.
+    if (value == 0.0 && interval[0] == 0.0 && interval[1] == 0.0) continue;
     const std::string unit = unit_in_words(effect, name, plain_text(number["unit"]));
     words.push_back(
         words_of_parameter(effect, name) + ": " +

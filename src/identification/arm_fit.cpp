@@ -144,11 +144,17 @@ class ArmFitter {
     return A;
   }
 
+  /// A joint's rows by what it leaves of them, and not by how long that stays: what a wrong model
+  /// leaves stays long, and would be left to grow.
+  double weight(Index joint) const {
+    return 1.0 / (fit_.residual_rms[joint] * fit_.residual_rms[joint] * fit_.correlated.mean());
+  }
+
   void solve() {
     lay_out();
     const auto [mean, sd] = prior();
     // In units of the prior's deviation.
-    MatrixXd H = MatrixXd::Identity(size_, size_);
+    MatrixXd H = MatrixXd::Identity(size_, size_), spread = H;
     VectorXd g = VectorXd::Zero(size_);
     std::vector<std::vector<MatrixXd>> all(logs_.size());
     for (std::size_t k = 0; k < logs_.size(); ++k) {
@@ -156,19 +162,19 @@ class ArmFitter {
         const VectorXd rigid = rigid_torque(logs_[k], j);
         all[k].push_back(columns(logs_[k], j, rigid) * sd.asDiagonal());
         const auto joint = static_cast<Index>(j);
-        const double weight =
-            1.0 / (fit_.residual_rms[joint] * fit_.residual_rms[joint] * fit_.correlated[joint]);
         const MatrixXd& A = all[k].back();
         const VectorXd y = logs_[k].torque.col(joint) - A * mean.cwiseQuotient(sd);
-        H += weight * A.transpose() * A;
-        g += weight * A.transpose() * y;
+        const MatrixXd gram = weight(joint) * A.transpose() * A;
+        H += gram;
+        spread += fit_.correlated[joint] / fit_.correlated.mean() * gram;
+        g += weight(joint) * A.transpose() * y;
       }
     }
     const VectorXd u = solve_symmetric(H, g);
     fit_.x = mean + sd.cwiseProduct(u);
     fit_.prior_deviation = sd;
     const MatrixXd inverse = solve_symmetric(H, MatrixXd::Identity(size_, size_));
-    fit_.covariance = sd.asDiagonal() * inverse * sd.asDiagonal();
+    fit_.covariance = sd.asDiagonal() * (inverse * spread * inverse) * sd.asDiagonal();
     fit_.deviation = fit_.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
     set_residuals(all, fit_.x.cwiseQuotient(sd), inverse);
     take_gains();
@@ -179,9 +185,9 @@ class ArmFitter {
   /// count as one.
   void set_residuals(const std::vector<std::vector<MatrixXd>>& all, const VectorXd& u,
                      const MatrixXd& inverse) {
+    const double common = fit_.correlated.mean();
+    VectorXd correlated(joints_);
     for (Index j = 0; j < joints_; ++j) {
-      const double weight =
-          1.0 / (fit_.residual_rms[j] * fit_.residual_rms[j] * fit_.correlated[j]);
       double square = 0.0, rows = 0.0, correlation = 0.0, decided = 0.0;
       for (std::size_t k = 0; k < logs_.size(); ++k) {
         const MatrixXd& A = all[k][static_cast<std::size_t>(j)];
@@ -190,12 +196,13 @@ class ArmFitter {
         square += r.squaredNorm();
         rows += n;
         correlation += correlated_rows(logs_[k], r) * n;
-        decided += weight * (A * inverse).cwiseProduct(A).sum();
+        decided += weight(j) * (A * inverse).cwiseProduct(A).sum();
       }
-      const double freedom = std::max(1.0, rows - fit_.correlated[j] * decided);
+      const double freedom = std::max(1.0, rows - common * decided);
       fit_.residual_rms[j] = std::max(std::sqrt(square / freedom), 1e-12);
-      fit_.correlated[j] = correlation / rows;
+      correlated[j] = correlation / rows;
     }
+    fit_.correlated = correlated;
   }
 
   /// A gain that was found is taken into the columns, so that the next round starts from it.
@@ -276,22 +283,6 @@ class ArmFitter {
 
 ArmFit fit_arm(const JointChain& chain, std::vector<ArmLog>& logs, bool drive_gains) {
   return ArmFitter(chain, logs, drive_gains).run();
-}
-
-MatrixXd predicted_torque(const JointChain& chain, const ArmFit& fit, const ArmLog& log) {
-  MatrixXd out(log.torque.rows(), log.torque.cols());
-  for (std::size_t j = 0; j < fit.drives.size(); ++j) {
-    const Drive& drive = fit.drives[j];
-    VectorXd rigid = log.rigid[j] * fit.x.head(10 * static_cast<Index>(fit.drives.size()));
-    if (log.loaded && fit.payload >= 0) {
-      rigid += payload_columns(chain, log, j) * fit.x.segment(fit.payload, 10);
-    }
-    rigid *= drive.gain;
-    out.col(static_cast<Index>(j)) =
-        rigid + drive_columns(log, static_cast<Index>(j), drive, rigid) *
-                    fit.x.segment(fit.first[j], static_cast<Index>(drive.terms.size()));
-  }
-  return out;
 }
 
 }  // namespace dcnn::identification

@@ -61,6 +61,22 @@ MatrixXd payload_columns(const JointChain& chain, const ArmLog& log, std::size_t
   return log.rigid[joint].rightCols(10) * flange_to_link(chain);
 }
 
+MatrixXd predicted_torque(const JointChain& chain, const ArmFit& fit, const ArmLog& log) {
+  MatrixXd out(log.torque.rows(), log.torque.cols());
+  for (std::size_t j = 0; j < fit.drives.size(); ++j) {
+    const Drive& drive = fit.drives[j];
+    VectorXd rigid = log.rigid[j] * fit.x.head(10 * static_cast<Index>(fit.drives.size()));
+    if (log.loaded && fit.payload >= 0) {
+      rigid += payload_columns(chain, log, j) * fit.x.segment(fit.payload, 10);
+    }
+    rigid *= drive.gain;
+    out.col(static_cast<Index>(j)) =
+        rigid + drive_columns(log, static_cast<Index>(j), drive, rigid) *
+                    fit.x.segment(fit.first[j], static_cast<Index>(drive.terms.size()));
+  }
+  return out;
+}
+
 int told_combinations(const std::vector<ArmLog>& logs) {
   constexpr double kTold = 1e-3;  // of a column's length that others must leave
   const auto joints = static_cast<Index>(logs.front().rigid.size());

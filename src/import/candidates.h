@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dcnn/import/log.h"
+#include "dcnn/import/recipe.h"
 
 namespace dcnn {
 
@@ -13,6 +13,20 @@ namespace dcnn {
 /// objectRightFy, not objectLeftFy. Nothing where two begin alike.
 std::optional<std::size_t> nearest_to_said(const std::vector<std::string>& candidates,
                                            const std::vector<std::string>& said);
+
+/// A name around its last number: "Joint_3" is {"Joint_", 3, ""}.
+struct Counted {
+  std::string before, after;
+  int number = 0;
+};
+std::optional<Counted> counted(const std::string& name);
+
+/// The channel of `column` where an element of an array was said for another one of the vector's
+/// `columns`: FT_Sensor[1] is fy beside fx=FT_Sensor[0].
+std::optional<ColumnRule> in_said_array(const LogStream& stream,
+                                        const std::vector<std::string>& columns,
+                                        const std::string& column,
+                                        const std::vector<ColumnRule>& said);
 
 /// What to ask where several may be `column` and nothing said tells which.
 std::string question_between(const std::string& column, const std::string& stream,

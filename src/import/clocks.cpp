@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "data/text.h"
 #include "dcnn/core/error.h"
@@ -164,6 +165,28 @@ ClockRule propose_clock(const LogStream& stream, const ImportWishes& wishes,
                        ": say --clock-unit " + rule.unit + " (or s)");
   }
   return rule;
+}
+
+std::optional<ClockRule> lone_clock(const ForeignLog& log, const std::vector<ClockRule>& clocks,
+                                    const ImportWishes& wishes, std::vector<std::string>* guesses) {
+  std::set<std::string> used;
+  std::set<Index> clockless;  // their rows
+  for (const ClockRule& clock : clocks) used.insert(clock.stream);
+  for (const LogStream& stream : log.streams) {
+    const auto without = [&](const ClockRule& clock) {
+      return clock.stream == stream.name && clock.kind == "none";
+    };
+    if (std::any_of(clocks.begin(), clocks.end(), without)) clockless.insert(stream.rows);
+  }
+  for (const LogStream& stream : log.streams) {
+    if (used.contains(stream.name) || !clockless.contains(stream.rows)) continue;
+    std::vector<std::string> guessed;
+    const ClockRule rule = propose_clock(stream, wishes, &guessed);
+    if (rule.kind != "column") continue;
+    guesses->insert(guesses->end(), guessed.begin(), guessed.end());
+    return rule;
+  }
+  return std::nullopt;
 }
 
 std::vector<double> clock_times(const LogStream& stream, const ClockRule& rule,

@@ -1,6 +1,7 @@
 // Times of a stream's rows.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "dcnn/import/recipe.h"
@@ -10,6 +11,11 @@ namespace dcnn {
 /// Where a stream's times come from, as far as names and sizes tell.
 ClockRule propose_clock(const LogStream& stream, const ImportWishes& wishes,
                         std::vector<std::string>* guesses);
+
+/// The clock of a stream that gives nothing else, for as many rows of another that has none: one of
+/// `clocks`, which are those of the streams in use.
+std::optional<ClockRule> lone_clock(const ForeignLog& log, const std::vector<ClockRule>& clocks,
+                                    const ImportWishes& wishes, std::vector<std::string>* guesses);
 
 /// s; empty for kind none. Rows without a time are NaN.
 std::vector<double> clock_times(const LogStream& stream, const ClockRule& rule,

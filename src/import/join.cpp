@@ -74,23 +74,24 @@ std::string hertz(const std::vector<double>& t) {
   return words.str();
 }
 
-/// Lists without a clock, one row each for one pose.
+/// Lists of one length, of which one at most has a clock: each row of one is that of the other.
 void join_rows(const StreamTable& from, StreamTable* to, std::vector<std::string>* notes) {
+  const char* lacking = from.t.empty() && to->t.empty() ? "neither has a" : "one has no";
   require(from.values.rows() == to->values.rows(), Exit::kData, shown(from.stream), " (",
           from.values.rows(), " rows) and ", shown(to->stream), " (", to->values.rows(),
-          " rows) have no clock to be joined by; say --rate where they began together");
+          " rows) are joined by time, and ", lacking,
+          " clock; say --clock, or --rate where they began together");
+  if (to->t.empty()) to->t = from.t;
   to->add(from.columns);
   for (std::size_t c = 0; c < from.columns.size(); ++c) {
     to->set(from.columns[c], from.values.col(static_cast<Index>(c)));
   }
-  notes->push_back(from.stream + " put beside " + to->stream + " row by row: neither has a clock");
+  notes->push_back(from.stream + " put beside " + to->stream + " row by row: " + lacking +
+                   " clock");
 }
 
 void join_one(const StreamTable& from, StreamTable* to, std::vector<std::string>* notes) {
-  if (from.t.empty() && to->t.empty()) return join_rows(from, to, notes);
-  require(!from.t.empty() && !to->t.empty(), Exit::kData, shown(from.stream), " and ",
-          shown(to->stream),
-          " are joined by time, and one of them has no clock; say --clock or --rate");
+  if (from.t.empty() || to->t.empty()) return join_rows(from, to, notes);
   const auto knots = knots_before(to->t, from.t);
   std::vector<Index> rows;
   for (std::size_t k = 0; k < knots.size(); ++k) {

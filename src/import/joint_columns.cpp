@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <set>
 
 #include "data/text.h"
+#include "import/candidates.h"
 #include "import/roles.h"
 
 namespace dcnn {
@@ -13,26 +13,8 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-constexpr std::size_t kMostDigits = 6;
-
 bool is_joint(const std::string& to) {
   return to.starts_with("q:") || to.starts_with("qd:") || to.starts_with("tau:");
-}
-
-/// A name around its last number: "Joint_3" is {"Joint_", 3, ""}.
-struct Counted {
-  std::string before, after;
-  int number = 0;
-};
-
-std::optional<Counted> counted(const std::string& name) {
-  const std::size_t last = name.find_last_of("0123456789");
-  if (last == std::string::npos) return std::nullopt;
-  const std::size_t before = name.find_last_not_of("0123456789", last);
-  const std::size_t first = before == std::string::npos ? 0 : before + 1;
-  if (last + 1 - first > kMostDigits) return std::nullopt;
-  return Counted{name.substr(0, first), name.substr(last + 1),
-                 std::stoi(name.substr(first, last + 1 - first))};
 }
 
 class JointFinder {

@@ -121,6 +121,10 @@ class Proposer {
     std::string open;
     for (const std::string& column : role.columns) {
       if (has(column)) continue;
+      if (auto rule = in_said_array(stream, role.columns, column, recipe().columns)) {
+        rules.push_back(std::move(*rule));
+        continue;
+      }
       Names candidates;
       for (const LogChannel& channel : stream.channels) {
         std::string found = role_of(stream, channel.name);
@@ -262,6 +266,9 @@ class Proposer {
     for (const LogStream& stream : log_.streams) {
       if (!used.contains(stream.name)) continue;
       recipe().clocks.push_back(propose_clock(stream, wishes_, &proposal_.guesses));
+    }
+    if (const auto alone = lone_clock(log_, recipe().clocks, wishes_, &proposal_.guesses)) {
+      recipe().clocks.push_back(*alone);
     }
     for (const char* first : {"fx", "tx", "x", "qw"}) {
       for (const ColumnRule& rule : recipe().columns) {

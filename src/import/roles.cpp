@@ -215,9 +215,12 @@ std::string role_of(const LogStream& stream, const std::string& full_name) {
 }
 
 int clock_rank(const std::string& channel) {
-  const Words words = words_of_name(channel);
+  Words words = words_of_name(channel);
   if (words.empty()) return 0;
   if (has_word(words, {"header"}) && words.back() == "stamp") return 3;
+  // "data.timeStamp": what it is called in the structure that holds it.
+  const Words own = words_of_name(channel.substr(channel.find_last_of('.') + 1));
+  if (own.size() > 1) words = own;
   if (words.size() <= 2 && is_one_of(words.back(), {"time", "timestamp", "stamp", "clock"}))
     return 2;
   if (words.size() == 2 && words[0] == "time") return 2;  // time_ms

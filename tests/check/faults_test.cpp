@@ -138,6 +138,44 @@ TEST(CheckedLogs, TwoFaultsOfUnitsAreFoundTogether) {
   EXPECT_TRUE(has("position_unit")) << check::to_text(report);
 }
 
+/// A motor's current in steps of 0.05 A, two rows each, that a drive limits to +-`limit`; at rest
+/// for `rest` rows at the end of each of the swings.
+check::Report check_of_current(double limit, Eigen::Index rest) {
+  Table table{{"t", "q_1", "tau_1"}, Eigen::MatrixXd(4000, 3)};
+  Rng rng({7});
+  Eigen::Index still = 0;
+  double phase = 0.0, current = 0.0;
+  for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+    const double before = std::cos(phase);
+    if (still-- <= 0) phase += 0.01;
+    if (before * std::cos(phase) < 0.0) still = rest;
+    const double raw = 8.0 * std::sin(phase) + 1.5 * std::sin(2.7 * phase) + 0.1 * rng.normal();
+    if (i % 2 == 0 && still <= 0) {
+      current = 0.05 * std::round(std::clamp(raw, -limit, limit) / 0.05);
+    }
+    table.values.row(i) << 0.01 * static_cast<double>(i), -std::cos(phase), current;
+  }
+  check::Declared declared;
+  declared.system = parse_system(
+      Json::parse(R"({"kind": "axes", "axes": [{"name": "1", "measured": "tau_1", "unit": "A",
+                      "base": [], "position": "q_1"}]})"),
+      "arm.json");
+  return check::check(check::make_log("current.csv", table, declared));
+}
+
+TEST(CheckedLogs, ALimitedCurrentIsSaturatedAlthoughItsRowsRepeat) {
+  const auto saturation = [](const check::Report& report) {
+    double most = 0.0;
+    for (const check::Fault& fault : report.faults) {
+      if (fault.id == std::string("saturation")) most = std::max(most, fault.probability);
+    }
+    return most;
+  };
+  EXPECT_GE(saturation(check_of_current(7.0, 0)), check::kCertain);
+  EXPECT_LT(saturation(check_of_current(20.0, 0)), check::kLikely);
+  EXPECT_LT(saturation(check_of_current(20.0, 200)), check::kLikely);  // holds its load at rest
+}
+
 TEST(CheckedLogs, WhatIsDeclaredIsNoFault) {
   check::Declared declared;
   declared.read.position_unit = 1e-3;

@@ -128,11 +128,35 @@ TEST(DiagnoseAxes, CollisionsDoNotHideFriction) {
   }
 }
 
+// A push on a drive that commands nothing else: readings that repeat their value tell no noise,
+// beside which the push would be a collision.
+TEST(DiagnoseAxes, TheOnlyRowsThatSayAnythingAreNoCollision) {
+  const test::TemporaryFolder folder;
+  Table table;
+  table.columns = {"t", "pos", "torque"};
+  table.values.resize(3000, 3);
+  for (Index k = 0; k < table.values.rows(); ++k) {
+    const double t = static_cast<double>(k) / 200.0, torque = t > 5.0 && t < 6.0 ? 6.0 : 0.0;
+    table.values.row(k) << t, 5e-6 * std::round(torque / 0.1), torque;
+  }
+  write_csv(folder / "push.csv", table);
+  write_file(folder / "system.json", R"({"kind": "axes", "axes": [{"name": "wheel",
+      "measured": "torque", "unit": "N*m", "position": "pos", "base": ["acceleration"]}]})");
+  DiagnosisRequest request;
+  request.system = folder / "system.json";
+  request.fit = {folder / "push.csv"};
+  const Json report = diagnose(request, nullptr).report;
+  EXPECT_TRUE(report["left_out"].empty()) << report["left_out"].dump(1);
+  EXPECT_NE(report["verdict"], "consistent");
+}
+
 // Where the base simulator has a constant, a spring's rest is no number of its own: it was fitted
 // as the difference of two constants of any size.
 TEST(DiagnoseAxes, ASpringBesideAConstantHasNoRest) {
   const AxisBench bench([](const State& s) { return -kInertia * s.a + 1.5 * s.q + 4.0; });
-  const Json report = bench.diagnose(one_axis({{"base", Json::array()}})).report;
+  const Diagnosis diagnosis = bench.diagnose(one_axis({{"base", Json::array()}}));
+  const Json& report = diagnosis.report;
+  EXPECT_EQ(to_text(diagnosis).find("angle at rest"), std::string::npos) << to_text(diagnosis);
   const Json* spring = find(report, "cable_spring");
   ASSERT_NE(spring, nullptr) << report["findings"].dump(1);
   EXPECT_NEAR(std::abs(number(*spring, "k", "N*m/rad")), 1.5, 0.01);

@@ -7,6 +7,7 @@
 #include "dcnn/core/file.h"
 #include "dcnn/core/random.h"
 #include "diagnosis/axis_case.h"
+#include "diagnosis/axis_sense.h"
 #include "support/process.h"
 
 namespace dcnn {
@@ -31,9 +32,10 @@ Swing swing(double t, double size, double hz) {
 }
 
 /// Two links in a vertical plane, a point mass at the end of each (Craig, Introduction to Robotics,
-/// 6.58), dry friction in both joints. `scale`: of what joint 2 logs.
+/// 6.58), dry friction in both joints. `scale`: of what joint 2 logs; `against`: how
+/// far it swings against joint 1 as well.
 void write_arm(const std::filesystem::path& path, double begin, const double (&size)[2],
-               double scale, std::uint64_t seed) {
+               double scale, std::uint64_t seed, double against = 0.0) {
   constexpr double m1 = 4.0, m2 = 2.5, l1 = 0.5, l2 = 0.4, g = 9.81;
   constexpr Index kSamples = 5000;
   Rng rng({seed});
@@ -42,7 +44,9 @@ void write_arm(const std::filesystem::path& path, double begin, const double (&s
   table.values.resize(kSamples, 7);
   for (Index k = 0; k < kSamples; ++k) {
     const double t = begin + static_cast<double>(k) / 250.0;
-    const Swing a = swing(t, size[0], 0.13), b = swing(t, size[1], 0.29);
+    const Swing a = swing(t, size[0], 0.13), follows = swing(t, -against, 0.13);
+    Swing b = swing(t, size[1], 0.29);
+    b = {b.q + follows.q, b.v + follows.v, b.a + follows.a};
     const double c = std::cos(b.q), s = std::sin(b.q), both = m2 * g * l2 * std::cos(a.q + b.q);
     const double one = (m1 * l1 * l1 + m2 * (l1 * l1 + 2.0 * l1 * l2 * c + l2 * l2)) * a.a +
                        m2 * (l1 * l2 * c + l2 * l2) * b.a -
@@ -101,6 +105,18 @@ TEST_F(SharedBase, IsNotForcedOnAJointInOtherUnits) {
   const auto right = load_axes(request(1.0)).cases, wrong = load_axes(request(3.0)).cases;
   EXPECT_TRUE(right[0].fit.axis->base_is_known && right[1].fit.axis->base_is_known);
   EXPECT_FALSE(wrong[0].fit.axis->base_is_known && wrong[1].fit.axis->base_is_known);
+}
+
+/// Where joint 1 swings against joint 2, joint 2's torque is opposed to its own acceleration.
+TEST_F(SharedBase, TellsTheSenseOfAJointThatOthersDrive) {
+  DiagnosisRequest against = request(1.0);
+  write_arm(against.fit[0], 0.0, {0.9, 0.02}, 1.0, 1, 0.2);
+  const System system = read_system(*against.system);
+  const std::vector<Recording> logs{read_recording(against.fit[0], {}, system)};
+  EXPECT_LT(sense_of(logs, system, system.axes[1], {}), 0.0);
+  for (const LoadedCase& joint : load_axes(against).cases) {
+    EXPECT_EQ(joint.fit.axis->sense, 1.0) << joint.fit.axis->index;
+  }
 }
 
 }  // namespace

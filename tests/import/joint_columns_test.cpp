@@ -171,6 +171,33 @@ TEST(JoinedTexts, OfPosesWithoutAClockAreJoinedRowByRow) {
   EXPECT_NE(words.find("3 rows"), std::string::npos) << words;
 }
 
+// One file per quantity and one with the times alone.
+TEST(JoinedTexts, OfOneLengthShareTheClockOfOne) {
+  const TemporaryFolder folder;
+  spill(folder / "poses.txt", "qw,qx,qy,qz\n1,0,0,0\n0,1,0,0\n0,0,1,0\n");
+  spill(folder / "forces.txt", "fx,fy,fz\n1,2,3\n4,5,6\n7,8,9\n");
+  spill(folder / "times.txt", "t\n0\n0.01\n0.025\n");
+  const Imported alone =
+      import_log({folder / "poses.txt", folder / "forces.txt", folder / "times.txt"});
+  EXPECT_EQ(cell(alone, "t", 2), 0.025);
+  EXPECT_EQ(cell(alone, "qx", 1), 1.0);
+  spill(folder / "forces.txt", "t,fx,fy,fz\n0,1,2,3\n0.01,4,5,6\n0.025,7,8,9\n");
+  const Imported one = import_log({folder / "poses.txt", folder / "forces.txt"});
+  EXPECT_EQ(cell(one, "t", 2), 0.025);
+  EXPECT_EQ(cell(one, "qy", 2), 1.0);
+  spill(folder / "poses.txt", "qw,qx,qy,qz\n1,0,0,0\n0,1,0,0\n");
+  const std::string words = data_error([&] {
+    import_log({folder / "poses.txt", folder / "forces.txt"});
+  });
+  EXPECT_NE(words.find("one has no clock"), std::string::npos) << words;
+}
+
+TEST(Clocks, AreCalledSoWithinTheStructureThatHoldsThem) {
+  EXPECT_EQ(clock_rank("run.all.timeStamp"), 2);
+  EXPECT_EQ(clock_rank("run.all.force"), 0);
+  EXPECT_EQ(clock_rank("pose.header.stamp"), 3);
+}
+
 TEST(Clocks, OfALetterAndAWordIncrease) {
   ImportWishes wishes;
   wishes.also = {"F"};

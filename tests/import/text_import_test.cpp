@@ -238,6 +238,19 @@ TEST(TextImport, ColumnsThatBeginLikeTheOneThatWasSaidFollowIt) {
   EXPECT_EQ(cell(imported, "y", 0), 5.0);
 }
 
+// A name of its own elsewhere is not of the array that was said.
+TEST(TextImport, ElementsOfTheArrayThatWasSaidFollowIt) {
+  const std::string text =
+      "t,force[0],force[1],force[2],FT[0],FT[1],FT[2],FT[3]\n0,1,2,3,4,5,6,7\n0.1,1,2,3,4,5,6,7\n";
+  ImportWishes wishes;
+  wishes.map = {{"fx", "FT[0]"}};
+  const Imported imported = import_text(text, wishes);
+  EXPECT_EQ(cell(imported, "fy", 0), 5.0);
+  EXPECT_EQ(cell(imported, "fz", 0), 6.0);
+  wishes.map = {{"fx", "FT[0]"}, {"fz", "FT[1]"}};
+  EXPECT_EQ(cell(import_text(text, wishes), "fy", 0), 2.0);
+}
+
 TEST(TextImport, AUnitSaysWhatAnAxisIsOf) {
   const Imported imported = import_text(
       "t,HandleX(m),HandleY(m),HandleZ(m),Cell X (N),Cell Y (N),Cell Z (N)\n"

@@ -5,8 +5,6 @@
 namespace dcnn::check {
 namespace {
 
-constexpr double kRepeatsAnyway = 0.2;  // of neighbours: then rows at an end are no sign of a limit
-
 /// Rows exactly at the largest value, and those at the next level below it.
 struct End {
   Eigen::Index at = 0, next = 0, longest = 0, begin = 0;
@@ -26,30 +24,33 @@ End end_of(const Eigen::VectorXd& x, double grid) {
   return end;
 }
 
-/// Repeats between other values than the ends': of a coarse channel, or of a robot that stands.
-double repeats_inside(const Eigen::VectorXd& x) {
+/// Rows that come together where a channel keeps a value for several, by their runs between its two
+/// ends: sum of squares of lengths over the sum. 1 where no value repeats.
+double rows_of_an_event(const Eigen::VectorXd& x) {
   const double low = x.minCoeff(), high = x.maxCoeff();
-  double equal = 0.0, all = 0.0;
-  for (Eigen::Index i = 1; i < x.size(); ++i) {
-    if (x[i] == low || x[i] == high) continue;
-    all += 1.0;
-    equal += x[i] == x[i - 1];
+  double rows = 0.0, squares = 0.0;
+  for (const Run& run : runs_of(x)) {
+    if (run.value == low || run.value == high) continue;
+    const auto length = static_cast<double>(run.length);
+    rows += length;
+    squares += length * length;
   }
-  return equal / std::max(all, 1.0);
+  return squares / std::max(rows, 1.0);
 }
 
 void find_saturation_in(const Log& log, const std::string& name, std::vector<Fault>& out) {
   const Eigen::VectorXd x = log.column(name);
   const double noise = noise_of(x), grid = std::max(resolution(x), 0.3 * noise);
-  if (grid <= 0.0 || repeats_inside(x) > kRepeatsAnyway) return;
+  if (grid <= 0.0) return;
+  const double together = rows_of_an_event(x);
   for (const double side : {1.0, -1.0}) {
     const End end = end_of(side * x, grid);
     if (end.longest < 4) continue;
     // Were the end a level like any other, the density at a peak is at most thrice that below.
     const double expected = 3.0 * static_cast<double>(end.next + 1);
-    const double z = (static_cast<double>(end.at) - expected) / std::sqrt(expected);
-    if (z <= 1.0) continue;
-    Fault fault = fault_of(saturation_fault, posterior_of_p(tail(z)), name,
+    const double p = poisson_tail(static_cast<double>(end.at) / together, expected / together);
+    if (p >= 1.0) continue;
+    Fault fault = fault_of(saturation_fault, posterior_of_p(p), name,
                            name + " stays at its limit of " + brief(side * (side * x).maxCoeff()) +
                                " in " + std::to_string(end.at) + " rows");
     set_interval(log, end.begin, end.begin + end.longest, fault);
