@@ -173,6 +173,9 @@ TEST(ReportWords, SayUnitsAndNamesPeopleUse) {
   EXPECT_EQ(words_of_effect("coulomb_friction"), "dry friction");
   EXPECT_EQ(words_of_parameter("coulomb_friction", "fc_n"), "friction force");
   EXPECT_EQ(words_of_parameter("crosstalk", "c_xy"), "share of fy in fx");
+  EXPECT_EQ(words_of_parameter("cable_spring", "rest_rad"), "angle at rest");
+  EXPECT_EQ(words_of_parameter("cable_spring", "rest"), "position at rest");  // a sliding axis
+  EXPECT_EQ(words_of_parameter("coulomb_friction", "fc"), "friction");        // or a torque
   EXPECT_EQ(words_of_parameter("gear_friction", "a"), "variation with the position");
   EXPECT_EQ(with_unit(0.3, unit_in_words("gear_friction", "a", "")), "30 %");
   EXPECT_EQ(with_unit(0.5, unit_in_words("discovered", "gain_2", "")), "0.5");
