@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <random>
 
 #include "dcnn/core/json.h"
@@ -52,6 +53,27 @@ TEST(References, StandBesideEveryModelOfTrainAndEval) {
   EXPECT_LT(references["rigid_overall"].get<double>(),
             0.25 * json["summary"][0]["rmse_overall_mean"].get<double>());
   EXPECT_EQ(json["warnings"].size(), 1U);
+}
+
+TEST(References, AModelThatIsASimulatorSaysSoAndCountsNoParameters) {
+  const test::TemporaryFolder folder;
+  const std::string simulator = folder / "model.json";
+  Json json = read_json(DCNN_SOURCE_DIR "/data/sample/sim.json", Exit::kData);
+  json["effects"] = Json::array({Json{{"effect", "coulomb_friction"},
+                                      {"axis", "tool_z"},
+                                      {"parameters", {{"fc_n", 0.4}, {"v0_mps", 0.01}}}}});
+  std::ofstream(simulator) << json.dump();
+  const auto trained = [&](const std::string& kind) {
+    return test::run("train", {"-q", "--model", kind, "--base", simulator, "--preset", "quick",
+                               "--train", kTrain, "--out", folder / (kind + ".dcnn")});
+  };
+  const auto alone = trained("ns"), beside = trained("cf");
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_NE(alone.out.find("ns.dcnn (simulator with dry friction)\n"), std::string::npos)
+      << alone.out;
+  EXPECT_NE(beside.out.find(" parameters beside a simulator with dry friction)\n"),
+            std::string::npos)
+      << beside.out;
 }
 
 TEST(References, AutoKeepsTheBestAndSaysWhy) {
