@@ -50,7 +50,11 @@ class Observer {
   explicit Observer(const Tool& tool) : bar_(tool.common().quiet) {}
 
   TrainingObserver callbacks() {
-    return {[] { return interrupted(); }, [this](const std::string& text) { bar_.line(text); },
+    return {[] { return interrupted(); },
+            [this](const std::string& text) {
+              bar_.line(text);
+              last_.clear();  // of another model, where several are tried
+            },
             [this](const TrainingProgress& p) { show(p); }};
   }
   void clear() { bar_.clear(); }

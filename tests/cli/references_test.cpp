@@ -100,5 +100,17 @@ TEST(References, AutoKeepsTheBestAndSaysWhy) {
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1 + 2900);
 }
 
+TEST(References, AutoForUseOnlineSaysWhyPhysicsIsLeftOut) {
+  const test::TemporaryFolder folder;
+  const std::string model = folder / "best.dcnn";
+  const auto result = test::run("train", {"--model", "auto", "--online", "--preset", "quick",
+                                          "--epochs", "1", "--train", kTrain, "--out", model});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("physics is left out: with --online"), std::string::npos) << result.err;
+  EXPECT_TRUE(result.out.starts_with("chosen: ")) << result.out;
+  const auto served = test::run("run", {"--model", model, "--stdin", "-q"}, {.input = kTest});
+  EXPECT_EQ(served.exit_code, 0) << served.err;
+}
+
 }  // namespace
 }  // namespace dcnn
