@@ -227,8 +227,10 @@ std::string with_unit(double value, const std::string& unit) {
 std::string with_interval(double value, double low, double high, const std::string& unit) {
   const auto [factor, name] =
       readable(std::max({std::abs(value), std::abs(low), std::abs(high)}), unit);
-  return three_digits(factor * value) + (name.empty() || name == "1" ? "" : " " + name) + " (" +
-         three_digits(factor * low) + " to " + three_digits(factor * high) + ")";
+  const std::string text =
+      three_digits(factor * value) + (name.empty() || name == "1" ? "" : " " + name);
+  const std::string from = three_digits(factor * low), to = three_digits(factor * high);
+  return from == to ? text : text + " (" + from + " to " + to + ")";
 }
 
 }  // namespace dcnn
