@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <iostream>
 #include <numeric>
+#include <set>
 
 #include "dcnn/core/number.h"
 #include "dcnn/core/ranks.h"
@@ -110,9 +111,11 @@ std::string size_of_model(const Json& summary) {
     size = std::to_string(count) + " parameters";
   }
   if (!summary.contains("base_effects")) return size;
+  std::set<std::string> kinds;  // one may act along several axes
   std::string effects;
   for (const Json& name : summary["base_effects"]) {
-    effects += (effects.empty() ? " with " : ", ") + words_of_effect(name.get<std::string>());
+    if (!kinds.insert(name.get<std::string>()).second) continue;
+    effects += (kinds.size() == 1 ? " with " : ", ") + words_of_effect(name.get<std::string>());
   }
   return size + (size.empty() ? "" : " beside a ") + "simulator" + effects;
 }
