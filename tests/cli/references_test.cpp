@@ -46,7 +46,11 @@ TEST(References, StandBesideEveryModelOfTrainAndEval) {
   ASSERT_EQ(trained.exit_code, 0) << trained.err;
   EXPECT_TRUE(trained.out.starts_with("cf.dcnn: its error is ")) << trained.out;
   EXPECT_NE(trained.out.find("rigid tool"), std::string::npos);
-  const auto scored = test::run("eval", {model, "--data", kTest, "--snr", "clean", "--json"});
+  const auto scored = test::run(
+      "eval", {model, "--data", kTest, "--snr", "clean", "--json", "--out", folder / "page"});
+  const std::string page = test::slurp(folder / "page/report.html");  // shows no target twice
+  EXPECT_NE(page.find("The other targets over time"), std::string::npos);
+  EXPECT_EQ(page.find("Prediction over time"), std::string::npos);
   const Json json = parse_json(scored.out, "eval", Exit::kFailure);
   const Json& references = json["references"];
   EXPECT_NEAR(references["white_noise"][0].get<double>(), 0.04, 0.003);
