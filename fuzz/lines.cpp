@@ -31,33 +31,16 @@ void check(std::string_view line, double bound) {
   }
 }
 
-/// A copy with a name that ends in .json, gone when the program ends.
-struct NamedFile {
-  explicit NamedFile(const std::filesystem::path& from)
-      : path(std::filesystem::temp_directory_path() /
-             ("dcnn-fuzz-" + std::to_string(::getpid()) + ".json")) {
-    write_file(path, read_file(from, 4096, Exit::kData));
-  }
-  ~NamedFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
-  NamedFile(const NamedFile&) = delete;
-  NamedFile& operator=(const NamedFile&) = delete;
-
-  std::filesystem::path path;
-};
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const fuzz::MemoryFile simulator(
+  static const fuzz::NamedFile model(
+      std::filesystem::temp_directory_path(), ".json",
       R"({"tool": {"mass_kg": 0.7, "com_m": [0, 0, 0.1]}, "model": {"inertial": "none"}, "sample_rate_hz": 500,
           "derivative": {"kind": "sg_causal", "window_s": 0.02, "order": 2}})");
-  static const NamedFile model(simulator.path());
   CompensatorOptions options;
   OnlineFiles files;
-  files.model = model.path;
+  files.model = model.path();
   OnlineCompensator compensator = open_compensator(files, options, [](const std::string&) {});
   const fuzz::MemoryFile in(fuzz::text_of(data, size)), out("");
   const int source = ::open(in.path().c_str(), 0), sink = ::open(out.path().c_str(), 2);
