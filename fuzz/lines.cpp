@@ -34,18 +34,13 @@ void check(std::string_view line, double bound) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const fuzz::MemoryFile simulator(
+  static const fuzz::NamedFile model(
+      std::filesystem::temp_directory_path(), ".json",
       R"({"tool": {"mass_kg": 0.7, "com_m": [0, 0, 0.1]}, "model": {"inertial": "none"}, "sample_rate_hz": 500,
           "derivative": {"kind": "sg_causal", "window_s": 0.02, "order": 2}})");
-  static const std::filesystem::path model = [] {
-    const auto path = std::filesystem::temp_directory_path() /
-                      ("dcnn-fuzz-" + std::to_string(::getpid()) + ".json");
-    write_file(path, read_file(simulator.path(), 4096, Exit::kData));
-    return path;
-  }();
   CompensatorOptions options;
   OnlineFiles files;
-  files.model = model;
+  files.model = model.path();
   OnlineCompensator compensator = open_compensator(files, options, [](const std::string&) {});
   const fuzz::MemoryFile in(fuzz::text_of(data, size)), out("");
   const int source = ::open(in.path().c_str(), 0), sink = ::open(out.path().c_str(), 2);

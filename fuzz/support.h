@@ -2,6 +2,7 @@
 // nothing else comes out.
 #pragma once
 
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -41,6 +42,35 @@ inline void demand(bool holds, const char* what) {
   std::fprintf(stderr, "fault: %s\n", what);
   std::abort();
 }
+
+/// Bytes as a file with a name of this process, gone when it ends.
+class NamedFile {
+ public:
+  explicit NamedFile(const std::filesystem::path& folder, const std::string& ending = "")
+      : path_(folder / ("dcnn-fuzz-" + std::to_string(::getpid()) + ending)),
+        descriptor_(::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {}
+  NamedFile(const std::filesystem::path& folder, const std::string& ending, std::string_view bytes)
+      : NamedFile(folder, ending) {
+    write(bytes);
+  }
+  ~NamedFile() {
+    ::close(descriptor_);
+    ::unlink(path_.c_str());
+  }
+  NamedFile(const NamedFile&) = delete;
+  NamedFile& operator=(const NamedFile&) = delete;
+
+  void write(std::string_view bytes) const {
+    demand(::ftruncate(descriptor_, 0) == 0 &&
+               ::pwrite(descriptor_, bytes.data(), bytes.size(), 0) == ssize_t(bytes.size()),
+           "no room for a file");
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_;
+};
 
 /// Runs what reads; any exception but an Error of the user's is a fault.
 template <class Read>

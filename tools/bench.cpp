@@ -88,13 +88,15 @@ int main(int argc, char** argv) {
       .with_default();
   const PrecisionFlag precision(tool);
   const ReadFlags read(tool);
+  const SeedFlag seed_flag(tool);
+  tool.shares_work();
 
   return tool.run(argc, argv, [&] {
     require(with_peers || !request.models.empty(), Exit::kUsage,
             "no model; give a file written by dcnn-train, or --peers");
     request.read = read.options();
     request.precision = precision.value();
-    request.seed = tool.common().seed.value_or(1);
+    request.seed = seed_flag.value();
     const bool quiet = tool.common().quiet;
     std::optional<Peers> peers;  // first, while this process is on all processors
     if (with_peers) {

@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
   const Output folder = tool.output("--out", out, "folder for check.json and check.html",
                                     {"check.json", "check.html"});
   const ReadFlags read(tool);
+  tool.shares_work();
 
   return tool.run(argc, argv, [&] {
     request.read = read.options();

@@ -162,6 +162,8 @@ int main(int argc, char** argv) {
     require(std::filesystem::exists(seal), Exit::kData, seal.string(),
             ": does not exist; --seal names the file of answers that dcnn-conceal --seal wrote");
   });
+  const SeedFlag seed_flag(tool);
+
   return tool.run(argc, argv, [&] {
     if (list) {
       for (const std::string& kind : conceal::faulty_kinds()) std::cout << kind << "\n";
@@ -169,7 +171,7 @@ int main(int argc, char** argv) {
     }
     require(!out.empty() && !seal.empty(), Exit::kUsage, "--out and --seal are required");
     if (score) return judge(tool, out, seal);
-    const std::uint64_t seed = tool.common().seed.value_or(1);
+    const std::uint64_t seed = seed_flag.value();
     if (!fault.empty()) {
       const auto log = injection.motion.empty() ? std::filesystem::path() : injection.motion[0];
       return print(tool, 1, seed, write_faulty(fault, log, seed, out, seal), seal);

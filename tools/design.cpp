@@ -61,13 +61,16 @@ int main(int argc, char** argv) {
       .between(1, 100000);
   tool.output("--out", out, "motion.csv to write: t, joints where the limits are of joints, pose")
       .required();
+  const SeedFlag seed_flag(tool);
+  tool.shares_work();
+
   return tool.run(argc, argv, [&] {
     const Path file = file_of(report, "report.json");
     request.where = file.string();
     request.report = read_json(file, Exit::kData);
     request.model = read_json(file_of(report, "model.json"), Exit::kData);
     request.limits = design::read_limits(limits);
-    request.seed = tool.common().seed.value_or(1);
+    request.seed = seed_flag.value();
     Progress bar(tool.common().quiet);
     const Design made =
         design::make_design(request, [&](double share) { bar.update(share, "motions"); });

@@ -116,6 +116,7 @@ int main(int argc, char** argv) {
   tool.check([&] { expect_apart(request.fit, request.holdout); });
   const ReadFlags read(tool);
   const Doctor doctor(tool);
+  tool.shares_work();
 
   return tool.run(argc, argv, [&] {
     request.read = read.options();

@@ -75,13 +75,15 @@ int main(int argc, char** argv) {
               "CSV of the measured forces and those of the first model, without added noise");
   const PrecisionFlag precision(tool);
   const ReadFlags read(tool);
+  const SeedFlag seed_flag(tool);
+  tool.shares_work();
 
   return tool.run(argc, argv, [&] {
     request.levels = parse_levels(levels);
     request.matlab_noise = noise_mode == "matlab";
     if (noise_on == "pose") request.noise_on = NoiseSpec::Signal::kPose;
     request.noisy_entries = noise_on == "entries";
-    request.seed = tool.common().seed.value_or(1);
+    request.seed = seed_flag.value();
     request.read = read.options();
     request.precision = precision.value();
     Progress bar(tool.common().quiet);

@@ -127,5 +127,7 @@ int main(int argc, char** argv) {
     require(!command.save || !command.fit.empty(), Exit::kUsage,
             "--save is for the model that --fit refines");
   });
+  tool.shares_work();
+
   return tool.run(argc, argv, [&] { return forward(command, read.options(), tool); });
 }

@@ -193,6 +193,7 @@ int main(int argc, char** argv) {
   tool.check([&] { expect_apart(command.request.logs, command.arm.holdout); });
   const ReadFlags read(tool);
   const Doctor doctor(tool);
+  tool.shares_work();
 
   return tool.run(argc, argv, [&] {
     require(command.formats.empty() == command.export_to.empty(), Exit::kUsage,

@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
   tool.option("--controller", sensor.peer, "the controller's address").with_default();
   tool.output("--out", out, "folder for the controller's report.html, SVG and CSV",
               {"report.html", "teleop.json", "live.csv"});
+  const SeedFlag seed_flag(tool);
 
   return tool.run(argc, argv, [&] {
     TeleopConfig config =
@@ -60,7 +61,7 @@ int main(int argc, char** argv) {
                      config_path.string());
     if (seconds > 0.0) config.duration_s = seconds;
     const PacketKey key = read_packet_key(key_file);
-    const std::uint64_t seed = tool.common().seed.value_or(1);
+    const std::uint64_t seed = seed_flag.value();
     if (role == "sensor") {
       const Json times = run_live_sensor(config, identifier, sensor, key, seed);
       if (tool.common().json) {

@@ -97,6 +97,8 @@ int main(int argc, char** argv) {
   tool.check([&] {
     if (onnx) expect_kind("--onnx", model, {FileKind::kModel});
   });
+  tool.shares_work();
+
   return tool.run(argc, argv, [&] {
     require(data.has_value() == out.has_value() && (data || onnx), Exit::kUsage,
             "give --data and --out to predict, --onnx to export, or all three");

@@ -137,6 +137,8 @@ int main(int argc, char** argv) {
                   .between(1, 1024);
   const ReadFlags read(tool);
   const Doctor doctor(tool);
+  const SeedFlag seed_flag(tool);
+  tool.shares_work();
 
   return tool.run(argc, argv, [&] {
     request.read = read.words();
@@ -144,7 +146,7 @@ int main(int argc, char** argv) {
     request.recipe = read.recipe();
     if (!jobs.given()) request.jobs = threads();
     request.programs = std::filesystem::canonical("/proc/self/exe").parent_path();
-    request.seed = tool.common().seed.value_or(1);
+    request.seed = seed_flag.value();
     if (repeat == "training") request.trainings = trainings;
     if (request.out.empty()) request.out = "out/reproduce-" + request.preset;
     if (!plan_only) return work(request, tool);

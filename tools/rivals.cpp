@@ -62,6 +62,8 @@ int main(int argc, char** argv) {
       .required();
 
   tool.check([&] { expect_apart(request.fit, request.holdout); });
+  tool.shares_work();
+
   return tool.run(argc, argv, [&] {
     Json reports = rivals::run(request);
     for (const std::string& network : networks) {

@@ -81,10 +81,11 @@ int main(int argc, char** argv) {
       .required()
       .file_with(with_motion);
   const ReadFlags read(tool);
+  const SeedFlag seed_flag(tool, "the configuration's");
 
   return tool.run(argc, argv, [&] {
     require(!config.empty() || !sim.empty(), Exit::kUsage, "give --config, or --sim with --motion");
-    const Json summary = sim.empty() ? simulate_folder(config, out, tool.common().seed)
+    const Json summary = sim.empty() ? simulate_folder(config, out, seed_flag.given())
                                      : simulate_motion(sim, motion, out, read.options());
     if (tool.common().json) {
       Tool::print(summary);

@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
   tool.output("--out", out, "folder for report.html, teleop.json, SVG and CSV",
               {"report.html", "teleop.json", "*.svg", "*.csv"})
       .required();
+  const SeedFlag seed_flag(tool);
 
   return tool.run(argc, argv, [&] {
     const TeleopConfig config =
@@ -54,7 +55,7 @@ int main(int argc, char** argv) {
                      config_path.string());
     const Eigen::Matrix3d R_ES =
         calibration.empty() ? config.tool.model.R_ES() : read_calibration(calibration).R_ES;
-    const std::uint64_t seed = tool.common().seed.value_or(1);
+    const std::uint64_t seed = seed_flag.value();
 
     std::vector<Variant> variants;
     variants.push_back({"ideal", Variant::Kind::kIdeal, nullptr});

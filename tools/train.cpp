@@ -5,9 +5,11 @@
 #include <iomanip>
 #include <iostream>
 #include <numeric>
+#include <set>
 
 #include "dcnn/core/number.h"
 #include "dcnn/core/ranks.h"
+#include "dcnn/physics/effect_words.h"
 #include "support/apart.h"
 #include "support/doctor.h"
 #include "support/interrupt.h"
@@ -49,7 +51,11 @@ class Observer {
   explicit Observer(const Tool& tool) : bar_(tool.common().quiet) {}
 
   TrainingObserver callbacks() {
-    return {[] { return interrupted(); }, [this](const std::string& text) { bar_.line(text); },
+    return {[] { return interrupted(); },
+            [this](const std::string& text) {
+              bar_.line(text);
+              last_.clear();  // of another model, where several are tried
+            },
             [this](const TrainingProgress& p) { show(p); }};
   }
   void clear() { bar_.clear(); }
@@ -97,13 +103,30 @@ void print_comparison(const Json& summary) {
   print_row("white noise", references["white_noise"]);
 }
 
+/// "14155 parameters", "simulator with dry friction", or the one beside the other.
+std::string size_of_model(const Json& summary) {
+  std::string size;
+  const auto count = summary["parameters"].get<Index>();
+  if (count > 0 || !summary.contains("base_effects")) {
+    size = std::to_string(count) + " parameters";
+  }
+  if (!summary.contains("base_effects")) return size;
+  std::set<std::string> kinds;  // one may act along several axes
+  std::string effects;
+  for (const Json& name : summary["base_effects"]) {
+    if (!kinds.insert(name.get<std::string>()).second) continue;
+    effects += (kinds.size() == 1 ? " with " : ", ") + words_of_effect(name.get<std::string>());
+  }
+  return size + (size.empty() ? "" : " beside a ") + "simulator" + effects;
+}
+
 void print_summary(const Json& summary) {
   for (const Json& warning : summary.value("warnings", Json::array())) {
     std::cout << warning.get<std::string>() << "\n";
   }
   if (summary.contains("choice")) std::cout << summary["choice"]["why"].get<std::string>() << "\n";
-  std::cout << "model       " << summary["file"].get<std::string>() << " (" << summary["parameters"]
-            << " parameters)\n"
+  std::cout << "model       " << summary["file"].get<std::string>() << " ("
+            << size_of_model(summary) << ")\n"
             << "rows        " << summary["training_rows"] << " training, "
             << summary["validation_rows"] << " validation\n";
   print_comparison(summary);
@@ -177,10 +200,12 @@ int main(int argc, char** argv) {
   });
   const ReadFlags read(tool);
   const Doctor doctor(tool);
+  const SeedFlag seed_flag(tool, "the configuration's");
+  tool.shares_work();
 
   return ranks.leave(tool.run(argc, argv, [&] {
     request.read = read.options();
-    flags.seed = tool.common().seed;
+    flags.seed = seed_flag.given();
     const auto run = run_directory(request.out);
     require(!is_first_rank() || request.resume || tool.common().force ||
                 !std::filesystem::exists(run / "checkpoint.safetensors"),

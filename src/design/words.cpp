@@ -17,6 +17,28 @@ std::string percent(double share) {
   return text;
 }
 
+/// A size or probability of which nobody needs more than that it is next to nothing.
+std::string or_less(double value) {
+  constexpr double kLeast = 0.01;
+  return value < kLeast ? "less than 0.01" : brief(value);
+}
+
+/// What the motion decides of the pair that it was made for, and how probably of all.
+std::string verdict_words(const Design& design) {
+  constexpr double kIndistinct = 1.0;  // deviation of the noise over all rows
+  const Verdict& v = design.verdicts.front();
+  const std::string one = words_of_structure(v.one), other = words_of_structure(v.other);
+  if (v.separation < kIndistinct) {
+    return "; no motion that was tried within these limits tells " + one + " from " + other +
+           ": they differ by less than the noise";
+  }
+  std::string words = "; if it is " + one + ", then " + other + " is " + brief(v.separation) +
+                      " deviations of the noise away";
+  if (design.probability)
+    words += ", and with probability " + or_less(*design.probability) + " one model is left";
+  return words;
+}
+
 /// Changes of direction of a coordinate that has moved by more than a hundredth of its range since
 /// the last.
 int reversals(const Eigen::VectorXd& x) {
@@ -77,14 +99,7 @@ std::string motion_words(const Played& played, const Question& question, const D
   const auto parts = coordinate_words(played);
   for (std::size_t k = 0; k < parts.size(); ++k) out << (k > 0 ? ", " : "") << parts[k];
   if (parts.empty()) out << "nothing: the limits leave no room";
-  if (!design.verdicts.empty()) {
-    const Verdict& first = design.verdicts.front();
-    out << "; if it is " << words_of_structure(first.one) << ", then "
-        << words_of_structure(first.other) << " is " << brief(first.separation)
-        << " deviations of the noise away";
-    if (design.probability)
-      out << ", and with probability " << brief(*design.probability) << " one model is left";
-  }
+  if (!design.verdicts.empty()) out << verdict_words(design);
   if (question.unknown > 0.5)
     out << "; what no name describes is seen in all directions and speeds of these limits";
   return out.str();
@@ -124,17 +139,17 @@ std::string to_text(const Design& design) {
   std::ostringstream out;
   for (const Verdict& v : design.verdicts) {
     out << "if          it is " << words_of_structure(v.one) << ", not "
-        << words_of_structure(v.other) << ": " << brief(v.separation)
-        << " deviations apart, left alone with probability " << brief(v.probability) << "\n";
+        << words_of_structure(v.other) << ": " << or_less(v.separation)
+        << " deviations apart, left alone with probability " << or_less(v.probability) << "\n";
   }
-  out << "unknown     probability " << brief(design.unknown) << ", " << brief(design.information)
+  out << "unknown     probability " << or_less(design.unknown) << ", " << brief(design.information)
       << " nats for each state that a law may depend on\n";
   out << "limits      ";
   for (std::size_t k = 0; k < design.limits.size(); ++k)
     out << (k > 0 ? ", " : "") << design.limits[k];
   out << "\nmotion      " << design.words << "\n";
   if (design.probability)
-    out << "decides     with probability " << brief(*design.probability) << "\n";
+    out << "decides     with probability " << or_less(*design.probability) << "\n";
   return out.str();
 }
 

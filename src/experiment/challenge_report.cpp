@@ -32,22 +32,21 @@ void add_table(HtmlReport& page, const std::string& title, const Json& table,
 /// Rates of one key over the rows of a table, with their intervals.
 void add_rates(HtmlReport& page, const Json& table, const std::string& key,
                const std::string& title) {
-  Chart chart{title, "", "rate", {}, {}, false, 720, 320, true};
+  Chart chart{title, "", "rate", {}, {}, false, 720, 320};
+  chart.legend = false;
   Series rates{"rate", {}, {}, {}, Series::Style::kMarkers};
-  Series intervals{"middle of the 95 % interval", {}, {}, {}, Series::Style::kMarkers};
   for (const auto& [label, summary] : table.items()) {
     const Json rate = summary.value(key, Json());
     if (rate.is_null() || rate["rate"].is_null()) continue;
     const double low = rate["low"], high = rate["high"];
     rates.x.push_back(static_cast<double>(chart.categories.size()));
     rates.y.push_back(rate["rate"]);
-    intervals.x.push_back(rates.x.back());
-    intervals.y.push_back(0.5 * (low + high));
-    intervals.error.push_back(0.5 * (high - low));
+    rates.middle.push_back(0.5 * (low + high));
+    rates.error.push_back(0.5 * (high - low));
     chart.categories.push_back(label);
   }
-  chart.series = {rates, intervals};
-  if (!rates.x.empty()) page.chart(chart, "Wilson's 95 % intervals.");
+  chart.series = {rates};
+  if (!rates.x.empty()) page.chart(chart, "Bars: Wilson's 95 % intervals.");
 }
 
 /// What a reader should see first: the error before, after, and where it cannot fall further.
@@ -163,7 +162,7 @@ std::string challenge_html(const Json& scores) {
                         {"axis", "axis"},
                         {"interval_overlap", "overlap of intervals"},
                         {"parameter_error", "relative error of a number"},
-                        {"coverage", "truth within ci95"}};
+                        {"coverage", "truth within the 95 % interval"}};
   add_table(page, "By effect", tables["effect"], effects);
   add_table(page, "By amplitude", tables["amplitude"], effects);
   const Columns groups{{"set", "all named, nothing else"},

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <set>
 #include <string>
@@ -23,7 +24,7 @@ const Columns kHeadline{{"top1", "first name is right"},
                         {"axis", "axis right"},
                         {"interval_overlap", "overlap of intervals"},
                         {"parameter_error", "relative error of a number"},
-                        {"coverage", "truth within ci95"},
+                        {"coverage", "truth within the 95 % interval"},
                         {"after_over_oracle", "hold-out error over the true law's"},
                         {"after_over_floor", "hold-out error over the estimated floor"},
                         {"seconds", "seconds a scenario"},
@@ -127,6 +128,13 @@ std::vector<std::vector<std::string>> headline_rows(const Json& scores) {
   return rows;
 }
 
+namespace {
+
+/// Three decimals of a ratio near 1, two digits of an error.
+std::string plain(double value) { return text_of(std::abs(value) < 0.1 ? "%.2g" : "%.4g", value); }
+
+}  // namespace
+
 std::string score_text(const Json& value) {
   if (value.is_null()) return "";
   if (value.contains("rate")) {
@@ -135,7 +143,10 @@ std::string score_text(const Json& value) {
                    100.0 * value["low"].get<double>(), 100.0 * value["high"].get<double>()) +
            " of " + value["n"].dump();
   }
-  return text_of("%.4g, 90 %% below %.4g", value["median"], value["p90"]);
+  constexpr double kLeast = 1e-4;  // below which a median is as good as nothing
+  const double median = value["median"], most = value["p90"];
+  const std::string below = "90 % below " + plain(std::max(most, kLeast));
+  return (median < kLeast ? "below 0.0001" : plain(median)) + ", " + below;
 }
 
 Json beside_rivals(const Json& scores) {

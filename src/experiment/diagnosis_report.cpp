@@ -138,9 +138,9 @@ void add_budget(const Json& report, HtmlReport& page) {
 std::string to_html(const Diagnosis& diagnosis) {
   const Json& report = diagnosis.report;
   HtmlReport page("Diagnosis: what the simulator leaves out");
+  page.paragraph(headline(report));
   for (const Json& line : report.value("check", Json::array()))
     page.paragraph(line.get<std::string>());
-  page.paragraph(headline(report));
   add_picture(diagnosis, page);
   add_errors(report, page);
   add_findings(report, page);

@@ -136,9 +136,13 @@ Chart trace_chart(const Evaluation& evaluation, std::size_t j) {
   return chart;
 }
 
+bool has_levels(const Evaluation& evaluation) {
+  return evaluation.summary.front().overall && level_names(evaluation).size() > 1;
+}
+
 /// One picture beside the answer: the error over noise, or where no noise was asked for a trace.
 void add_picture(HtmlReport& page, const Evaluation& evaluation) {
-  if (evaluation.summary.front().overall && level_names(evaluation).size() > 1) {
+  if (has_levels(evaluation)) {
     page.chart(level_chart(evaluation, "Error over noise on the input", evaluation.targets.units[0],
                            [](const EvaluationSummary& s) { return *s.overall; }),
                "Mean of the RMSEs per axis (Eq. 6); bars: mean, whiskers: one standard deviation "
@@ -168,8 +172,10 @@ void add_levels(HtmlReport& page, const Evaluation& evaluation) {
 
 void add_traces(HtmlReport& page, const Evaluation& evaluation) {
   if (evaluation.traces.empty()) return;
-  page.heading("Prediction over time");
-  for (std::size_t j = 0; j < evaluation.targets.names.size(); ++j) {
+  const std::size_t begin = has_levels(evaluation) ? 0 : 1;  // the picture is that of the first
+  if (begin < evaluation.targets.names.size())
+    page.heading(begin == 0 ? "Prediction over time" : "The other targets over time");
+  for (std::size_t j = begin; j < evaluation.targets.names.size(); ++j) {
     page.chart(trace_chart(evaluation, j), evaluation.data.front() + ", input without added noise");
   }
   page.heading("Residuals");
@@ -238,10 +244,12 @@ void add_settings(HtmlReport& page, const Evaluation& evaluation,
       {"noise on", evaluation.noise}};
   for (const auto& path : request.models) {
     const Identifier identifier = read_identifier(path);
+    const auto count = identifier.model->parameter_count();
     rows.push_back({path.filename().string(),
                     identifier.configuration.value("preset", "") + " preset, seed " +
                         std::to_string(identifier.seed) + ", " +
-                        std::to_string(identifier.model->parameter_count()) + " parameters"});
+                        (count == 0 && identifier.base ? "a simulator"
+                                                       : std::to_string(count) + " parameters")});
   }
   page.table({"setting", "value"}, rows);
   for (const auto& note : evaluation.notes) page.paragraph(note);

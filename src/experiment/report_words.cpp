@@ -85,6 +85,15 @@ const std::map<std::string, std::string>& special_words() {
   return kWords;
 }
 
+/// Of an axis, which turns or slides: its parameters have no unit in their name.
+const std::map<std::string, std::string>& axis_stem_words() {
+  static const std::map<std::string, std::string> kWords{{"fc", "friction"},
+                                                         {"fs", "friction at standstill"},
+                                                         {"width", "path over which it reverses"},
+                                                         {"rest", "position at rest"}};
+  return kWords;
+}
+
 constexpr const char* kShare = "share";
 
 /// A unit too large for what is measured in it, and a thousandth of it.
@@ -187,6 +196,8 @@ std::string words_of_parameter(const std::string& effect, const std::string& nam
       const std::string end = letters.empty() ? "" : ", " + letters;
       const auto special = special_words().find(effect + "." + stem);
       if (special != special_words().end()) return special->second + end;
+      const auto of_axis = axis_stem_words().find(stem);
+      if (stem == name && of_axis != axis_stem_words().end()) return of_axis->second;
       const auto found = stem_words().find(stem);
       if (found != stem_words().end()) return found->second + end;
     }
@@ -219,8 +230,10 @@ std::string with_unit(double value, const std::string& unit) {
 std::string with_interval(double value, double low, double high, const std::string& unit) {
   const auto [factor, name] =
       readable(std::max({std::abs(value), std::abs(low), std::abs(high)}), unit);
-  return three_digits(factor * value) + (name.empty() || name == "1" ? "" : " " + name) + " (" +
-         three_digits(factor * low) + " to " + three_digits(factor * high) + ")";
+  const std::string text =
+      three_digits(factor * value) + (name.empty() || name == "1" ? "" : " " + name);
+  const std::string from = three_digits(factor * low), to = three_digits(factor * high);
+  return from == to ? text : text + " (" + from + " to " + to + ")";
 }
 
 }  // namespace dcnn

@@ -17,7 +17,8 @@ std::string unit_in_words(const std::string& effect, const std::string& name,
                           const std::string& unit);
 /// "3.2 g" for 0.0032 kg, "402 mN" or "0.402 N"; three digits.
 std::string with_unit(double value, const std::string& unit);
-/// The same for a value and its interval, in one unit: "0.402 N (0.398 to 0.406)".
+/// The same for a value and its interval, in one unit: "0.402 N (0.398 to 0.406)"; without an
+/// interval that three digits do not show.
 std::string with_interval(double value, double low, double high, const std::string& unit);
 
 }  // namespace dcnn

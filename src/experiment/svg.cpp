@@ -47,6 +47,14 @@ class Drawing {
     return i < errors.size() && std::isfinite(errors[i]) ? std::abs(errors[i]) : 0;
   }
 
+  /// Ends of an error bar; both the point itself where there is none.
+  std::pair<double, double> bar_ends(std::size_t k, std::size_t i) const {
+    const Series& series = chart_.series[k];
+    const double middle = i < series.middle.size() ? series.middle[i] : series.y[i];
+    const double half = error(k, i);
+    return {std::min(series.y[i], middle - half), std::max(series.y[i], middle + half)};
+  }
+
   bool apart(const Series& series) const {
     return chart_.side_by_side && series.style == Series::Style::kMarkers;
   }
@@ -79,8 +87,9 @@ class Drawing {
         left = std::min(left, series.x[i] - half);
         right = std::max(right, series.x[i] + half);
         // On a logarithmic axis a bar that reaches down to nearly zero would squeeze all data.
-        low = std::min(low, series.y[i] - (chart_.log_y ? 0 : error(k, i)));
-        high = std::max(high, series.y[i] + error(k, i));
+        const auto [bar_low, bar_high] = bar_ends(k, i);
+        low = std::min(low, chart_.log_y ? series.y[i] : bar_low);
+        high = std::max(high, bar_high);
         if (has_bars(series) && !chart_.log_y) low = std::min(low, 0.0), high = std::max(high, 0.0);
       }
     }
@@ -155,9 +164,9 @@ class Drawing {
   }
 
   void draw_error(std::size_t k, std::size_t i, double x) {
-    const double half = error(k, i), y = chart_.series[k].y[i];
-    if (half == 0) return;
-    const double low = at(0, y - half).y, high = at(0, y + half).y;
+    if (error(k, i) == 0) return;
+    const auto [bar_low, bar_high] = bar_ends(k, i);
+    const double low = at(0, bar_low).y, high = at(0, bar_high).y;
     const std::string dark =
         has_bars(chart_.series[k]) ? "stroke=\"#1a1a1a\"" : stroke(look(chart_, k));
     body_ += line({x, low}, {x, high}, dark);

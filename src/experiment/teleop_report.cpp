@@ -102,19 +102,23 @@ Table signals(const TeleopTrace& trace) {
   return table;
 }
 
-/// What the compensation does to the force that the hand feels in free motion, in one sentence.
-std::string teleop_answer(const std::vector<TeleopResult>& results) {
+std::string words_of_variant(const std::string& name) {
   static const std::map<std::string, std::string> kWords{
       {"ideal", "where the tool's own force is known exactly"},
       {"none", "without force feedback"},
       {"ns", "with the sensor's raw force"}};
+  const auto known = kWords.find(name);
+  return known == kWords.end() ? "with " + name : known->second;
+}
+
+/// What the compensation does to the force that the hand feels in free motion, in one sentence.
+std::string teleop_answer(const std::vector<TeleopResult>& results) {
   std::string text;
   for (const TeleopResult& r : results) {
     const Json& felt = r.row["handle_force_free_rms_n"];
     if (!felt.is_number()) continue;
-    const auto known = kWords.find(r.name);
     text += (text.empty() ? "" : ", ") + with_unit(felt.get<double>(), "N") + " " +
-            (known == kWords.end() ? "with " + r.name : known->second);
+            words_of_variant(r.name);
   }
   return "In free motion, where there is nothing to feel, the hand feels " + text + " (rms).";
 }
@@ -154,7 +158,7 @@ void write_teleop(const std::filesystem::path& folder, const TeleopConfig& confi
   }
   for (const TeleopResult& result : results) {
     variants.push_back(result.row);
-    page.heading("Fig. 6 with " + result.name);
+    page.heading("Fig. 6, " + words_of_variant(result.name));
     const auto rows = figure_six(result, config);
     for (std::size_t k = 0; k < rows.size(); ++k) {
       page.chart(rows[k], "");

@@ -47,6 +47,12 @@ std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
   return recordings;
 }
 
+Json effects_of(const Simulator& simulator) {
+  Json names = Json::array();
+  for (const EffectSpec& spec : simulator.effects) names.push_back(spec.effect);
+  return names;
+}
+
 /// Names the configuration and every number that is learned from, so that a resumed run is the same
 /// run.
 std::string identity_of(const Json& configuration, const Samples& training,
@@ -248,6 +254,7 @@ TrainingOutcome train(const TrainingRequest& request, const TrainingObserver& ob
                      {"units", identifier.targets.units},
                      {"notes", notes},
                      {"run_directory", folder.string()}};
+  if (identifier.base) outcome.summary["base_effects"] = effects_of(*identifier.base);
   if (outcome.finished) {
     const auto& layout = identifier.layout;
     if (identifier.base && validation.rows() > 0) {

@@ -57,6 +57,14 @@ Json choice(const std::vector<Tried>& tried, const Tried& best) {
                       " % of that of predicting zero (mean over the targets); " + words}};
 }
 
+std::string why_no_physics(const TrainingRequest& request) {
+  return std::string(kPhysics) + " is left out: " +
+         (request.configuration.online
+              ? "with --online a model learns its limits; dcnn-run takes model.json of "
+                "dcnn-diagnose"
+              : "it is tried for a tool on a wrist; dcnn-diagnose corrects machines of axes");
+}
+
 /// Trains one of them; nothing where the recordings suffice for an earlier one and not for it.
 std::optional<TrainingOutcome> attempt(const TrainingRequest& request, bool is_first,
                                        const TrainingObserver& observer) {
@@ -106,7 +114,10 @@ TrainingOutcome train_best(const TrainingRequest& request, const TrainingObserve
   const bool list = !has_time(read_table(request.training.front()).table);
   for (const char* model : kTried) {
     const bool physics = model == std::string(kPhysics);
-    if (physics && !can_be_physics(request)) continue;
+    if (physics && !can_be_physics(request)) {
+      if (observer.note) observer.note(why_no_physics(request));
+      continue;
+    }
     if (list && (physics || !model_kind(model, Exit::kUsage).takes_static_lists)) {
       if (observer.note) observer.note(std::string(model) + " is left out: it learns from motion");
       continue;

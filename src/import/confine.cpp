@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -109,6 +110,7 @@ void enter_confinement(int pipe) {
   ::syscall(SYS_close_range, kPipe + 1, ~0U, 0);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, 0);
+  std::signal(SIGXFSZ, SIG_IGN);  // what a library says on a stderr that is a file is lost, no more
   limit(RLIMIT_NOFILE, kMostDescriptors);
   limit(RLIMIT_CPU, kMostSeconds);
 #ifndef DCNN_SHADOW_MEMORY

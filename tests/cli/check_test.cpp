@@ -15,8 +15,9 @@ using testing::contains;
 
 /// FOLDER/log.csv and sim.json with a fault.
 void make_log(const test::TemporaryFolder& folder, const std::string& fault) {
+  const test::TemporaryFolder sealed;
   ASSERT_EQ(run("conceal", {"--fault", fault, "--seed", "1", "--out", folder.path().string(),
-                            "--seal", folder.path().string() + ".seal", "--force"})
+                            "--seal", sealed / "seal", "--force"})
                 .exit_code,
             0);
 }

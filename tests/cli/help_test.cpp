@@ -73,6 +73,19 @@ TEST(Help, IsShortAndSetsTheExitCodeWhereNothingIsGiven) {
   }
 }
 
+/// A command that draws nothing has no seed, and one that computes next to nothing no threads.
+TEST(Help, ShowsOnlyOptionsThatDoSomething) {
+  const Names seeded{"bench",     "conceal", "design", "eval", "live",
+                     "reproduce", "sim",     "teleop", "train"};
+  const Names idle{"calibrate", "conceal", "import", "live", "run", "sim", "sweep", "teleop"};
+  for (const std::string& verb : verbs()) {
+    SCOPED_TRACE(verb);
+    const Names options = in_help(test::run(verb, {"--help"}).out);
+    EXPECT_EQ(options.contains("--seed"), seeded.contains(verb));
+    EXPECT_NE(options.contains("--threads"), idle.contains(verb));
+  }
+}
+
 TEST(Help, NamesAMistypedOptionBeforeWhatIsMissingWithoutIt) {
   const auto typo = test::run("train", {"--trian", "a.csv"});
   EXPECT_EQ(typo.exit_code, 2);

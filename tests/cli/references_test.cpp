@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <random>
 
 #include "dcnn/core/json.h"
@@ -45,13 +46,38 @@ TEST(References, StandBesideEveryModelOfTrainAndEval) {
   ASSERT_EQ(trained.exit_code, 0) << trained.err;
   EXPECT_TRUE(trained.out.starts_with("cf.dcnn: its error is ")) << trained.out;
   EXPECT_NE(trained.out.find("rigid tool"), std::string::npos);
-  const auto scored = test::run("eval", {model, "--data", kTest, "--snr", "clean", "--json"});
+  const auto scored = test::run(
+      "eval", {model, "--data", kTest, "--snr", "clean", "--json", "--out", folder / "page"});
+  const std::string page = test::slurp(folder / "page/report.html");  // shows no target twice
+  EXPECT_NE(page.find("The other targets over time"), std::string::npos);
+  EXPECT_EQ(page.find("Prediction over time"), std::string::npos);
   const Json json = parse_json(scored.out, "eval", Exit::kFailure);
   const Json& references = json["references"];
   EXPECT_NEAR(references["white_noise"][0].get<double>(), 0.04, 0.003);
   EXPECT_LT(references["rigid_overall"].get<double>(),
             0.25 * json["summary"][0]["rmse_overall_mean"].get<double>());
   EXPECT_EQ(json["warnings"].size(), 1U);
+}
+
+TEST(References, AModelThatIsASimulatorSaysSoAndCountsNoParameters) {
+  const test::TemporaryFolder folder;
+  const std::string simulator = folder / "model.json";
+  Json json = read_json(DCNN_SOURCE_DIR "/data/sample/sim.json", Exit::kData);
+  json["effects"] = Json::array({Json{{"effect", "coulomb_friction"},
+                                      {"axis", "tool_z"},
+                                      {"parameters", {{"fc_n", 0.4}, {"v0_mps", 0.01}}}}});
+  std::ofstream(simulator) << json.dump();
+  const auto trained = [&](const std::string& kind) {
+    return test::run("train", {"-q", "--model", kind, "--base", simulator, "--preset", "quick",
+                               "--train", kTrain, "--out", folder / (kind + ".dcnn")});
+  };
+  const auto alone = trained("ns"), beside = trained("cf");
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_NE(alone.out.find("ns.dcnn (simulator with dry friction)\n"), std::string::npos)
+      << alone.out;
+  EXPECT_NE(beside.out.find(" parameters beside a simulator with dry friction)\n"),
+            std::string::npos)
+      << beside.out;
 }
 
 TEST(References, AutoKeepsTheBestAndSaysWhy) {
@@ -76,6 +102,18 @@ TEST(References, AutoKeepsTheBestAndSaysWhy) {
   // What it was fitted to ends a second before the validation rows.
   const std::string rows = test::slurp(folder / "best.run/physics/train_0.csv");
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1 + 2900);
+}
+
+TEST(References, AutoForUseOnlineSaysWhyPhysicsIsLeftOut) {
+  const test::TemporaryFolder folder;
+  const std::string model = folder / "best.dcnn";
+  const auto result = test::run("train", {"--model", "auto", "--online", "--preset", "quick",
+                                          "--epochs", "1", "--train", kTrain, "--out", model});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("physics is left out: with --online"), std::string::npos) << result.err;
+  EXPECT_TRUE(result.out.starts_with("chosen: ")) << result.out;
+  const auto served = test::run("run", {"--model", model, "--stdin", "-q"}, {.input = kTest});
+  EXPECT_EQ(served.exit_code, 0) << served.err;
 }
 
 }  // namespace

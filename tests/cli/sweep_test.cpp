@@ -45,9 +45,15 @@ class Sweep : public testing::Test {
 
 TEST_F(Sweep, KilledAtRandomGivesTheBytesOfAPlainRun) {
   plan("killed");
-  std::mt19937 random(1);  // the kills, not the results, depend on it
+  std::mt19937 random(1);                      // the kills, not the results, depend on it
+  const std::string scratch = folder_.path();  // in which a killed worker leaves its folder
   for (int k = 0; k < 20; ++k) {
-    const std::vector<std::string> share{"-q", "--plan", at("killed"), "--shard",
+    const std::vector<std::string> share{"-q",
+                                         "--plan",
+                                         at("killed"),
+                                         "--scratch",
+                                         scratch,
+                                         "--shard",
                                          std::to_string(1 + k % 2) + "/2"};
     const Process worker("sweep", share);
     std::this_thread::sleep_for(std::chrono::milliseconds(random() % 250));

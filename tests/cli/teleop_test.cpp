@@ -62,7 +62,7 @@ TEST(TeleopTool, AModelInTheLoopTakesMostOfTheWeightOffTheHand) {
   EXPECT_EQ(rows[5]["name"], "corrected");
   EXPECT_LT(rows[5]["master_drift_m"].get<double>(), 1e-3);
   const std::string page = test::slurp(out / "report.html");
-  EXPECT_TRUE(contains(page, "Fig. 6 with rigid") && contains(page, "robot base B"));
+  EXPECT_TRUE(contains(page, "Fig. 6, with rigid") && contains(page, "robot base B"));
   test::expect_usable_page(page);
   for (const char* file : {"teleop.json", "frames.svg", "comparison_0.svg", "rigid.csv"}) {
     EXPECT_TRUE(std::filesystem::exists(out / file)) << file;

@@ -144,8 +144,8 @@ TEST(NumberOutOfRange, IsRefusedWithItsBounds) {
                {"port 65536 is not between 1 and 65535"});
   expect_words(refusal("run", {"--model", sim, "--stdin", "--average", "17"}),
                {"--average", "17 is not between 1 and 16"});
-  expect_words(refusal("predict", {sim, "--data", kSampleFolder + "test.csv", "--out",
-                                   folder / "o.csv", "--seed", "-1"}),
+  expect_words(refusal("sim", {"--config", kConfigs + "sim/sample.json", "--out", folder / "o",
+                               "--seed", "-1"}),
                {"--seed", "-1"});
   expect_words(refusal("predict", {sim, "--data", kSampleFolder + "test.csv", "--out",
                                    folder / "o.csv", "--resample", "1e12"}),

@@ -2,23 +2,22 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "dcnn/core/error.h"
+#include "support/process.h"
 
 namespace dcnn::testing {
 
-using namespace ::testing;  // `testing::` in dcnn still names GoogleTest where this file is included
+using namespace ::testing;  // `testing::` in dcnn still names GoogleTest where this file is
+                            // included
 
-/// Writes a file into a folder of this process and gives its path.
+/// Writes a file into a folder of this process, which is gone when it ends, and gives its path.
 inline std::filesystem::path temporary_file(const std::string& name, const std::string& text) {
-  const auto folder =
-      std::filesystem::path(::testing::TempDir()) / ("dcnn" + std::to_string(::getpid()));
-  std::filesystem::create_directories(folder);
+  static const test::TemporaryFolder folder;
   std::ofstream(folder / name, std::ios::binary) << text;
   return folder / name;
 }

@@ -57,6 +57,18 @@ TEST(Design, NextMotionNamesThePairAndSaysHowProbableADecisionIs) {
       next_motion(make_design(request, {}), 10.0).is_null());  // nothing is left to be decided
 }
 
+TEST(Design, SaysWhereNoMotionDecides) {
+  DesignRequest request = test::friction_request();
+  request.evaluations = 5;
+  request.report["fit"]["noise_floor"] = {2e6, 2e6, 2e6};
+  const Design design = make_design(request, {});
+  const std::string all = design.words + to_text(design);
+  EXPECT_NE(all.find("no motion that was tried within these limits tells dry friction from"),
+            std::string::npos)
+      << all;
+  EXPECT_EQ(all.find("e-"), std::string::npos) << all;
+}
+
 TEST(Design, LeavesOutWhatTheNextRecordingCannotHold) {
   DesignRequest request = test::friction_request();
   Json contact = test::effect_json("contact", "",

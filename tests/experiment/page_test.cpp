@@ -110,6 +110,16 @@ TEST_F(Pages, OfADiagnosisAndACalibrationAreUsable) {
   test::expect_usable_page(to_html(example_calibration(), example_pairs()));
 }
 
+TEST_F(Pages, OfADiagnosisBeginWithItsAnswer) {
+  Diagnosis diagnosis = example_diagnosis(2000);
+  diagnosis.report["check"] = Json::array({"likely: a.csv: columns are exchanged"});
+  const std::string html = to_html(diagnosis);
+  const auto answer = html.find(headline(diagnosis.report).substr(0, 20)),
+             doubt = html.find("likely: a.csv");
+  ASSERT_TRUE(answer != html.npos && doubt != html.npos);
+  EXPECT_LT(answer, doubt);
+}
+
 TEST_F(Pages, HaveAPlotForEachTarget) {
   const Json seen = test::browse(to_html(example_diagnosis(2000)), test::kUse);
   EXPECT_EQ(seen["plots"].get<int>(), 4) << seen.dump();
@@ -166,6 +176,7 @@ TEST(ReportWords, SayUnitsAndNamesPeopleUse) {
   EXPECT_EQ(with_unit(2.5, "N*s^2/m^2"), "2.5 N·s²/m²");
   EXPECT_EQ(with_unit(3830.0, "N/m^3"), "3830 N/m³");
   EXPECT_EQ(with_interval(0.402, 0.398, 0.406, "N"), "0.402 N (0.398 to 0.406)");
+  EXPECT_EQ(with_interval(0.5, 0.49999, 0.50001, "m"), "500 mm");
   EXPECT_EQ(with_unit(0.0012, unit_in_words("gain", "gain_x", "")), "0.12 %");
   EXPECT_EQ(words_of_axis("tool_z"), "along the tool");
   EXPECT_EQ(words_of_axis("gamma:sensor_y"), "along the sensor's y axis, by the angle gamma");
@@ -173,6 +184,9 @@ TEST(ReportWords, SayUnitsAndNamesPeopleUse) {
   EXPECT_EQ(words_of_effect("coulomb_friction"), "dry friction");
   EXPECT_EQ(words_of_parameter("coulomb_friction", "fc_n"), "friction force");
   EXPECT_EQ(words_of_parameter("crosstalk", "c_xy"), "share of fy in fx");
+  EXPECT_EQ(words_of_parameter("cable_spring", "rest_rad"), "angle at rest");
+  EXPECT_EQ(words_of_parameter("cable_spring", "rest"), "position at rest");  // a sliding axis
+  EXPECT_EQ(words_of_parameter("coulomb_friction", "fc"), "friction");        // or a torque
   EXPECT_EQ(words_of_parameter("gear_friction", "a"), "variation with the position");
   EXPECT_EQ(with_unit(0.3, unit_in_words("gear_friction", "a", "")), "30 %");
   EXPECT_EQ(with_unit(0.5, unit_in_words("discovered", "gain_2", "")), "0.5");

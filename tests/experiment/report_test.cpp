@@ -172,6 +172,14 @@ TEST(Svg, MarkersOfOneCategoryStandSideBySide) {
   EXPECT_EQ(places(), 27U) << "nine series each";
 }
 
+TEST(Svg, AnErrorBarNeedNotHaveItsPointInTheMiddle) {
+  Chart chart{"", "", "", {{"rate", {0, 1}, {1.0, 0.9}, {0.4, 0.1}, Style::kMarkers}}, {"a", "b"}};
+  EXPECT_NE(to_svg(chart).find(">1.4<"), std::string::npos);
+  chart.series[0].middle = {0.6, 0.9};
+  EXPECT_EQ(to_svg(chart).find(">1.4<"), std::string::npos);
+  EXPECT_NE(to_svg(chart).find(">0.2<"), std::string::npos);
+}
+
 TEST(Svg, ALegendAloneHasEveryEntryAndTheChartThenHasNone) {
   auto chart = example(Style::kMarkers);
   expect_sound(to_svg_legend(chart));

@@ -115,6 +115,10 @@ OptionRow& Tool::add_row(const std::string& names, const std::string& value,
   return rows_.emplace_back(std::move(row));
 }
 
+void Tool::shares_work() {
+  option("--threads", threads_, "number of threads (default: all cores)").between(1, 1024);
+}
+
 /// Options of every command, after its own.
 void Tool::add_common() {
   if (!outputs_.empty()) {
@@ -123,10 +127,6 @@ void Tool::add_common() {
   flag("--json", common_.json, "print the result as one JSON document on stdout")
       .group(kEveryCommand);
   flag("-q,--quiet", common_.quiet, "no progress and no notes").group(kEveryCommand);
-  option("--threads", common_.threads, "number of threads (default: all cores)")
-      .between(1, 1024)
-      .group(kEveryCommand);
-  option("--seed", common_.seed, "seed of everything random").not_negative().group(kEveryCommand);
   add_row("-h,--help", "", "print this text").group = kEveryCommand;
   add_row("--version", "", "print the version").group = kEveryCommand;
 }
@@ -208,7 +208,7 @@ int Tool::run(int argc, char** argv, const std::function<Exit()>& body) {
   add_common();
   if (const auto answered = answer(argc, argv)) return *answered;
   if (const int done = parse(argc, argv); done >= 0) return done;
-  set_threads(common_.threads);
+  set_threads(threads_);
   fix_blocking();
   try {
     for (const auto& check : checks_) check();
@@ -250,6 +250,11 @@ void Tool::note(const std::string& text) const {
 }
 
 void Tool::print(const Json& json) { std::cout << json.dump(2) << "\n"; }
+
+SeedFlag::SeedFlag(Tool& tool, const std::string& standard) {
+  tool.option("--seed", seed_, "seed of everything random (default: " + standard + ")")
+      .not_negative();
+}
 
 PrecisionFlag::PrecisionFlag(Tool& tool) {
   tool.option("--precision", word_,

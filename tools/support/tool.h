@@ -20,8 +20,6 @@ namespace dcnn {
 /// Flags that every tool has.
 struct CommonFlags {
   bool json = false, quiet = false, force = false;
-  int threads = 0;
-  std::optional<std::uint64_t> seed;
 };
 
 class Tool {
@@ -41,6 +39,9 @@ class Tool {
   template <typename T>
   Output output(const std::string& names, T& variable, const std::string& help,
                 const std::vector<std::string>& contents = {});
+
+  /// --threads, for a command that shares its work among threads.
+  void shares_work();
 
   /// Done when the command line is read and before anything is written or made.
   void check(std::function<void()> check) { checks_.push_back(std::move(check)); }
@@ -74,6 +75,18 @@ class Tool {
   Outputs outputs_;
   std::vector<std::function<void()>> checks_;
   CommonFlags common_;
+  int threads_ = 0;
+};
+
+/// --seed, for a command in which something is random.
+class SeedFlag {
+ public:
+  explicit SeedFlag(Tool& tool, const std::string& standard = "1");
+  const std::optional<std::uint64_t>& given() const { return seed_; }
+  std::uint64_t value() const { return seed_.value_or(1); }
+
+ private:
+  std::optional<std::uint64_t> seed_;
 };
 
 /// KG, or KG X Y Z, of --payload.

@@ -13,6 +13,7 @@ struct Series {
   std::vector<double> error;  ///< half-length of the error bars, empty for none
   enum class Style { kLine, kMarkers, kLineAndMarkers, kBars } style = Style::kLine;
   int look = -1;  ///< number of colour, dashes and marker; negative: its place in the chart
+  std::vector<double> middle = {};  ///< of the error bars, empty where it is y
 };
 
 struct Chart {
