@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "dcnn/core/random.h"
+#include "dcnn/data/filter.h"
 
 namespace dcnn {
 namespace {
@@ -65,6 +66,20 @@ TEST(SpectralLines, HaveTheirFrequencyBesideLostRows) {
     const auto peaks = spectral_lines(study, left, white_floors(), 1.0, 240.0, 1, 1);
     ASSERT_EQ(peaks.size(), 1u);
     EXPECT_NEAR(peaks[0].hz, kHz, kBin) << lost;
+  }
+}
+
+// Where a filter of the pose ends, what the pose's noise makes of the force falls at once.
+TEST(SpectralLines, AreNoneAtAnEdgeOfTheNoise) {
+  Rng rng({4});
+  for (int draw = 0; draw < 20; ++draw) {
+    const Case study = recording_with(0.0, rng);
+    Signals left = white_noise(study, 0.0, rng);
+    const Signals more = white_noise(study, 0.0, rng);
+    left[0] += 8.0 * low_pass(more[0], study.logs[0].motion.segments, kStep, 25.0);
+    for (const auto& line : common_lines(study, left, white_floors(), 20.0, 240.0, 3)) {
+      EXPECT_FALSE(line.stands_out()) << line.hz;
+    }
   }
 }
 
