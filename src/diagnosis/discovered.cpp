@@ -131,29 +131,37 @@ double unlikely(const Search& search, const Laws& laws) {
   return search.unlikely() + search.setting().price * numbers_of(laws, {});
 }
 
-/// Laws beside the names that stand; where those leave something, also from the beginning: beside
-/// none, and beside each name that gains most next to those before it. (Names that were found
-/// without laws may imitate one; once refuted, they are removed together with those that act.) The
-/// model of the highest penalised likelihood is kept.
+/// Whether the form of each is established: an approximation leaves nothing and may yet be none.
+bool are_established(const Laws& laws) {
+  return std::all_of(laws.found.begin(), laws.found.end(),
+                     [](const Discovered& law) { return law.established; });
+}
+
+/// Laws beside the names that stand; where those leave something, or are approximations, also from
+/// the beginning: beside none, with the names that are found beside them then, and beside each name
+/// that gains most next to those before it. (Names
+/// that were found without laws may imitate one; once refuted, they are removed together with those
+/// that act.) The model of the highest penalised likelihood is kept.
 Laws laws_of_the_rest(Search& search) {
   constexpr int kMostNames = 5;  // a limit of computation
   Laws best = borne_out(search.setting(), search.fit());
   search.put_beside(best.members);
   std::vector<Member> members = search.fit().members;
   double least = unlikely(search, best);
-  if (!search.is_alarming_now()) return best;
+  if (!search.is_alarming_now() && are_established(best)) return best;
   search.begin_anew();
   for (int names = 0; names < kMostNames; ++names) {
     const std::vector<Member> before = search.fit().members;
     Laws laws = borne_out(search.setting(), search.fit());
     if (!laws.found.empty()) {
       search.put_beside(laws.members);
+      if (names == 0) name_beside(search, laws);  // names that only a law lets be seen
       if (unlikely(search, laws) < least) {
         least = unlikely(search, laws);
         members = search.fit().members;
         best = std::move(laws);
       }
-      if (!search.is_alarming_now()) break;
+      if (!search.is_alarming_now() && are_established(laws)) break;
       search.hold(before);
     }
     const auto trials = search.additions(/*events=*/false);
