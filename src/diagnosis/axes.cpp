@@ -33,7 +33,7 @@ Json outer_finding(Json finding, const AxisPlan& plan) {
     };
     double low = moved(number["ci95"][0]), high = moved(number["ci95"][1]);
     if (low > high) std::swap(low, high);
-    if (kind.strength == name) strength = outer->stem;
+    if (kind.strength != nullptr && name == kind.strength) strength = outer->stem;
     parameters[outer->stem] = {
         {"value", moved(number["value"])}, {"ci95", {low, high}}, {"unit", outer->unit}};
   }

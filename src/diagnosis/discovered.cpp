@@ -148,7 +148,8 @@ Laws laws_of_the_rest(Search& search) {
   search.put_beside(best.members);
   std::vector<Member> members = search.fit().members;
   double least = unlikely(search, best);
-  if (!search.is_alarming_now() && are_established(best)) return best;
+  const bool alarming = search.is_alarming_now();
+  if (!alarming && are_established(best)) return best;
   search.begin_anew();
   for (int names = 0; names < kMostNames; ++names) {
     const std::vector<Member> before = search.fit().members;
@@ -156,7 +157,9 @@ Laws laws_of_the_rest(Search& search) {
     if (!laws.found.empty()) {
       search.put_beside(laws.members);
       if (names == 0) name_beside(search, laws);  // names that only a law lets be seen
-      if (unlikely(search, laws) < least) {
+      // One approximation is as good as another, where neither leaves anything.
+      const bool better = alarming || are_established(laws);
+      if (better && unlikely(search, laws) < least) {
         least = unlikely(search, laws);
         members = search.fit().members;
         best = std::move(laws);

@@ -196,6 +196,10 @@ std::vector<Floor> HoldOut::own_floors(const Search& search) const {
   if (fit.base.size() > 0) set_base(study, fit.base);
   const Signals left = study.lowpass_hz > 0.0 ? unfiltered_left(study, fit.members)
                                               : difference(study, predict(study, fit.members));
+  // Without the ends, as the errors are.
+  for (std::size_t k = 0; k < study.logs.size(); ++k) {
+    study.logs[k].motion.segments = inner_segments(study, k);
+  }
   const Signals levels = noise_level(study, left);
   std::vector<Floor> floors = noise_floor(study, left, levels);
   bound_by_residual(study, left, levels, floors);

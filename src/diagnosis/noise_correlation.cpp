@@ -16,7 +16,7 @@ Eigen::VectorXd second_differences(const Case& study, const Signals& residual,
   std::vector<double> list;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     const auto r = residual[k].col(channel), level = levels[k].col(channel);
-    for (const Segment& s : inner_segments(study, k)) {
+    for (const Segment& s : study.logs[k].motion.segments) {
       for (Index i = s.begin + 2; i < s.end; ++i) {
         list.push_back((r(i) - 2.0 * r(i - 1) + r(i - 2)) / level(i));
       }

@@ -45,7 +45,7 @@ std::vector<Window> windows_of(const Case& study, const Signals& residual, Index
   std::vector<Window> windows;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     const auto r = residual[k].col(channel);
-    for (const Segment& s : inner_segments(study, k)) {
+    for (const Segment& s : study.logs[k].motion.segments) {
       for (Index begin = s.begin; begin < s.end; begin += n) {
         const Index end = std::min(begin + n, s.end), first = std::max(begin, s.begin + 2);
         double sum = 0.0;

@@ -21,7 +21,7 @@ Index window_of(const Case& study) {
   for (Index n = kWindow; n >= kShortestWindow; n /= 2) {
     Index all = 0, held = 0;
     for (std::size_t k = 0; k < study.logs.size(); ++k) {
-      for (const Segment& s : inner_segments(study, k)) {
+      for (const Segment& s : study.logs[k].motion.segments) {
         all += s.size();
         if (s.size() >= n) held += s.size();
         longest = std::max(longest, s.size());
@@ -46,7 +46,7 @@ Periodograms periodograms(const Case& study, const Signals& signals, Index chann
               (static_cast<double>(n) * study.dt());
   std::vector<Eigen::VectorXd> columns;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
-    for (const Segment& s : inner_segments(study, k)) {
+    for (const Segment& s : study.logs[k].motion.segments) {
       for (Index begin = s.begin; begin + n <= s.end; begin += n) {
         Eigen::VectorXd x = signals[k].col(channel).segment(begin, n);
         x.array() -= x.mean();
@@ -75,7 +75,7 @@ std::vector<SlowBin> slow_bins(const Case& study, const Signals& signals, Index 
   const double to = 2.0 / (static_cast<double>(window) * study.dt());
   std::vector<SlowBin> bins;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
-    for (const Segment& s : inner_segments(study, k)) {
+    for (const Segment& s : study.logs[k].motion.segments) {
       const Index n = s.size() / block;
       if (n < 2 * kMeans) continue;
       Eigen::VectorXd means(n);

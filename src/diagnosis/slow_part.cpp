@@ -18,7 +18,7 @@ constexpr double kCorner = 3.0;  // of the log-likelihood, that a corner must ga
 std::vector<SlowBin> bins_below_slow(const Case& study, const Signals& left, Index channel) {
   std::vector<SlowBin> bins;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
-    for (const Segment& s : inner_segments(study, k)) {
+    for (const Segment& s : study.logs[k].motion.segments) {
       const Index n = s.size();
       if (static_cast<double>(n) * study.dt() < 4.0) continue;
       const Eigen::VectorXd power = hann_power(left[k].col(channel).segment(s.begin, n), n);

@@ -41,13 +41,13 @@ Eigen::VectorXd evenly(const Motion& motion, const Segment& s, const Eigen::Vect
 /// tell a frequency less exactly.
 std::vector<Eigen::VectorXd> pieces_of(const Case& study, const Signals& signals, Index channel) {
   Index longest = 0;
-  for (std::size_t k = 0; k < study.logs.size(); ++k) {
-    for (const Segment& s : inner_segments(study, k)) longest = std::max(longest, s.size());
+  for (const Log& log : study.logs) {
+    for (const Segment& s : log.motion.segments) longest = std::max(longest, s.size());
   }
   std::vector<Eigen::VectorXd> pieces;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     const Motion& motion = study.logs[k].motion;
-    for (const Segment& s : inner_segments(study, k)) {
+    for (const Segment& s : motion.segments) {
       if (2 * s.size() < longest) continue;
       pieces.push_back(evenly(motion, s, signals[k].col(channel)));
     }
@@ -62,25 +62,34 @@ Index length_of(const std::vector<Eigen::VectorXd>& pieces) {
   return fast_length(longest);
 }
 
-/// The mean level beside bin k of a sum of so many independent periodograms, from its median on the
-/// louder side, for where a filter of the pose ends noise falls at once; none of a spectrum with
-/// nothing beside it.
+/// The mean level beside bin k of a sum of so many independent periodograms, from its median; on
+/// the louder side, where the sides differ by more than chance: noise that a filter of the pose
+/// passes ends at once. None of a spectrum with nothing beside it.
 std::optional<double> level_beside(const Eigen::VectorXd& power, Index k, Index around,
                                    double terms) {
-  constexpr Index kOfLine = 3;  // bins of a line on either side
-  const auto median_of = [&](Index from, Index end) {
-    std::vector<double> beside;
-    for (Index i = std::max<Index>(1, from); i < std::min(power.size(), end); ++i) {
-      beside.push_back(power(i));
-    }
-    return beside.empty() ? -1.0 : dcnn::median(std::move(beside));
+  constexpr Index kOfLine = 3;           // bins of a line on either side
+  constexpr double kBeyondChance = 4.0;  // deviations of the difference of two medians
+  const auto bins = [&](Index from, Index end) {
+    const Index first = std::max<Index>(1, from), last = std::min(power.size(), end);
+    return last > first ? std::vector<double>(power.begin() + first, power.begin() + last)
+                        : std::vector<double>();
   };
-  const double loudest =
-      std::max(median_of(k - around, k - kOfLine), median_of(k + kOfLine + 1, k + around));
-  if (loudest < 0.0) return std::nullopt;
+  const std::vector<double> below = bins(k - around, k - kOfLine),
+                            above = bins(k + kOfLine + 1, k + around);
+  std::vector<double> both = below;
+  both.insert(both.end(), above.begin(), above.end());
+  if (both.empty()) return std::nullopt;
+  double level = dcnn::median(both);
+  if (!below.empty() && !above.empty()) {
+    // A median of n such sums has the relative deviation 1.25/sqrt(n terms).
+    const double chance =
+        1.25 * std::sqrt((1.0 / double(below.size()) + 1.0 / double(above.size())) / terms);
+    const double a = dcnn::median(below), b = dcnn::median(above);
+    if (std::abs(a - b) > kBeyondChance * chance * level) level = std::max(a, b);
+  }
   // Of an exponential distribution, and nearly of a gamma distribution.
   const double median = terms == 1.0 ? elementary::log(2.0) : 1.0 - 1.0 / (3.0 * terms);
-  return loudest / median;
+  return level / median;
 }
 
 /// Of how many independent periodograms those of all channels are the sum. Noise that channels
