@@ -91,18 +91,11 @@ bool has_own_offsets(const Case& study) {
 
 double end_seconds(double length) { return std::min(0.5, 0.1 * length); }
 
-Index end_samples(const Case& study, const Segment& segment) {
-  constexpr double kPeriods = 5.0;
-  if (study.is_static()) return 0;
-  const double seconds = study.dt() * static_cast<double>(segment.size());
-  const double flank = study.axis ? 0.0 : end_seconds(seconds);
-  return std::llround(std::max(kPeriods / study.motion_hz, flank) / study.dt());
-}
-
 std::vector<Segment> inner_segments(const Case& study, std::size_t log) {
   std::vector<Segment> inner;
   for (const Segment& s : study.logs[log].motion.segments) {
-    const Index end = std::min(end_samples(study, s), s.size() / 8);
+    const double seconds = study.dt() * static_cast<double>(s.size());
+    const Index end = study.is_static() ? 0 : std::llround(end_seconds(seconds) / study.dt());
     inner.push_back({s.begin + end, s.end - end});
   }
   return inner;

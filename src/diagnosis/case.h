@@ -87,10 +87,7 @@ double span_seconds(const Case& study);
 /// Time at either end of a stretch of so many seconds in which what is derived from a pose is poor
 /// [s]: the flank of the smoother's taper (data/spectral.cpp), a tenth of short ones.
 double end_seconds(double length);
-/// Samples at either end of a segment of which nothing is judged: five periods of the fastest
-/// motion, of a tool's pose the flank too; none of poses at rest.
-Index end_samples(const Case& study, const Segment& segment);
-/// The segments of a log without these ends, of a short one without an eighth at either.
+/// The segments of a log without these ends; of poses at rest as they are.
 std::vector<Segment> inner_segments(const Case& study, std::size_t log);
 /// Mean square of a channel of what is left there.
 double mean_square(const Case& study, const std::vector<Eigen::MatrixXd>& left, Index channel);

@@ -10,6 +10,7 @@ namespace dcnn {
 namespace {
 
 constexpr double kBlockPeriods = 0.4;  // periods of the fastest motion: 20 ms for 20 Hz
+constexpr double kEnd = 5.0;           // of a segment, left out at either end, likewise
 constexpr int kOrder = 8;
 constexpr int kLongOrder = 48;  // slow noise remembers long
 constexpr int kFrequencies = 4096;
@@ -84,11 +85,10 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors, const Si
     decorrelate_ = Eigen::MatrixXd::Identity(channels_, channels_);
     Eigen::LLT<Eigen::MatrixXd>(all).matrixL().solveInPlace(decorrelate_);
   }
+  const Index margin = moving ? std::llround(kEnd / study.motion_hz / block_seconds_) * block_ : 0;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     std::vector<Index> before;  // sizes of the segments before this one
     for (const Segment& s : study.logs[k].motion.segments) {
-      const Index margin =
-          moving ? std::llround(double(end_samples(study, s)) / double(block_)) * block_ : 0;
       const Index count = (s.size() - 2 * margin) / block_;
       if (count > 0) runs_.push_back({k, s.begin + margin, count, margin, before});
       before.push_back(s.size());
