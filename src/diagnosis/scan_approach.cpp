@@ -81,11 +81,11 @@ Trial Scan::combed(const Trial& start) const {
 /// A signal that varies fast meets its law at one lag alone: the best of a comb first, each tooth
 /// half as far again.
 Trial Scan::lagged(const Trial& start) const {
-  constexpr double kFirst = 0.02, kNext = 1.5;  // s; as delays of a force
+  constexpr double kLeast = 0.02, kRatio = 1.5;  // s; as delays of a force
   Trial best = start;
   Member member = start.member;
   const Index lag = member.own_shapes() - 1;
-  for (double away = kFirst; away <= member.most_shapes(lag); away *= kNext) {
+  for (double away = kLeast; away <= member.most_shapes(lag); away *= kRatio) {
     for (const double at : {-away, away}) {
       if (at < member.least_shapes(lag)) continue;
       member.shapes(lag) = at;
