@@ -96,11 +96,13 @@ void by_spline(const Input& t, const Input& x, Output first, Output second) {
   for (Index i = 0; i < x.size(); ++i) first[i] = spline.slope(i);
 }
 
-void by_spectrum(const LowPass& filter, double dt, Output x, Output first, Output second) {
+/// Whether motion beyond the cut-off has passed.
+bool by_spectrum(const LowPass& filter, double dt, Output x, Output first, Output second) {
   const Smoothed smoothed = smooth(x, dt, filter);
   first = smoothed.first;
   second = smoothed.second;
   x = smoothed.value;
+  return smoothed.is_fast;
 }
 
 int shortest(const DerivativeSpec& spec, double dt) {
@@ -194,7 +196,8 @@ Derivatives differentiate(Eigen::MatrixXd signals, const Recording& recording,
   for (const Segment& s : recording.segments) places.push_back(clock_places(t, s, dt));
   Derivatives out{Eigen::MatrixXd(signals.rows(), signals.cols()),
                   Eigen::MatrixXd(signals.rows(), signals.cols()), std::move(signals)};
-  const auto estimate = [&](Input t_here, Output x, Output first, Output second) {
+  std::vector<char> is_fast(static_cast<std::size_t>(out.value.cols()));
+  const auto estimate = [&](Index column, Input t_here, Output x, Output first, Output second) {
     switch (spec.kind) {
       case Kind::kSavitzkyGolay:
         return centred(x, window, spec.order, dt, first, second);
@@ -203,8 +206,9 @@ Derivatives differentiate(Eigen::MatrixXd signals, const Recording& recording,
       case Kind::kSpline:
         return by_spline(t_here, x, first, second);
       case Kind::kSpectral:
-        return by_spectrum({spec.cutoff_hz, spec.subtraction, spec.most_noise}, dt, x, first,
-                           second);
+        if (by_spectrum({spec.cutoff_hz, spec.subtraction, spec.most_noise}, dt, x, first, second))
+          is_fast[static_cast<std::size_t>(column)] = 1;
+        return;
       case Kind::kCentral:
         gradient(x, dt, first);
         return gradient(first, dt, second);
@@ -219,11 +223,11 @@ Derivatives differentiate(Eigen::MatrixXd signals, const Recording& recording,
       auto second = out.second.col(column).segment(s.begin, s.size());
       const std::vector<Index>& at = places[k];
       if (spec.kind == Kind::kSpline || at.back() + 1 == s.size()) {
-        estimate(t_here, x, first, second);
+        estimate(column, t_here, x, first, second);
         continue;
       }
       Eigen::VectorXd all = bridged(x, at), all_first(all.size()), all_second(all.size());
-      estimate(t_here, all, all_first, all_second);
+      estimate(column, t_here, all, all_first, all_second);
       x = all(at);
       first = all_first(at);
       second = all_second(at);
@@ -235,6 +239,7 @@ Derivatives differentiate(Eigen::MatrixXd signals, const Recording& recording,
   } else {
     for_each_piece(out.value.cols(), one_column);
   }
+  out.is_fast = std::any_of(is_fast.begin(), is_fast.end(), [](char fast) { return fast != 0; });
   return out;
 }
 

@@ -14,8 +14,8 @@ namespace dcnn {
 namespace {
 
 constexpr double kPadSeconds = 2.0;
-constexpr double kEndSeconds = 1.0;  // in which what is taken out at an end decays
-constexpr double kFlankSeconds = 0.5, kFlankSamples = 50.0;  // at least, of the taper at an end
+constexpr double kEndSeconds = 1.0;     // in which what is taken out at an end decays
+constexpr double kFlankSamples = 50.0;  // at least, of the taper at an end
 
 /// The second derivative [1/s^2] at the first of some samples: of the quartic through them.
 double bend(const Eigen::VectorXd& x, double dt) {
@@ -210,16 +210,18 @@ struct Transformed {
   }
 };
 
-/// A signal's spectrum behind the filter, and the filter's gain in every bin.
+/// A signal's spectrum behind the filter, the filter's gain in every bin, and whether motion beyond
+/// the cut-off has passed.
 struct Filtered {
   Eigen::VectorXcd spectrum;
   Eigen::VectorXd gain;
+  bool is_fast = false;
 };
 
 Filtered filtered(const Transformed& x, const LowPass& filter) {
   constexpr double kFastestMotion = 25.0;  // Hz: a hand trembles at up to 14
   const Index bins = x.spectrum.size();
-  Filtered out{x.spectrum, Eigen::VectorXd::Ones(bins)};
+  Filtered out{.spectrum = x.spectrum, .gain = Eigen::VectorXd::Ones(bins)};
   if (filter.subtraction > 0.0) {
     const Rest rest = x.above(slow_hz(filter.cutoff_hz));
     const Relative relative = relative_of(rest, x.dt, x.length());
@@ -244,6 +246,7 @@ Filtered filtered(const Transformed& x, const LowPass& filter) {
     if (more <= 0.0) continue;
     out.spectrum(k) += more / std::sqrt(rest.share(k)) * rest.spectrum(k);
     out.gain(k) += more;
+    out.is_fast = true;
   }
   return out;
 }
@@ -252,7 +255,8 @@ Filtered filtered(const Transformed& x, const LowPass& filter) {
 
 Smoothed smooth(const Eigen::Ref<const Eigen::VectorXd>& signal, double dt, const LowPass& filter) {
   const Transformed x(signal, dt, filter.cutoff_hz);
-  const Eigen::VectorXcd value = filtered(x, filter).spectrum;
+  const Filtered passed = filtered(x, filter);
+  const Eigen::VectorXcd& value = passed.spectrum;
   Eigen::VectorXcd first(value.size()), second(value.size());
   for (Index k = 0; k < value.size(); ++k) {
     const std::complex<double> s(0.0, 2.0 * std::numbers::pi * x.hz(k));
@@ -262,7 +266,7 @@ Smoothed smooth(const Eigen::Ref<const Eigen::VectorXd>& signal, double dt, cons
   if (x.length() % 2 == 0) first(first.size() - 1) = 0.0;  // the Nyquist term has no derivative
   Smoothed out{x.transform.inverse(value).segment(x.padded.pad, x.n),
                x.transform.inverse(first).segment(x.padded.pad, x.n),
-               x.transform.inverse(second).segment(x.padded.pad, x.n)};
+               x.transform.inverse(second).segment(x.padded.pad, x.n), passed.is_fast};
   out.value += x.ends.derivative(0);
   for (Index k = 0; k < x.n; ++k) {
     out.value(k) += x.padded.level + x.padded.slope * static_cast<double>(k);

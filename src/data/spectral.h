@@ -20,6 +20,9 @@ struct LowPass {
   double most_noise = 0.0;
 };
 
+/// Flank of the taper at either end of a signal [s], within which fast motion passes in part.
+constexpr double kFlankSeconds = 0.5;
+
 /// The most that x holds near a cut-off (from 0.7 of it on) and beyond, in units of its noise's
 /// power.
 double most_noise(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, double cutoff_hz);
@@ -29,6 +32,7 @@ double most_noise(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, double 
 /// ends over up to 2 s.
 struct Smoothed {
   Eigen::VectorXd value, first, second;
+  bool is_fast = false;  ///< motion beyond the cut-off has passed, tapered over kFlankSeconds
 };
 Smoothed smooth(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, const LowPass& filter);
 

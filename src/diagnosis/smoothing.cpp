@@ -78,6 +78,7 @@ Misfit linear_misfit(const Case& study, const std::vector<Member>& members) {
   }
   Case unsmoothed = study;  // its whitener must not depend on the cut-off
   unsmoothed.derivative.kind = DerivativeSpec::Kind::kSavitzkyGolay;
+  for (Log& log : unsmoothed.logs) log.motion.is_fast = false;
   const Whitener whitener(unsmoothed, floors, levels);
   const Index stride = whitener.coarse_stride();
   Setting setting{

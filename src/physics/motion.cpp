@@ -48,6 +48,7 @@ void read_translation(const Recording& recording, const DerivativeSpec& spec, Mo
     const auto derived = differentiate(recording.block(p), recording, spec);
     motion.v_B = derived.first;
     motion.a_B = derived.second;
+    motion.is_fast |= derived.is_fast;
   }
   if (recording.has_all(v)) {
     motion.v_B = turn(motion.R_BS, recording.block(v));
@@ -76,6 +77,7 @@ void read_rotation(const Recording& recording, const ToolModel& model, const Der
     const auto derived = differentiate(quaternions(recording), recording, spec);
     const MatrixXd q = derived.value.rowwise().normalized();
     if (smoothed) smooth_orientation(q, recording, model, spec, motion);
+    motion.is_fast |= derived.is_fast;
     motion.w_S = body_rates(q, derived.first) * model.R_ES();
     motion.dw_S = body_rates(q, derived.second) * model.R_ES();
   }

@@ -50,6 +50,9 @@ struct Derivatives {
   Eigen::MatrixXd first, second;  ///< (T, columns), per second and per second squared
   Eigen::MatrixXd
       value;  ///< (T, columns) the signals as the estimator sees them: smoothed by `spectral`
+  /// Motion beyond the cut-off has passed, but for half a second at either end of a segment, where
+  /// it passes in part.
+  bool is_fast = false;
 };
 
 /// Derivatives of every column, segment by segment. Rows that a segment lacks (steps of two to five

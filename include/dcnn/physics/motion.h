@@ -33,6 +33,9 @@ struct Motion {
   bool has_clock = true;              ///< t is a time
   bool of_axis = false;               ///< of one axis of a machine (axis_machine.h), not of a tool
   std::vector<Segment> segments;
+  /// Of fast motion that is derived from the pose, half a second at either end of a segment lacks a
+  /// part.
+  bool is_fast = false;
 
   Index samples() const { return t.size(); }
   bool is_static() const { return dt == 0.0; }
