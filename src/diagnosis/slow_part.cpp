@@ -12,8 +12,12 @@ namespace {
 
 namespace prior = evidence::prior;
 
-constexpr double kSlow = 10.0;   // Hz, below which slow noise is looked for
-constexpr double kCorner = 3.0;  // of the log-likelihood, that a corner must gain as one number
+constexpr double kSlow = 10.0;       // Hz, below which slow noise is looked for
+constexpr double kCorner = 3.0;      // of the log-likelihood, that a corner must gain as one number
+constexpr double kRatio = 1.2;       // from one corner or level that is tried to the next
+constexpr double kLeastLevel = 0.1;  // that is tried, of the floor
+constexpr std::size_t kFewestBins = 16;  // that tell a form
+
 /// Periodograms of whole segments below kSlow.
 std::vector<SlowBin> bins_below_slow(const Case& study, const Signals& left, Index channel) {
   std::vector<SlowBin> bins;
@@ -53,6 +57,50 @@ std::vector<Cell> gathered(const std::vector<SlowBin>& bins) {
   return list;
 }
 
+/// A form of slow noise without its level: 1/f, or a Gauss-Markov process of this corner [Hz].
+struct Form {
+  double corner_hz = 0.0;  ///< 0 for 1/f
+  double price() const { return corner_hz > 0.0 ? kCorner : 0.0; }
+};
+
+/// The likeliest level of a form in one channel, none included, and its log-likelihood (Whittle).
+struct Leveled {
+  SlowPart part;
+  double likelihood = -kInfinity;
+};
+
+Leveled leveled(const Form& form, const std::vector<Cell>& cells, double floor_level) {
+  Leveled best;
+  const auto consider = [&](const SlowPart& part) {
+    Floor slow;
+    part.add_to(slow);
+    double likelihood = 0.0;
+    for (const Cell& cell : cells) {
+      const double density = cell.floor + slow.density(cell.hz);
+      likelihood -= cell.count * elementary::log(density) + cell.power / density;
+    }
+    if (likelihood > best.likelihood) best = {part, likelihood};
+  };
+  consider({});
+  if (form.corner_hz == 0.0) {
+    for (double corner = prior::kLeastCorner; corner < prior::kMostCorner; corner *= kRatio) {
+      consider({.flicker = corner * floor_level});
+    }
+    return best;
+  }
+  for (double at_rest = kLeastLevel; at_rest < prior::kMostSlowNoise; at_rest *= kRatio) {
+    consider({.markov = at_rest * floor_level, .corner_hz = form.corner_hz});
+  }
+  return best;
+}
+
+std::vector<Form> all_forms() {
+  std::vector<Form> forms{{}};
+  for (double hz = prior::kLeastCorner; hz < prior::kMostCorner; hz *= kRatio)
+    forms.push_back({hz});
+  return forms;
+}
+
 }  // namespace
 
 void SlowPart::add_to(Floor& floor) const {
@@ -63,35 +111,36 @@ void SlowPart::add_to(Floor& floor) const {
 
 std::optional<std::vector<SlowPart>> slow_parts(const Case& study, const Signals& left,
                                                 const std::vector<Floor>& floors) {
-  std::vector<SlowPart> result;
-  for (Index j = 0; j < study.channel_count(); ++j) {
-    const Floor& floor = floors[static_cast<std::size_t>(j)];
-    const std::vector<SlowBin> bins = bins_below_slow(study, left, j);
-    if (bins.size() < 16) return std::nullopt;
+  const std::vector<Form> forms = all_forms();
+  const auto channels = static_cast<std::size_t>(study.channel_count());
+  std::vector<Leveled> own(channels);  // each in the form that is likeliest in it
+  double apart = 0.0;
+  std::vector<std::vector<Leveled>> all(forms.size(), std::vector<Leveled>(channels));
+  for (std::size_t j = 0; j < channels; ++j) {
+    const std::vector<SlowBin> bins = bins_below_slow(study, left, static_cast<Index>(j));
+    if (bins.size() < kFewestBins) return std::nullopt;
     std::vector<Cell> cells = gathered(bins);
-    const double level = floor.density(kSlow);
-    for (Cell& cell : cells) cell.floor = floor.density(cell.hz);
-    SlowPart best;
-    double most = -1e300;
-    const auto consider = [&](const SlowPart& part, double price) {
-      Floor slow;
-      part.add_to(slow);
-      double likelihood = -price;
-      for (const Cell& cell : cells) {
-        const double density = cell.floor + slow.density(cell.hz);
-        likelihood -= cell.count * elementary::log(density) + cell.power / density;
-      }
-      if (likelihood > most) most = likelihood, best = part;
-    };
-    consider({}, 0.0);
-    for (double corner = prior::kLeastCorner; corner < prior::kMostCorner; corner *= 1.2) {
-      consider({.flicker = corner * level}, 0.0);
-      for (double at_rest = 0.1 * level; at_rest < prior::kMostSlowNoise * level; at_rest *= 1.2) {
-        consider({.markov = at_rest, .corner_hz = corner}, kCorner);
-      }
+    for (Cell& cell : cells) cell.floor = floors[j].density(cell.hz);
+    double most = -kInfinity;
+    for (std::size_t k = 0; k < forms.size(); ++k) {
+      all[k][j] = leveled(forms[k], cells, floors[j].density(kSlow));
+      const double likelihood = all[k][j].likelihood - forms[k].price();
+      if (likelihood > most) most = likelihood, own[j] = all[k][j];
     }
-    result.push_back(best);
+    apart += most;
   }
+  // The channels of a sensor are alike: one form serves all, unless a form of its own for each,
+  // which is another choice each, is likelier.
+  std::size_t shared = 0;
+  double together = -kInfinity;
+  for (std::size_t k = 0; k < forms.size(); ++k) {
+    double likelihood = -forms[k].price();
+    for (const Leveled& channel : all[k]) likelihood += channel.likelihood;
+    if (likelihood > together) together = likelihood, shared = k;
+  }
+  if (together >= apart - kCorner * (static_cast<double>(channels) - 1.0)) own = all[shared];
+  std::vector<SlowPart> result;
+  for (const Leveled& channel : own) result.push_back(channel.part);
   return result;
 }
 

@@ -17,8 +17,9 @@ struct SlowPart {
   int numbers() const { return (flicker > 0.0) + 2 * (markov > 0.0); }
 };
 
-/// The likeliest (Whittle) for what is left below 10 Hz beside these floors, by channel, within the
-/// bounds of priors.h. None of recordings too short to tell.
+/// The likeliest (Whittle) for what is left below 10 Hz beside these floors, by channel, of one
+/// form in all unless the channels speak against that, within the bounds of priors.h. None of
+/// recordings too short to tell.
 std::optional<std::vector<SlowPart>> slow_parts(const Case& study, const Signals& left,
                                                 const std::vector<Floor>& floors);
 

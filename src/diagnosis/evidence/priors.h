@@ -14,7 +14,7 @@ constexpr double kMostSlowNoise = 100.0;
 /// The same of noise of any spectrum, in any band, that depends on nothing.
 constexpr double kMostFreeNoise = 3.0;
 /// Corner [Hz] below which slow noise shows: log-uniform between these.
-constexpr double kLeastCorner = 0.01, kMostCorner = 2.0;
+constexpr double kLeastCorner = 0.01, kMostCorner = 10.0;
 /// Decades over which the size of an effect, in deviations of the noise over all rows, is
 /// log-uniform.
 constexpr double kDecades = 4.0;
