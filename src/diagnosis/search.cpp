@@ -78,8 +78,9 @@ double Search::net_gain(std::size_t member) const {
 const std::vector<Trial>& Search::others(std::size_t member) const {
   Place& place = places_[member];
   if (!place.others) {
-    // An event repairs any law that is a little wrong: it never takes one's place.
-    const bool events = fit_.members[member].interval_s.has_value();
+    // An event repairs any law that is a little wrong: it never takes the place of one, but that of
+    // another event or of a drift.
+    const bool events = may_be_slow_noise(fit_.members[member]);
     place.others = additions(without(member), events, net_gain(member));
   }
   return *place.others;
