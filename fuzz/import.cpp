@@ -1,6 +1,6 @@
-// Logs of other programs: text of any dialect, MCAP, ROS 1 bags, rosbag2, NumPy, MATLAB. What is
-// read is proposed as a recording and assembled, as dcnn-import does without options; the recipe is
-// read again as it was written.
+// Logs of other programs: text of any dialect, MCAP, ROS 1 bags, rosbag2, NumPy, MATLAB, JSON. What
+// is read is proposed as a recording and assembled, as dcnn-import does without options; the recipe
+// is read again as it was written.
 #include "dcnn/import/assemble.h"
 #include "dcnn/import/summary.h"
 #include "fuzz/support.h"

@@ -1,4 +1,4 @@
-// Logs that are arrays of numbers: NumPy, MATLAB.
+// Logs that are arrays of numbers: NumPy, MATLAB, JSON.
 #pragma once
 
 #include <string>

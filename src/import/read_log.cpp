@@ -5,6 +5,7 @@
 #include "data/text.h"
 #include "dcnn/core/error.h"
 #include "dcnn/import/log.h"
+#include "import/json_log.h"
 #include "import/log_builder.h"
 #include "import/readers.h"
 #include "import/text_log.h"
@@ -69,6 +70,7 @@ void read_one(const fs::path& path, std::size_t number, LogBuilder& builder) {
   if (starts("\x93NUMPY")) return read_npy(path, name, builder);
   if (starts("PK\x03\x04")) return read_npz(path, builder);
   if (starts("MATLAB ")) return read_mat(path, builder);
+  if (is_json(begin)) return read_json_log(path, builder);
   read_text_log(path, name, builder);
 }
 
@@ -100,7 +102,7 @@ ForeignLog read_log(const std::vector<fs::path>& paths, const ReadLogOptions& op
 std::string known_formats() {
   return "text of any dialect, ROS 1 bags, rosbag2 (.mcap, .db3 or its folder), NumPy (.npy, "
          ".npz), "
-         "MATLAB (.mat)";
+         "MATLAB (.mat), JSON (one record a line, lists)";
 }
 
 }  // namespace dcnn

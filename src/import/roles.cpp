@@ -226,7 +226,7 @@ int clock_rank(const std::string& channel) {
   if (words.size() == 2 && words[0] == "time") return 2;  // time_ms
   if (words.size() == 2 && words[0] == "t" && words[1].size() > 1 && axis_of(words[1]) < 0)
     return 1;
-  return words.size() == 1 && words[0] == "t" ? 1 : 0;
+  return own.size() == 1 && own[0] == "t" ? 1 : 0;
 }
 
 int stamp_part(const std::string& channel) {

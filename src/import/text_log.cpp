@@ -21,8 +21,6 @@ void check_text(std::string_view* line, bool first, const std::string& place) {
     if (line->substr(0, 3) == "\xEF\xBB\xBF") line->remove_prefix(3);
     require(line->substr(0, 2) != "\xFF\xFE" && line->substr(0, 2) != "\xFE\xFF", Exit::kData,
             place, ": is UTF-16 text; convert it: iconv -f UTF-16 -t UTF-8 FILE");
-    require(line->substr(0, 1) != "{" && line->substr(0, 2) != "[{", Exit::kData, place,
-            ": is JSON, which is no log that is read here; write its arrays as CSV or .npy");
   }
   require(line->find('\0') == std::string_view::npos, Exit::kData, place,
           ": contains a NUL byte: is neither text nor a known format of logs");

@@ -104,12 +104,6 @@ INSTANTIATE_TEST_SUITE_P(
                 "0.02,3.5,-0.25,1000\n0.03,4."}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
-TEST(TextImport, OfJsonIsRefused) {
-  EXPECT_NE(
-      data_error([] { import_text("{\"q\": [0.1, 0.2], \"tau\": [1, 2]}\n"); }).find("is JSON"),
-      std::string::npos);
-}
-
 TEST(TextImport, WithoutAHeaderColumnsAreNamedByTheUser) {
   ReadLogOptions read;
   read.text.columns = {"t", "fx", "fy", "fz"};
