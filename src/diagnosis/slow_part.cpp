@@ -16,7 +16,7 @@ constexpr double kSlow = 10.0;       // Hz, below which slow noise is looked for
 constexpr double kCorner = 3.0;      // of the log-likelihood, that a corner must gain as one number
 constexpr double kRatio = 1.2;       // from one corner or level that is tried to the next
 constexpr double kLeastLevel = 0.1;  // that is tried, of the floor
-constexpr std::size_t kFewestBins = 16;  // that tell a form
+constexpr std::size_t kFewestSlowBins = 16;  // that tell a form
 
 /// Periodograms of whole segments below kSlow.
 std::vector<SlowBin> bins_below_slow(const Case& study, const Signals& left, Index channel) {
@@ -118,7 +118,7 @@ std::optional<std::vector<SlowPart>> slow_parts(const Case& study, const Signals
   std::vector<std::vector<Leveled>> all(forms.size(), std::vector<Leveled>(channels));
   for (std::size_t j = 0; j < channels; ++j) {
     const std::vector<SlowBin> bins = bins_below_slow(study, left, static_cast<Index>(j));
-    if (bins.size() < kFewestBins) return std::nullopt;
+    if (bins.size() < kFewestSlowBins) return std::nullopt;
     std::vector<Cell> cells = gathered(bins);
     for (Cell& cell : cells) cell.floor = floors[j].density(cell.hz);
     double most = -kInfinity;

@@ -19,7 +19,7 @@ namespace dcnn {
 namespace {
 
 constexpr std::uint64_t kMostDocument = std::uint64_t{64} << 20;  // as read_json()
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
 
 std::string joined(const std::string& before, const std::string& name) {
   return before.empty() ? name : before + "." + name;
@@ -55,7 +55,7 @@ Json parsed(std::string_view text, const std::string& place) {
 
 /// A number, a truth, a missing value, or a text that is a number or a date; none for other texts.
 std::optional<double> number_in(const Json& value) {
-  if (value.is_null()) return kMissing;
+  if (value.is_null()) return kNoNumber;
   if (value.is_boolean()) return value.get<bool>() ? 1.0 : 0.0;
   if (value.is_number()) return value.get<double>();
   double number = 0.0;
