@@ -9,6 +9,8 @@
 namespace dcnn {
 namespace {
 
+constexpr double kFar = 1.2;  // times its noise: a held-out error that calls for a word
+
 /// The channel on which the findings gain most.
 std::size_t telling_channel(const Json& fit) {
   std::size_t best = 0;
@@ -34,7 +36,6 @@ std::string change_of(const Json& report, std::size_t j) {
 /// The channels that got worse, and the one that is left farthest above its noise, where that is
 /// not the one that was named already.
 std::string other_channels(const Json& report, std::size_t named) {
-  constexpr double kFar = 1.2;
   const Json& fit = report["fit"];
   std::string text;
   double most = kFar;
@@ -137,18 +138,36 @@ std::string headline_without(const Json& report) {
          "new data is not known.";
 }
 
+/// Where nothing is missing: the channel that is left farthest above its noise.
+std::string consistent(const Json& report) {
+  const Json& fit = report["fit"];
+  const auto ratio = [&](std::size_t j) {
+    return fit["holdout_rmse_after"][j].get<double>() /
+           std::max(1e-300, heldout_noise(fit)[j].get<double>());
+  };
+  std::size_t worst = 0;
+  for (std::size_t j = 1; j < report["targets"].size(); ++j) {
+    if (ratio(j) > ratio(worst)) worst = j;
+  }
+  const auto number = [&](const Json& values) {
+    return brief(values[worst].get<double>()) + " " +
+           unit_text(report["units"][worst].get<std::string>());
+  };
+  const std::string target = report["targets"][worst].get<std::string>();
+  return "Nothing is missing: the simulator leaves " + number(fit["holdout_rmse_after"]) +
+         " on held-out " + target + ", the sensor's noise is " + number(heldout_noise(fit)) +
+         (ratio(worst) > kFar ? "; the noise of the measured motion, or what the fitted recordings "
+                                "leave as well, makes the rest."
+                              : ".");
+}
+
 /// What is missing, and what it is worth.
 std::string answer(const Json& report) {
   const Json& fit = report["fit"];
   if (fit["holdout_rmse_before"].is_null()) return headline_without(report);
   const std::size_t j = telling_channel(fit);
   const auto unit = unit_text(report["units"][j].get<std::string>());
-  const auto at = [&](const char* key) { return brief(fit[key][j].get<double>()); };
-  if (report["verdict"] == "consistent") {
-    return "Nothing is missing: the simulator leaves " + at("holdout_rmse_before") + " " + unit +
-           " on held-out data, the sensor's noise is " +
-           brief(heldout_noise(fit)[j].get<double>()) + " " + unit + ".";
-  }
+  if (report["verdict"] == "consistent") return consistent(report);
   const Missing missing = what_is_missing(report);
   return missing.words + ". The hold-out error of " + report["targets"][j].get<std::string>() +
          " " + change_of(report, j) + ", the sensor's noise is " +

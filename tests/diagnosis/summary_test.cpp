@@ -44,6 +44,21 @@ TEST(Headline, SaysThatAllItNamesIsWithoutEffectOnTheHeldOutError) {
       << headline(report);
 }
 
+TEST(Headline, WhereNothingIsMissingSpeaksOfTheWorstChannel) {
+  Json report = summary_report(Json::array());
+  report["verdict"] = "consistent";
+  report["fit"]["holdout_rmse_after"] = {0.04, 0.55};
+  EXPECT_EQ(headline(report),
+            "Nothing is missing: the simulator leaves 0.55 N on held-out fy, the sensor's noise is "
+            "0.5 N.");
+  report["fit"]["holdout_rmse_after"] = {0.08, 0.55};
+  EXPECT_EQ(
+      headline(report),
+      "Nothing is missing: the simulator leaves 0.08 N on held-out fx, the sensor's noise is "
+      "0.04 N; the noise of the measured motion, or what the fitted recordings leave as well, "
+      "makes the rest.");
+}
+
 TEST(Headline, BeginsWithASimulatorThatExplainsNothing) {
   Json report = summary_report(Json::array({finding_of("dry friction of 0.4 N", 0.9)}));
   report["fit"]["holdout_explained_before"] = {-0.1, -3.0};
