@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "data/spectral.h"
 #include "diagnosis/axis_case.h"
 #include "physics/driven.h"
 
@@ -89,7 +90,7 @@ bool has_own_offsets(const Case& study) {
                      [](const Log& log) { return log.zeroed; });
 }
 
-double end_seconds(double length) { return std::min(0.5, 0.1 * length); }
+double end_seconds(double length) { return std::min(kFlankSeconds, 0.1 * length); }
 
 std::vector<Segment> inner_segments(const Case& study, std::size_t log) {
   std::vector<Segment> inner;

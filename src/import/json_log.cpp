@@ -101,11 +101,9 @@ class Records {
   }
 
   void give(LogBuilder& builder) const {
-    const std::string file =
-        builder.file_number() > 1 ? "file" + std::to_string(builder.file_number()) + "/" : "";
     for (std::size_t k = 0; k < arrays_.size(); ++k) {
       const std::string number = arrays_.size() > 1 ? std::to_string(k + 1) : "";
-      add_number_arrays({arrays_[k]}, file + name_ + number, builder);
+      add_number_arrays({arrays_[k]}, builder.file_prefix() + name_ + number, builder);
     }
   }
 

@@ -27,7 +27,11 @@ class LogBuilder {
     stem_ = stem;
     number_ = number;
   }
-  std::size_t file_number() const { return number_; }
+  /// What the names of streams that are alike in each file begin with: "file2/", nothing in the
+  /// first.
+  std::string file_prefix() const {
+    return number_ > 1 ? "file" + std::to_string(number_) + "/" : "";
+  }
 
   /// The next `count` of the names that are given for the columns of all texts of the log.
   std::vector<std::string> next_columns(std::size_t count);

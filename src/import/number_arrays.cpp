@@ -50,8 +50,7 @@ void add_number_arrays(const std::vector<NumberArray>& arrays, const std::string
     if (array.rows > 1) by_length[array.rows].push_back(&array);
   }
   // Arrays of one length in two files are two streams: none goes on where the other ends.
-  const std::string file =
-      builder.file_number() > 1 ? "file" + std::to_string(builder.file_number()) + "/" : "";
+  const std::string file = builder.file_prefix();
   int rank = 0;
   for (const auto& [rows, members] : by_length) {
     ++rank;

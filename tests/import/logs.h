@@ -50,6 +50,18 @@ inline double cell(const Imported& imported, const std::string& column, Index ro
                                 : imported.table.values(row, found - columns.begin());
 }
 
+/// The three rows that each dialect of a log writes in its own way.
+inline void expect_three_rows(const Imported& imported) {
+  ASSERT_EQ(imported.table.values.rows(), 3);
+  for (Index row = 0; row < 3; ++row) {
+    const auto k = static_cast<double>(row);
+    EXPECT_NEAR(cell(imported, "t", row) - cell(imported, "t", 0), 0.01 * k, 1e-6);
+    EXPECT_EQ(cell(imported, "fx", row), 1.5 + k);
+    EXPECT_EQ(cell(imported, "fy", row), -0.25);
+    EXPECT_EQ(cell(imported, "fz", row), 1000.0);
+  }
+}
+
 inline bool has_column(const Imported& imported, const std::string& column) {
   const auto& columns = imported.table.columns;
   return std::find(columns.begin(), columns.end(), column) != columns.end();
