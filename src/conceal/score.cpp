@@ -133,9 +133,9 @@ double mean(const Json& list, const std::vector<double>& unit) {
 Json score_holdout(const Json& answer, const Json& report) {
   Json out = Json::object();
   const Json& oracle = answer["oracle_rmse"];
-  // Forces in N; beside torques each channel by what the true law leaves.
-  std::vector<double> unit(6, 1.0);
-  if (oracle.is_array() && oracle.size() == unit.size()) unit = oracle.get<std::vector<double>>();
+  // Forces in N; beside torques, and of joints, each channel by what the true law leaves.
+  std::vector<double> unit(3, 1.0);
+  if (oracle.is_array() && oracle.size() > unit.size()) unit = oracle.get<std::vector<double>>();
   const Json fit = report.is_object() ? report.value("fit", Json::object()) : Json::object();
   for (const auto& [key, name] : {std::pair{"holdout_rmse_before", "before"},
                                   {"holdout_rmse_after", "after"},

@@ -122,6 +122,17 @@ TEST(ArmEngine, FindingsAreScoredByJoint) {
   EXPECT_TRUE(scores[2]["axis_right"].get<bool>());
 }
 
+TEST(ArmEngine, EachOfSevenJointsCountsInUnitsOfItsOwnLaw) {
+  Json answer{{"id", "s0001"}, {"drawn", "x"}, {"group", "null"}, {"motion", ""}, {"noise", ""}};
+  answer["hidden"] = Json::array();
+  answer["oracle_rmse"] = std::vector<double>{1.0, 2.0, 4.0, 1.0, 2.0, 4.0, 8.0};
+  Json report{{"verdict", "consistent"}, {"findings", Json::array()}};
+  report["fit"]["holdout_rmse_after"] = std::vector<double>{2.0, 4.0, 8.0, 2.0, 4.0, 8.0, 16.0};
+  const Json holdout = conceal::score(answer, report)["holdout"];
+  EXPECT_DOUBLE_EQ(holdout["after"].get<double>(), 2.0);
+  EXPECT_DOUBLE_EQ(holdout["oracle"].get<double>(), 1.0);
+}
+
 TEST(ArmEngine, APlanHasEveryGroup) {
   const auto ids = conceal::arm_plan(24, 5);
   for (const std::string group : {"null:", "single:", "payload:", "loaded:"}) {
