@@ -69,7 +69,8 @@ bool Search::even_out_gears() {
       const EffectKind& kind = *find_effect("coulomb_friction");
       members.push_back(make_member(study_, kind, kind.fits[0], axes_of(study_, kind).front(),
                                     fit_.members[m].shapes.tail(1)));
-      members.back().amplitudes = fit_.members[m].amplitudes.head(1);
+      // The mean over the positions; one that would drive is none.
+      members.back().amplitudes = fit_.members[m].amplitudes.head(1).cwiseMax(0.0);
     }
     settle(members);
     weigh_once();

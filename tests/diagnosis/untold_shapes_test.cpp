@@ -38,9 +38,9 @@ TEST(UntoldShapes, AConstantHasNone) {
   EXPECT_TRUE(is_untold_of([](double) { return 0.05; }));
 }
 
-/// The names on an axis with dry friction that varies by `a` with 9 times the position, after
-/// gears' friction was fitted to it and what is not told of that was left out.
-std::vector<std::string> names_beside_gears(double a) {
+/// The names on an axis with viscous friction and with dry friction `fc` that varies by `a` with 9
+/// times the position, after both were fitted to it and what is not told of gears was left out.
+std::vector<std::string> names_beside_gears(double a, double fc = 1.0) {
   const test::TemporaryFolder folder;
   Rng rng({4});
   Table table{{"t", "q", "torque"}, Eigen::MatrixXd(5000, 3)};
@@ -49,7 +49,7 @@ std::vector<std::string> names_beside_gears(double a) {
     const double q = std::sin(1.1 * t) + 0.4 * std::sin(2.9 * t),
                  v = 1.1 * std::cos(1.1 * t) + 1.16 * std::cos(2.9 * t);
     table.values.row(i) << t, q,
-        (1.0 + a * std::sin(9.0 * q)) * std::tanh(v / 0.02) + 0.05 * rng.normal();
+        2.0 * v + fc * (1.0 + a * std::sin(9.0 * q)) * std::tanh(v / 0.02) + 0.05 * rng.normal();
   }
   write_csv(folder / "log.csv", table);
   write_file(folder / "system.json", R"({"kind": "axes", "axes": [
@@ -58,8 +58,10 @@ std::vector<std::string> names_beside_gears(double a) {
   request.system = folder / "system.json";
   request.fit = {folder / "log.csv"};
   Search search(load_axes(request).cases[0].fit, {}, nullptr);
-  const EffectKind& kind = *find_effect("gear_friction");
-  search.settle({make_member(search.study(), kind, kind.fits[0], "alpha:base_x",
+  const EffectKind &gears = *find_effect("gear_friction"),
+                   &viscous = *find_effect("viscous_friction");
+  search.settle({make_member(search.study(), viscous, viscous.fits[0], "alpha:base_x", {}),
+                 make_member(search.study(), gears, gears.fits[0], "alpha:base_x",
                              Eigen::Vector2d(9.0, 0.02))});
   search.even_out_gears();
   std::vector<std::string> names;
@@ -68,11 +70,18 @@ std::vector<std::string> names_beside_gears(double a) {
 }
 
 TEST(UntoldShapes, GearsThatVaryKeepTheirName) {
-  EXPECT_EQ(names_beside_gears(0.3), std::vector<std::string>{"gear_friction"});
+  EXPECT_EQ(names_beside_gears(0.3),
+            (std::vector<std::string>{"viscous_friction", "gear_friction"}));
 }
 
 TEST(UntoldShapes, GearsThatDoNotVaryAreDryFriction) {
-  EXPECT_EQ(names_beside_gears(0.0), std::vector<std::string>{"coulomb_friction"});
+  EXPECT_EQ(names_beside_gears(0.0),
+            (std::vector<std::string>{"viscous_friction", "coulomb_friction"}));
+}
+
+// Friction that falls with the speed is no drive: it ends where it vanishes.
+TEST(UntoldShapes, GearsThatWouldDriveAreNoNegativeFriction) {
+  EXPECT_EQ(names_beside_gears(0.0, -0.2).front(), "viscous_friction");
 }
 
 }  // namespace
