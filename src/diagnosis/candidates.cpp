@@ -144,19 +144,34 @@ void add_resonances(const Scan& scan, const Signals& left, const std::vector<Flo
 /// motion's own.
 double least_excess_in_motion(double terms) { return 60.0 + 3.0 * terms; }
 
+/// Whether a signal has a line of its own near this frequency.
+bool has_line(const Case& study, const Signals& signals, const std::vector<Floor>& floors,
+              double hz) {
+  const auto lines = common_lines(study, signals, floors, hz - 0.3, hz + 0.3, 1);
+  return !lines.empty() && lines.front().ratio > 100.0;
+}
+
+/// The sense of an axis' velocity, whose lines are those of friction.
+Signals senses(const Case& study) {
+  Signals signals;
+  for (const Log& log : study.logs)
+    signals.push_back(log.motion.v_B.col(0).array().sign().matrix());
+  return signals;
+}
+
 void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& floors,
              std::vector<Member>& list) {
   constexpr int kLines = 4;
   constexpr std::size_t kTried = 2;
   const Case& study = scan.setting().study;
   const EffectKind& kind = *find_effect("hum");  // a periodic motion has lines of its own
-  const double from = study.axis ? 0.5 * study.motion_hz : 0.3;
+  const Signals prediction = scan.chain().prediction();
+  const Signals sense = study.axis ? senses(study) : Signals();
   std::size_t tried = 0;
-  for (const auto& line : common_lines(study, left, floors, from, 0.49 / study.dt(), kLines)) {
+  for (const auto& line : common_lines(study, left, floors, 0.3, 0.49 / study.dt(), kLines)) {
     if (!line.stands_out() || tried == kTried) break;
-    const auto own =
-        common_lines(study, scan.chain().prediction(), floors, line.hz - 0.3, line.hz + 0.3, 1);
-    const bool in_motion = !own.empty() && own.front().ratio > 100.0;
+    const bool in_motion = has_line(study, prediction, floors, line.hz) ||
+                           (study.axis && has_line(study, sense, floors, line.hz));
     if (in_motion && line.excess < least_excess_in_motion(line.terms)) continue;
     list.push_back(
         make_member(study, kind, kind.fits[0], "", Eigen::VectorXd::Constant(1, line.hz)));

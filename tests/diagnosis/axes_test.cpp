@@ -253,6 +253,17 @@ TEST(DiagnoseAxes, NamesACubicSpring) {
   EXPECT_NEAR(number(*spring, "k3", "N*m/rad^3"), 2.0, 0.1);
 }
 
+// Far below the band in which a machine's own errors are expected, and above its motion.
+TEST(DiagnoseAxes, NamesAHumOfSixHertz) {
+  const AxisBench bench(
+      [](const State& s) { return kAxisNoise * std::sin(2.0 * std::numbers::pi * 6.05 * s.t); });
+  const Json report = bench.diagnose(one_axis()).report;
+  ASSERT_EQ(report["findings"].size(), 1U) << report["findings"].dump(1);
+  const Json* hum = find(report, "hum");
+  ASSERT_TRUE(hum) << report["findings"].dump(1);
+  EXPECT_NEAR(number(*hum, "freq", "Hz"), 6.05, 0.01);
+}
+
 TEST(DiagnoseAxes, ComparesWithASimulatorsColumn) {
   const AxisBench bench([](const State& s) { return 0.1 * kInertia * s.a + 0.4 * s.v; });
   Json system = one_axis({{"simulated", "simulated"}, {"scale", -2.0}, {"unit", "A"}});
