@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "diagnosis/evidence/posterior.h"
-#include "diagnosis/evidence/priors.h"
+#include "diagnosis/arm_structure.h"
 #include "diagnosis/words.h"
 
 namespace dcnn {
@@ -20,19 +19,6 @@ double student_quantile(double freedom) {
   const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z, n = freedom;
   return z + (z3 + z) / (4.0 * n) + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * n * n) +
          (3.0 * z7 + 19.0 * z5 + 17.0 * z3 - 15.0 * z) / (384.0 * n * n * n);
-}
-
-/// Whether a model that has something more than another is more likely than not, after pieces that
-/// were left out: of odds of one name before.
-bool is_likelier(const ArmRegression& more, const ArmRegression& less) {
-  return evidence::updated(evidence::prior::kName, more.log_support_against(less)) > 0.5;
-}
-
-/// A model with the first `count` terms of its own in each joint.
-ArmModel with_terms(const MatrixXd& shared, std::size_t joints, Index count) {
-  std::vector<Index> own;
-  for (Index k = 0; k < count; ++k) own.push_back(k);
-  return {shared, std::vector<std::vector<Index>>(joints, own)};
 }
 
 /// Value and half of its 95 % interval: of a number that depends on the shared parameters.
@@ -141,30 +127,15 @@ GivenArm what_is_missing(const std::vector<JointRows>& rows, const JointChain& c
   shared[1] = shared[2].leftCols(4);
   if (bodies.size() > 0) shared.push_back(told_parameters(rows));
 
-  // What resembles a payload on one joint stands beside every hypothesis.
-  const auto beside_aliases = [&](std::size_t h) {
-    return ArmRegression(sums, with_terms(shared[h], rows.size(), kOwnFriction + kOwnAliases));
-  };
-  ArmRegression largest = beside_aliases(shared.size() - 1);
-  largest.reweight();
-  std::size_t chosen = 0;
-  const auto all_terms = [&](std::size_t h) {
-    ArmRegression regression = beside_aliases(h);
-    regression.set_variances(largest.variances());
-    return regression;
-  };
-  for (std::size_t h = 1; h < shared.size(); ++h) {
-    if (is_likelier(all_terms(h), all_terms(chosen))) chosen = h;
-  }
+  const ArmStructureSearch search(sums, shared);
+  const ArmStructure chosen = search.run();
   GivenArm result;
-  if (chosen == 0) return result;
-  // Its numbers are fitted beside friction alone: what else a joint needs is looked for there.
-  ArmRegression regression(sums, with_terms(shared[chosen], rows.size(), kOwnFriction));
-  regression.reweight();
+  if (chosen.shared == 0) return result;
+  const ArmRegression regression = search.fitted(chosen);
   const VectorXd x = regression.shared(-1);
-  if (chosen == 3) {
+  if (chosen.shared == 3) {
     result.missing = GivenArm::Missing::kLinks;
-    result.links = bodies + shared[chosen] * x;
+    result.links = bodies + shared[chosen.shared] * x;
     result.finding = links_finding();
     return result;
   }

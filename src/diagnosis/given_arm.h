@@ -16,11 +16,10 @@ struct GivenArm {
   Json finding;  ///< null where nothing is missing; holdout_gain is not set
 };
 
-/// Fitted to what the given simulator leaves on all joints at once, beside terms of each joint:
-/// nothing; mass and centre of a payload (4 numbers); with its inertia (10); the links' base
-/// parameters where `bodies` are described (else no rows). On pieces of time that were left out,
-/// the simpler stands unless the other is significantly better (paired, 97.5 %). Intervals are
-/// jackknife over the pieces.
+/// The likeliest account of what the given simulator leaves on all joints at once
+/// (arm_structure.h), beside terms of single joints: nothing; mass and centre of a payload (4
+/// numbers); with its inertia (10); the links' base parameters where `bodies` are described (else
+/// no rows). Intervals are jackknife over pieces of time.
 GivenArm what_is_missing(const std::vector<JointRows>& rows, const JointChain& chain,
                          const Eigen::VectorXd& bodies);
 

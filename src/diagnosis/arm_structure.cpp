@@ -1,0 +1,127 @@
+#include "diagnosis/arm_structure.h"
+
+#include <algorithm>
+
+#include "core/elementary.h"
+#include "diagnosis/evidence/priors.h"
+
+namespace dcnn {
+
+using Eigen::VectorXd;
+
+ArmRegression ArmStructureSearch::unweighted(const ArmStructure& structure) const {
+  ArmModel model{shared_[structure.shared], {}};
+  for (const std::vector<Index>& more : structure.more) {
+    std::vector<Index> own;
+    for (Index k = 0; k < kOwnFriction; ++k) own.push_back(k);
+    own.insert(own.end(), more.begin(), more.end());
+    model.own.push_back(std::move(own));
+  }
+  return {sums_, std::move(model)};
+}
+
+ArmRegression ArmStructureSearch::fitted(const ArmStructure& structure) const {
+  ArmRegression regression = unweighted(structure);
+  regression.reweight();
+  return regression;
+}
+
+/// A name for each set of shared parameters on the way; one of a joint's for each term.
+double ArmStructureSearch::log_prior(const ArmStructure& structure) const {
+  const auto odds = [](double p) { return elementary::log(p / (1.0 - p)); };
+  const double name = evidence::prior::kName;
+  double sum = static_cast<double>(structure.shared) * odds(name);
+  for (const std::vector<Index>& more : structure.more) {
+    sum += static_cast<double>(more.size()) * odds(name / static_cast<double>(sums_.joints()));
+  }
+  return sum;
+}
+
+double ArmStructureSearch::log_odds(const ArmStructure& a, const ArmStructure& b,
+                                    const VectorXd& variances) const {
+  ArmRegression of_a = unweighted(a), of_b = unweighted(b);
+  of_a.set_variances(variances);
+  of_b.set_variances(variances);
+  return of_a.log_support_against(of_b) + log_prior(a) - log_prior(b);
+}
+
+/// Up the sets of shared parameters, from each to the next that is likelier.
+ArmStructure ArmStructureSearch::climbed(const ArmStructure& from,
+                                         const VectorXd& variances) const {
+  ArmStructure best = from;
+  for (std::size_t h = from.shared + 1; h < shared_.size(); ++h) {
+    ArmStructure next = from;
+    next.shared = h;
+    if (log_odds(next, best, variances) > 0.0) best = next;
+  }
+  return best;
+}
+
+ArmStructure ArmStructureSearch::with_best_term(const ArmStructure& from,
+                                                const VectorXd& variances) const {
+  ArmStructure best = from;
+  double most = 0.0;
+  for (std::size_t j = 0; j < sums_.joints(); ++j) {
+    for (Index k = kOwnFriction; k < kOwnFriction + kOwnAliases; ++k) {
+      const std::vector<Index>& has = from.more[j];
+      if (std::find(has.begin(), has.end(), k) != has.end()) continue;
+      ArmStructure next = from;
+      next.more[j].push_back(k);
+      const double odds = log_odds(next, from, variances);
+      if (odds > most) most = odds, best = std::move(next);
+    }
+  }
+  return best;
+}
+
+/// Takes back one thing without which the rest is as likely; false where there is none.
+bool ArmStructureSearch::drop_needless(ArmStructure* structure) const {
+  std::vector<ArmStructure> smaller;
+  if (structure->shared > 0) smaller.push_back({0, structure->more});
+  for (std::size_t j = 0; j < sums_.joints(); ++j) {
+    for (std::size_t k = 0; k < structure->more[j].size(); ++k) {
+      smaller.push_back(*structure);
+      std::vector<Index>& more = smaller.back().more[j];
+      more.erase(more.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+  }
+  const VectorXd variances = fitted(*structure).variances();
+  for (ArmStructure& less : smaller) {
+    if (log_odds(*structure, less, variances) > 0.0) continue;
+    *structure = std::move(less);
+    return true;
+  }
+  return false;
+}
+
+/// Adds what makes the structure likelier, the best first, bodies as well where they may join; then
+/// takes back what the rest makes needless.
+ArmStructure ArmStructureSearch::grown(ArmStructure now, bool with_bodies) const {
+  while (true) {
+    const VectorXd variances = fitted(now).variances();
+    ArmStructure next = with_best_term(now, variances);
+    if (with_bodies) {
+      ArmStructure bodies = climbed(now, variances);
+      const bool first = bodies.shared != now.shared &&
+                         log_odds(bodies, now, variances) >= log_odds(next, now, variances);
+      if (first) next = std::move(bodies);
+    }
+    if (next.shared == now.shared && next.more == now.more) break;
+    now = std::move(next);
+  }
+  while (drop_needless(&now)) {
+  }
+  return now;
+}
+
+ArmStructure ArmStructureSearch::run() const {
+  const ArmStructure nothing{0, std::vector<std::vector<Index>>(sums_.joints())};
+  ArmStructure without = grown(nothing, false);
+  // Terms of all joints together imitate a body, and a body a term: each begins once.
+  const ArmStructure body = climbed(nothing, fitted(nothing).variances());
+  ArmStructure with = grown(body, true);
+  const VectorXd variances = fitted(with).variances().cwiseMax(fitted(without).variances());
+  return log_odds(with, without, variances) > 0.0 ? with : without;
+}
+
+}  // namespace dcnn
