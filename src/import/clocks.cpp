@@ -7,6 +7,7 @@
 
 #include "data/text.h"
 #include "dcnn/core/error.h"
+#include "import/rate_clock.h"
 #include "import/roles.h"
 #include "import/units.h"
 
@@ -40,14 +41,21 @@ std::vector<double> steps_of(const std::vector<double>& times) {
   return steps;
 }
 
-/// The unit of a clock that states none, by its size.
-void guess_unit(const LogChannel& channel, ClockRule* rule) {
+std::vector<double> numbers_in(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  return values;
+}
+
+/// The unit of a clock that states none, by its size, or by what rates in the log say.
+void guess_unit(const LogStream& stream, const LogChannel& channel, ClockRule* rule) {
+  constexpr double kFits = 1.5;  // of a rate's scale, where units are a thousand apart
   const struct {
     const char* unit;
     double factor;
   } kChoices[] = {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
+  const double middle = median_of(numbers_in(channel.values));
   for (const auto& choice : kChoices) {
-    const double seconds = channel.low * choice.factor;
+    const double seconds = middle * choice.factor;
     if (seconds < kYear1990 || seconds > kYear2100) continue;
     rule->unit = choice.unit;
     rule->why = "a date since 1970";
@@ -55,6 +63,15 @@ void guess_unit(const LogChannel& channel, ClockRule* rule) {
   }
   const double step = median_of(steps_of(channel.values));
   std::ostringstream words;
+  if (const auto seconds = seconds_by_rates(stream, channel.values)) {
+    for (const auto& choice : kChoices) {
+      if (*seconds > kFits * choice.factor || choice.factor > kFits * *seconds) continue;
+      rule->unit = choice.unit;
+      words << "the logged rates, and steps of " << step;
+      rule->why = words.str();
+      return;
+    }
+  }
   if (step < kSlowStep) {
     words << "steps of " << step;
     rule->why = words.str();
@@ -121,7 +138,7 @@ void take_column(const LogStream& stream, const std::string& name, const ImportW
     rule->unit = stated;
     rule->why = "its name";
   } else {
-    guess_unit(channel, rule);
+    guess_unit(stream, channel, rule);
   }
 }
 
@@ -187,6 +204,23 @@ std::optional<ClockRule> lone_clock(const ForeignLog& log, const std::vector<Clo
     return rule;
   }
   return std::nullopt;
+}
+
+void propose_rate(const LogStream& stream, ClockRule* rule, std::vector<std::string>* guesses) {
+  const auto seconds = seconds_by_rates(stream, {});
+  if (rule->kind != "none" || !seconds) return;
+  const double hz = 1.0 / *seconds;
+  double digit = 1.0;
+  while (hz >= 1000.0 * digit) digit *= 10.0;
+  while (hz < 100.0 * digit) digit /= 10.0;
+  rule->kind = "rate";
+  rule->hz = digit * std::round(hz / digit);
+  rule->assumed = true;
+  std::ostringstream words;
+  words << rule->hz;
+  rule->why = "the logged rates";
+  guesses->push_back("no clock, and the logged rates fit " + words.str() +
+                     " rows a second: say --rate " + words.str());
 }
 
 std::vector<double> clock_times(const LogStream& stream, const ClockRule& rule,

@@ -37,7 +37,7 @@ void take_number(const std::map<std::string, double>& from, const std::string& t
 /// What cannot be the quantity in SI is of another unit; which one is a guess.
 void guess_column_unit(const LogChannel& channel, ColumnRule* rule) {
   const std::string quantity = quantity_of_column(rule->to);
-  const double size = std::max(std::abs(channel.low), std::abs(channel.high));
+  const double size = channel.sizes.usual();
   std::ostringstream words;
   words << "largest " << size;
   rule->why = words.str();

@@ -269,6 +269,12 @@ class Proposer {
     }
     if (const auto alone = lone_clock(log_, recipe().clocks, wishes_, &proposal_.guesses)) {
       recipe().clocks.push_back(*alone);
+    } else {
+      for (ClockRule& clock : recipe().clocks) {
+        for (const LogStream& stream : log_.streams) {
+          if (stream.name == clock.stream) propose_rate(stream, &clock, &proposal_.guesses);
+        }
+      }
     }
     for (const char* first : {"fx", "tx", "x", "qw"}) {
       for (const ColumnRule& rule : recipe().columns) {

@@ -64,6 +64,20 @@ std::string joint_word(const std::string& word) {
   return "";
 }
 
+/// The same of Position1 and velocity[1], where the stream has a torque of that number beside.
+std::string joint_beside_torque(const LogStream& stream, const Words& words) {
+  const std::string role = joint_role(words, "");
+  const std::string number = role.substr(role.find(':') + 1);
+  const bool torque =
+      !role.empty() &&
+      std::any_of(stream.channels.begin(), stream.channels.end(), [&](const LogChannel& channel) {
+        std::string all;
+        for (const std::string& word : words_of_name(channel.name)) all += word;
+        return joint_word(all) == "tau:" + number;
+      });
+  return torque ? role : "";
+}
+
 /// The rotation of a 4x4 or 3x3 matrix whose elements are counted: libfranka's O_T_EE goes by
 /// columns.
 std::string matrix_element(const Words& words, int index) {
@@ -197,7 +211,9 @@ std::string role_of(const LogStream& stream, const std::string& full_name) {
     if (is_frame_of_kuka(stream)) return kuka_angle(words[0]);
     const std::string of_file = joint_quantity_of_file(words_of_name(stream.source));
     const std::string role = of_file.empty() ? "" : joint_role(words, of_file);
-    return role.empty() ? joint_word(words[0]) : role;
+    if (!role.empty()) return role;
+    const std::string word = joint_word(words[0]);
+    return word.empty() ? joint_beside_torque(stream, words) : word;
   }
   const std::string of_file = joint_quantity_of_file(words_of_name(stream.source));
   const bool joint = names_joint(words) && !is_no_measurement(words);
@@ -207,7 +223,10 @@ std::string role_of(const LogStream& stream, const std::string& full_name) {
   }
   const bool indexed =
       words.size() == 2 && words[1].find_first_not_of("0123456789") == std::string::npos;
-  if (indexed) return joint_word(words[0] + words[1]);  // tau[3]
+  if (indexed) {  // tau[3]
+    const std::string word = joint_word(words[0] + words[1]);
+    return word.empty() ? joint_beside_torque(stream, words) : word;
+  }
   if (is_no_measurement(words)) return "";
   if (const std::string role = joint_role(words, ""); !role.empty()) return role;
   // "sensor.fx", "/ft/Fx", "tool_roll": the last word alone, where it is one of a vector's names.

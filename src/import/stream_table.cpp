@@ -7,6 +7,7 @@
 #include "data/text.h"
 #include "dcnn/core/error.h"
 #include "dcnn/core/excerpt.h"
+#include "import/broken_rows.h"
 #include "import/clocks.h"
 #include "import/units.h"
 
@@ -84,6 +85,17 @@ std::vector<std::size_t> usable_rows(const ForeignLog& log, const LogStream& str
       notes->push_back(stream.name + ": " + std::to_string(before - rows.size()) +
                        " messages repeat a stamp: left out");
     }
+  }
+  if (!message) {
+    std::vector<std::size_t> kept = unbroken_rows(rows, times, columns);
+    if (const std::size_t lost = rows.size() - kept.size(); lost > 0) {
+      const auto first = std::mismatch(kept.begin(), kept.end(), rows.begin()).second;
+      notes->push_back(stream.name + ": " + std::to_string(lost) +
+                       " broken rows (a time out of order, or a number out of all proportion), "
+                       "the first is row " +
+                       std::to_string(*first + 1) + ": left out");
+    }
+    rows = std::move(kept);
   }
   for (std::size_t k = 1; k < rows.size(); ++k) {
     if (times[rows[k]] > times[rows[k - 1]]) continue;  // words are made for a message only

@@ -1,6 +1,7 @@
 // What a log of somebody else holds: streams of named channels, each stream with clocks of its own.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -11,6 +12,20 @@
 
 namespace dcnn {
 
+/// How many values are how large: the largest of each power of two.
+class SizeCount {
+ public:
+  void add(double value);
+  /// The largest size, but for the hundredth of the values that is largest: rows may be broken.
+  double usual() const;
+
+ private:
+  static constexpr int kLeast = -64, kMost = 63;  ///< powers of two that are told apart
+  std::array<double, kMost - kLeast + 1> largest_{};
+  std::array<Index, kMost - kLeast + 1> count_{};
+  Index all_ = 0;
+};
+
 /// One number per row: a column of a text, a numeric field of a message.
 struct LogChannel {
   std::string name;            ///< "Fx", "wrench.force.x", "position[elbow]"
@@ -19,7 +34,8 @@ struct LogChannel {
   Index finite = 0;            ///< values that are numbers
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
-  bool whole = true;          ///< all of them whole numbers
+  bool whole = true;  ///< all of them whole numbers
+  SizeCount sizes;
   double largest_step = 0.0;  ///< between neighbours
   double last = std::numeric_limits<double>::quiet_NaN();
 
