@@ -61,6 +61,15 @@ std::string listed(const std::vector<std::size_t>& joints, const System& system)
   return joined(parts);
 }
 
+/// The effect by which a finding is called: bristles whose stiffness is not told are dry friction.
+std::string called(const Json& finding) {
+  std::string effect = finding["effect"];
+  const Json numbers = finding.value("parameters", Json::object());
+  const bool dry =
+      effect == "lugre_friction" && numbers.contains("sigma0") && !is_told(numbers["sigma0"]);
+  return dry ? "coulomb_friction" : effect;
+}
+
 std::size_t joint_of(const Json& name, const System& system) {
   for (std::size_t k = 0; k < system.axes.size(); ++k) {
     if (name == system.axes[k].name) return k;
@@ -92,7 +101,7 @@ Json arm_json(const Json& report, const System& system) {
   std::vector<std::string> effects;  // in the order in which they are met
   std::map<std::string, std::vector<std::size_t>> joints;
   for (const Json& finding : report["findings"]) {
-    const std::string effect = finding["effect"];
+    const std::string effect = called(finding);
     const std::size_t joint = joint_of(finding["axis"], system);
     if (joint == system.axes.size()) {
       add(finding["words"].get<std::string>());

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "dcnn/diagnosis/diagnose.h"
 #include "dcnn/physics/effect.h"
 #include "diagnosis/plain_findings.h"
 #include "diagnosis/words.h"
@@ -23,6 +24,7 @@ class Numbers {
   std::string plain(const char* name, double factor = 1.0) const {
     return brief(factor * value(name));
   }
+  bool told(const char* name) const { return is_told(parameters_[name]); }
   std::string size(const char* name) const {
     return brief(std::abs(value(name))) + " " + parameters_[name]["unit"].get<std::string>();
   }
@@ -43,7 +45,10 @@ const std::map<std::string, Sentence>& sentences() {
        }},
       {"quadratic_drag", [](auto& n) { return "drag of " + n("c2"); }},
       {"lugre_friction",
-       [](auto& n) { return "friction of " + n("fc") + " that first gives way elastically"; }},
+       [](auto& n) {
+         return n.told("sigma0") ? "friction of " + n("fc") + " that first gives way elastically"
+                                 : "dry friction of " + n("fc");
+       }},
       {"asymmetric_friction",
        [](auto& n) {
          return "friction that differs between the directions, by " + n.size("delta_c") +

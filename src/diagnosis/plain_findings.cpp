@@ -87,13 +87,11 @@ std::string viscous_part(const Json& findings) {
   return brief(c + d) + " " + unit + " viscous forwards and " + brief(c - d) + " backwards";
 }
 
-/// The way in which bristles give way: fc/sigma0, in thousandths; nothing where the recordings know
-/// it to no factor of ten.
+/// The way in which bristles give way: fc/sigma0, in thousandths; nothing where it is not told.
 std::string presliding_part(const Json& findings) {
   const Json lugre = of_effect(findings, "lugre_friction");
   if (lugre.is_null() || said_value(lugre, "sigma0") <= 0.0) return "";
-  const Json ends = numbers_of(lugre, "sigma0")["ci95"];
-  if (ends[1].get<double>() > kKnownWay * kKnownWay * ends[0].get<double>()) return "";
+  if (!is_told(numbers_of(lugre, "sigma0"))) return "";
   const std::string unit = unit_of(lugre, "sigma0");
   const std::string length = unit.substr(unit.rfind('/') + 1);
   const double way = said_value(lugre, "fc") / said_value(lugre, "sigma0");
@@ -196,6 +194,13 @@ std::string friction_words(const Json& findings) {
   }
   add(presliding_part(findings));
   return text;
+}
+
+bool is_told(const Json& number) {
+  const Json& ends = number["ci95"];
+  if (!ends.is_array() || ends[0].is_null() || ends[1].is_null()) return true;
+  const double low = ends[0], high = ends[1];
+  return low <= 0.0 || high <= kKnownWay * kKnownWay * low;
 }
 
 Json in_lines(const Json& findings) {

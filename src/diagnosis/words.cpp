@@ -4,12 +4,19 @@
 #include <cmath>
 #include <cstdio>
 
+#include "dcnn/diagnosis/diagnose.h"
 #include "dcnn/physics/effect_words.h"
 
 namespace dcnn {
 namespace {
 
 using Estimates = std::vector<Estimate>;
+
+bool is_told_of(const std::vector<Estimate>& numbers, const char* name) {
+  return std::all_of(numbers.begin(), numbers.end(), [&](const Estimate& number) {
+    return number.name != name || is_told({{"ci95", {number.low, number.high}}});
+  });
+}
 
 double value_of(const Estimates& numbers, const std::string& name) {
   for (const Estimate& e : numbers) {
@@ -107,7 +114,9 @@ std::string effect_in_words(const Member& member, const Estimates& n) {
            " N with speed" + where;
   if (id == "quadratic_drag") return "drag of " + number("c2_ns2pm2") + " N·s²/m²" + where;
   if (id == "lugre_friction")
-    return "friction of " + number("fc_n") + " N that first gives way elastically" + where;
+    return is_told_of(n, "sigma0_npm")
+               ? "friction of " + number("fc_n") + " N that first gives way elastically" + where
+               : "dry friction of " + number("fc_n") + " N" + where;
   if (id == "load_friction")
     return "friction of " + brief(100.0 * value_of(n, "mu")) + " % of the load across the path" +
            where;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dcnn/diagnosis/diagnose.h"
 #include "dcnn/physics/effect_words.h"
 #include "experiment/markup.h"
 #include "experiment/report_words.h"
@@ -34,6 +35,12 @@ std::vector<std::string> numbers_in_words(const Json& finding) {
     // Held at nothing, as a spring's rest is beside a constant: no number of its own.
     if (value == 0.0 && interval[0] == 0.0 && interval[1] == 0.0) continue;
     const std::string unit = unit_in_words(effect, name, plain_text(number["unit"]));
+    if (!is_told(number)) {
+      words.push_back(words_of_parameter(effect, name) + ": not told, " +
+                      with_unit(interval[0].get<double>(), unit) + " to " +
+                      with_unit(interval[1].get<double>(), unit));
+      continue;
+    }
     words.push_back(
         words_of_parameter(effect, name) + ": " +
         (interval[0].is_null() || interval[1].is_null()

@@ -40,6 +40,13 @@ TEST(PlainFindings, TheFrictionOfAnAxisIsOneCurve) {
   EXPECT_EQ(lines[1]["effect"], "cable_spring");
 }
 
+TEST(PlainFindings, ANumberThatSpansDecadesIsNotTold) {
+  EXPECT_TRUE(is_told(said(4.0, "N*m", 0.5)));
+  EXPECT_TRUE(is_told(said(4.0, "N*m", 2.0)));  // through zero: of either sign
+  EXPECT_FALSE(is_told({{"value", 1e5}, {"ci95", {300.0, 5e7}}, {"unit", "N*m/rad"}}));
+  EXPECT_TRUE(is_told({{"value", 1e5}, {"ci95", {nullptr, nullptr}}, {"unit", "N*m/rad"}}));
+}
+
 TEST(PlainFindings, FrictionsOfTwoAxesStayTwo) {
   const Json findings{said_finding("coulomb_friction", "joint1", {{"fc", said(8.0, "N*m")}}),
                       said_finding("viscous_friction", "joint2", {{"c", said(3.0, "N*m*s/rad")}})};

@@ -58,6 +58,10 @@ Diagnosis diagnose(const DiagnosisRequest& request,
 /// Findings as a reader wants them: those of friction along one axis as one curve ("friction"), and
 /// a spring whose numbers mean nothing as the constant that it is.
 Json in_lines(const Json& findings);
+
+/// False of a positive number (value, ci95) whose interval spans two decades: of a stiffness that
+/// only a much finer motion would tell the recordings know a bound at most.
+bool is_told(const Json& number);
 /// What was found, in one plain sentence.
 std::string headline(const Json& report);
 /// By target, of the held-out recordings; of the fitted ones in reports that do not know theirs.
