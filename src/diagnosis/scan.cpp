@@ -41,8 +41,6 @@ bool is_itself(const Case& study, const Member& member) {
     return false;
   }
   if (name != "stribeck_friction") return true;
-  // Friction must have set in before it can fall.
-  if (member.shapes(0) < member.shapes(1)) return false;
   const double ratio = member.amplitudes(1) / std::max(1e-300, member.amplitudes(0));
   return ratio > 1.0 && (!study.axis || ratio < 4.0);
 }
