@@ -140,6 +140,32 @@ double ArmRegression::log_support_against(const ArmRegression& other) const {
   return evidence::log_support(blocks);
 }
 
+Eigen::MatrixXd ArmRegression::promises() const {
+  const Eigen::VectorXd x = fit(-1, 0, pieces_.size());
+  const Index links = sums_.links_, own = maps_.front().rows() - links;
+  Eigen::MatrixXd list(variance_.size(), own);
+  for (std::size_t j = 0; j < pieces_.size(); ++j) {
+    const Eigen::VectorXd c = coefficients(j, x);
+    Eigen::VectorXd match = Eigen::VectorXd::Zero(own);
+    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(own, own);
+    for (const ArmSums::Piece& piece : sums_.sums_[j]) {
+      match += piece.match.tail(own) - piece.gram.bottomRows(own) * c;
+      gram += piece.gram.bottomRightCorner(own, own);
+    }
+    // What the joint's terms in use leave of each column.
+    const Eigen::MatrixXd used = maps_[j].bottomRightCorner(own, maps_[j].cols() - shared_);
+    const Eigen::MatrixXd shares = used.transpose() * gram;
+    const Eigen::MatrixXd taken = solve_gram(shares * used, shares, kSharedBaseRidge);
+    for (Index k = 0; k < own; ++k) {
+      const double left =
+          std::max(gram(k, k) - shares.col(k).dot(taken.col(k)), kSharedBaseRidge * gram(k, k));
+      list(static_cast<Index>(j), k) =
+          match(k) * match(k) / std::max(1e-300, left * variance_(static_cast<Index>(j)));
+    }
+  }
+  return list;
+}
+
 Eigen::VectorXd ArmRegression::resisted() const {
   const Eigen::VectorXd x = fit(-1, 0, pieces_.size());
   Eigen::VectorXd power = Eigen::VectorXd::Zero(variance_.size());

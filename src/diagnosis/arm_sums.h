@@ -51,6 +51,9 @@ class ArmRegression {
   /// another of the same sums and variances (diagnosis/evidence/support.h), each piece a
   /// block.
   double log_support_against(const ArmRegression& other) const;
+  /// (joints, columns of JointRows::own): by how much each column by itself would lower the squared
+  /// error of its joint, in units of its variance.
+  Eigen::MatrixXd promises() const;
   /// (joints): the power that the joints' own terms take by the rate in JointRows::own, summed over
   /// rows, in units of their variances.
   Eigen::VectorXd resisted() const;

@@ -11,6 +11,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kHeaviest = 10.0;  // of all that is described: what its links, and their moments
+                                    // at 1 m, may differ by
 constexpr double kSharedTolerance = 1e-3;  // of a column's length that others must leave
 
 /// 97.5 % quantile of Student's distribution (Cornish and Fisher; within 0.003 from 5 degrees on).
@@ -19,6 +21,16 @@ double student_quantile(double freedom) {
   const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z, n = freedom;
   return z + (z3 + z) / (4.0 * n) + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * n * n) +
          (3.0 * z7 + 19.0 * z5 + 17.0 * z3 - 15.0 * z) / (384.0 * n * n * n);
+}
+
+/// (joints): masses of the links of (10·joints) parameters.
+VectorXd masses(const VectorXd& links) { return links(Eigen::seqN(0, links.size() / 10, 10)); }
+
+/// (4·joints): masses [kg] and first moments [kg m].
+VectorXd first_moments(const VectorXd& links) {
+  VectorXd list(4 * (links.size() / 10));
+  for (Index k = 0; k < links.size() / 10; ++k) list.segment<4>(4 * k) = links.segment<4>(10 * k);
+  return list;
 }
 
 /// Value and half of its 95 % interval: of a number that depends on the shared parameters.
@@ -46,6 +58,15 @@ class PayloadText {
  public:
   PayloadText(const ArmRegression& regression, Index pieces) : all_(regression.shared(-1)) {
     for (Index p = 0; p < pieces; ++p) without_.push_back(regression.shared(p));
+  }
+
+  /// Whether any of mass and moments differs from none.
+  bool is_told() const {
+    for (Index i = 0; i < 4; ++i) {
+      const Jackknifed n = jackknife(without_, all_, [i](const VectorXd& x) { return x[i]; });
+      if (std::abs(n.value) > n.half) return true;
+    }
+    return false;
   }
 
   Json finding() {
@@ -134,14 +155,20 @@ GivenArm what_is_missing(const std::vector<JointRows>& rows, const JointChain& c
   const ArmRegression regression = search.fitted(chosen);
   const VectorXd x = regression.shared(-1);
   if (chosen.shared == 3) {
+    // Where an arm hardly moves, links of tons would follow what its drives give way by.
+    const double most = kHeaviest * masses(bodies).cwiseAbs().sum();
+    const VectorXd change = shared[chosen.shared] * x;
+    if (first_moments(change).cwiseAbs().maxCoeff() > most) return result;
     result.missing = GivenArm::Missing::kLinks;
-    result.links = bodies + shared[chosen.shared] * x;
+    result.links = bodies + change;
     result.finding = links_finding();
     return result;
   }
+  PayloadText payload(regression, sums.pieces());
+  if (!payload.is_told()) return result;
   result.missing = GivenArm::Missing::kPayload;
   result.payload.head(x.size()) = x;
-  result.finding = PayloadText(regression, sums.pieces()).finding();
+  result.finding = payload.finding();
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include "dcnn/conceal/arm.h"
 #include "dcnn/core/file.h"
+#include "dcnn/core/random.h"
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/arm_words.h"
 #include "diagnosis/axis_case.h"
@@ -63,6 +64,37 @@ TEST_F(GivenArms, NothingIsMissingWhereNothingIsHidden) {
     const LoadedAxes loaded = load_axes(request);
     EXPECT_TRUE(loaded.finding.is_null()) << seed << loaded.finding.dump(1);
   }
+}
+
+/// The arm at rest where a recording begins, while a hand pushes each joint now and then: its
+/// drives give way by a milliradian.
+void push_at_rest(const std::filesystem::path& file, std::uint64_t seed) {
+  Rng rng({seed});
+  Table table = read_csv(file);
+  const Eigen::RowVectorXd start = table.values.row(0);
+  for (Index k = 0; k < table.values.cols(); ++k) {
+    const bool angle = table.columns[static_cast<std::size_t>(k)].starts_with("q_");
+    const bool torque = table.columns[static_cast<std::size_t>(k)].starts_with("tau_");
+    if (!angle && !torque) continue;
+    // An angle and its torque have one number and so one push.
+    const double phase = static_cast<double>(table.columns[static_cast<std::size_t>(k)].back());
+    for (Index i = 0; i < table.values.rows(); ++i) {
+      const double t = table.values(i, 0) - start(0);
+      const double push = std::pow(std::max(0.0, std::sin(0.9 * t + phase)), 4.0) *
+                          std::sin((1.3 + 0.1 * static_cast<double>(seed)) * t + 2.0 * phase);
+      table.values(i, k) = start(k) + (angle ? 1e-3 * push : 20.0 * push + 0.1 * rng.normal());
+    }
+  }
+  write_csv(file, table);
+}
+
+TEST_F(GivenArms, AHandThatPushesAnArmAtRestIsNoPayload) {
+  const auto [answer, request] = concealed("null:0/none/0", 2);
+  push_at_rest(request.fit[0], 1);
+  push_at_rest(request.fit[1], 2);
+  push_at_rest(request.holdout[0], 3);
+  const Json finding = load_axes(request).finding;
+  EXPECT_TRUE(finding.is_null()) << finding.dump(1);
 }
 
 TEST_F(GivenArms, AnEffectOfOneJointIsNoPayload) {
