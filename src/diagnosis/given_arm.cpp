@@ -23,14 +23,9 @@ double student_quantile(double freedom) {
          (3.0 * z7 + 19.0 * z5 + 17.0 * z3 - 15.0 * z) / (384.0 * n * n * n);
 }
 
-/// (joints): masses of the links of (10·joints) parameters.
-VectorXd masses(const VectorXd& links) { return links(Eigen::seqN(0, links.size() / 10, 10)); }
-
-/// (4·joints): masses [kg] and first moments [kg m].
-VectorXd first_moments(const VectorXd& links) {
-  VectorXd list(4 * (links.size() / 10));
-  for (Index k = 0; k < links.size() / 10; ++k) list.segment<4>(4 * k) = links.segment<4>(10 * k);
-  return list;
+/// (4, joints): mass [kg] and first moments [kg m] of each link, of their (10·joints) parameters.
+MatrixXd moments_of(const VectorXd& links) {
+  return links.reshaped(10, links.size() / 10).topRows(4);
 }
 
 /// Value and half of its 95 % interval: of a number that depends on the shared parameters.
@@ -156,9 +151,9 @@ GivenArm what_is_missing(const std::vector<JointRows>& rows, const JointChain& c
   const VectorXd x = regression.shared(-1);
   if (chosen.shared == 3) {
     // Where an arm hardly moves, links of tons would follow what its drives give way by.
-    const double most = kHeaviest * masses(bodies).cwiseAbs().sum();
+    const double most = kHeaviest * moments_of(bodies).row(0).cwiseAbs().sum();
     const VectorXd change = shared[chosen.shared] * x;
-    if (first_moments(change).cwiseAbs().maxCoeff() > most) return result;
+    if (moments_of(change).cwiseAbs().maxCoeff() > most) return result;
     result.missing = GivenArm::Missing::kLinks;
     result.links = bodies + change;
     result.finding = links_finding();

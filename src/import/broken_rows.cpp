@@ -10,6 +10,7 @@ using Rows = std::vector<std::size_t>;
 
 constexpr double kBroken = 0.01;  // of the rows at most
 constexpr double kBeyond = 1e6;   // times the usual size: no sensor has that range
+constexpr double kLeast = 1e12;   // beyond any reading: what is small at rest may be anything else
 
 /// The longest part of the rows whose times increase.
 Rows in_order(const Rows& rows, const std::vector<double>& times) {
@@ -54,10 +55,8 @@ void drop_beyond(const std::vector<double>& column, Rows* rows) {
   const auto usual = sizes.begin() + static_cast<std::ptrdiff_t>(
                                          (1.0 - kBroken) * static_cast<double>(sizes.size() - 1));
   std::nth_element(sizes.begin(), usual, sizes.end());
-  const double most = kBeyond * *usual;
-  if (most > 0.0) {
-    std::erase_if(*rows, [&](std::size_t row) { return std::abs(column[row]) > most; });
-  }
+  const double most = std::max(kLeast, kBeyond * *usual);
+  std::erase_if(*rows, [&](std::size_t row) { return std::abs(column[row]) > most; });
 }
 
 }  // namespace

@@ -7,9 +7,10 @@
 namespace dcnn {
 
 /// `rows` without those whose time is out of order, or further off than the log is long, and those
-/// with a value beyond a million times what its column has in 99 of 100 rows: a packet that was
-/// read from the wrong byte has both. All of them where more than one in a hundred would go: a
-/// clock that was set anew is no broken row. `times` may be empty; `columns` are indexed by row.
+/// with a value beyond 1e12 and a million times what its column has in 99 of 100 rows: a packet
+/// that was read from the wrong byte has both. All of them where more than one in a hundred would
+/// go: a clock that was set anew is no broken row. `times` may be empty; `columns` are indexed by
+/// row.
 std::vector<std::size_t> unbroken_rows(const std::vector<std::size_t>& rows,
                                        const std::vector<double>& times,
                                        const std::vector<std::vector<double>>& columns);
