@@ -97,6 +97,23 @@ TEST_F(GivenArms, AHandThatPushesAnArmAtRestIsNoPayload) {
   EXPECT_TRUE(finding.is_null()) << finding.dump(1);
 }
 
+// The second link is described as lighter by a third than it is.
+TEST_F(GivenArms, ALinkThatIsHeavierThanDescribedIsNoPayload) {
+  for (std::uint64_t seed = 1;; ++seed) {
+    const auto [answer, request] = concealed("null:0/none/0", seed);
+    if (!answer["described"].get<bool>()) continue;
+    Json system = read_json(*request.system, Exit::kData);
+    Json& body = system["arm"]["joints"][1]["body"];
+    body["mass_kg"] = 0.67 * body["mass_kg"].get<double>();
+    for (Json& moment : body["moment_kgm"]) moment = 0.67 * moment.get<double>();
+    write_file(*request.system, system.dump());
+    const Json finding = load_axes(request).finding;
+    ASSERT_FALSE(finding.is_null());
+    EXPECT_EQ(finding["effect"], "link_inertia");
+    return;
+  }
+}
+
 TEST_F(GivenArms, AnEffectOfOneJointIsNoPayload) {
   for (const char* effect : {"gain", "cable_spring", "coulomb_friction", "lowpass"}) {
     const auto [answer, request] = concealed(std::string("single:2/") + effect + "/0", 4);
