@@ -35,7 +35,10 @@ bool is_itself(const Case& study, const Member& member) {
   if (name == "gear_friction") {                                     // it resists in every position
     return member.amplitudes(0) > 0.0 && member.amplitudes.tail(2).norm() < member.amplitudes(0);
   }
-  if (study.axis && name == "flexible_resonance") return member.shapes(1) < 0.5;
+  // A mode takes nothing off, and rings.
+  if (study.axis && name == "flexible_resonance") {
+    return member.amplitudes(0) >= 0.0 && member.shapes(1) < 0.5;
+  }
   // No more than all of the tool rings, but for noise.
   if (!study.axis && name == "flexible_resonance" && std::abs(member.amplitudes(0)) > 1.5) {
     return false;

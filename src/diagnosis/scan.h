@@ -49,6 +49,8 @@ class Scan {
   /// The least rms, in the unit of the channel it shows on most, at which the effect would be named
   /// with a probability of 90 %; none where the model at hand can imitate it entirely.
   std::optional<double> least_detectable(const Member& member) const;
+  /// Whether its amplitudes and shapes are those of such an effect.
+  bool is_possible(const Member& member) const;
   Eigen::MatrixXd off_model(const Eigen::MatrixXd& columns) const;
   const Eigen::VectorXd& residual() const { return residual_; }
   const Setting& setting() const { return setting_; }
@@ -63,8 +65,6 @@ class Scan {
   /// belong; all off the model at hand and off `beside`.
   void fit_lever(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& beside, Detail detail,
                  Trial& trial) const;
-  /// Whether its amplitudes are those of such an effect.
-  bool is_possible(const Member& member) const;
   Trial combed(const Trial& start) const;
   Trial lagged(const Trial& start) const;
   Trial tuned(const Trial& start, Detail detail) const;

@@ -164,13 +164,14 @@ void Search::judge() {
 }
 
 /// Of a machine, where laws are never constant to the last digit: a name must help on pieces of
-/// time on which it was not fitted; and a mode takes nothing off. What stays may need fewer
-/// numbers.
+/// time on which it was not fitted; and a mode must be one after its fit as before it. What stays
+/// may need fewer numbers.
 void Search::keep_what_carries_over() {
   constexpr double kMostOfIt = 0.5;
   std::vector<Member> members = fit_.members;
-  std::erase_if(members, [](const Member& m) {
-    return m.kind->stage == Stage::kResonance && m.amplitudes(0) < 0.0;
+  const Scan scan(*setting_, fit_);
+  std::erase_if(members, [&](const Member& m) {
+    return m.kind->stage == Stage::kResonance && !scan.is_possible(m);
   });
   if (members.size() < fit_.members.size()) settle(members);
   while (!fit_.members.empty()) {

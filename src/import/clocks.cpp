@@ -206,23 +206,6 @@ std::optional<ClockRule> lone_clock(const ForeignLog& log, const std::vector<Clo
   return std::nullopt;
 }
 
-void propose_rate(const LogStream& stream, ClockRule* rule, std::vector<std::string>* guesses) {
-  const auto seconds = seconds_by_rates(stream, {});
-  if (rule->kind != "none" || !seconds) return;
-  const double hz = 1.0 / *seconds;
-  double digit = 1.0;
-  while (hz >= 1000.0 * digit) digit *= 10.0;
-  while (hz < 100.0 * digit) digit /= 10.0;
-  rule->kind = "rate";
-  rule->hz = digit * std::round(hz / digit);
-  rule->assumed = true;
-  std::ostringstream words;
-  words << rule->hz;
-  rule->why = "the logged rates";
-  guesses->push_back("no clock, and the logged rates fit " + words.str() +
-                     " rows a second: say --rate " + words.str());
-}
-
 std::vector<double> clock_times(const LogStream& stream, const ClockRule& rule,
                                 const std::string& file) {
   std::vector<double> times;

@@ -17,8 +17,9 @@ ClockRule propose_clock(const LogStream& stream, const ImportWishes& wishes,
 std::optional<ClockRule> lone_clock(const ForeignLog& log, const std::vector<ClockRule>& clocks,
                                     const ImportWishes& wishes, std::vector<std::string>* guesses);
 
-/// The rate of a stream without a clock, to three digits, where its logged rates tell it.
-void propose_rate(const LogStream& stream, ClockRule* rule, std::vector<std::string>* guesses);
+/// The clock of a stream that names none: its first column where that grows evenly, else the rate
+/// of its rows, to three digits, where logged rates tell it.
+void propose_unnamed(const LogStream& stream, ClockRule* rule, std::vector<std::string>* guesses);
 
 /// s; empty for kind none. Rows without a time are NaN.
 std::vector<double> clock_times(const LogStream& stream, const ClockRule& rule,

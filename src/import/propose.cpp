@@ -272,7 +272,7 @@ class Proposer {
     } else {
       for (ClockRule& clock : recipe().clocks) {
         for (const LogStream& stream : log_.streams) {
-          if (stream.name == clock.stream) propose_rate(stream, &clock, &proposal_.guesses);
+          if (stream.name == clock.stream) propose_unnamed(stream, &clock, &proposal_.guesses);
         }
       }
     }

@@ -8,25 +8,25 @@
 namespace dcnn {
 namespace {
 
-constexpr std::size_t kJoints = 6;
-constexpr Index kPieces = 12, kRows = 20;  // kRows in each piece
+constexpr std::size_t kArmJoints = 6;
+constexpr Index kArmPieces = 12, kRowsOfPiece = 20;
 
 /// Rows of noise of 1, with columns of random numbers; the given torque and what a body of 1 kg
 /// adds on each joint differ by a tenth of noise alone.
-std::vector<JointRows> noise(std::uint64_t seed) {
+std::vector<JointRows> arm_noise(std::uint64_t seed) {
   Rng rng({seed});
   const auto random = [&](Index rows, Index columns) {
     return Eigen::MatrixXd(
         Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return rng.normal(); }));
   };
   std::vector<JointRows> joints;
-  for (std::size_t j = 0; j < kJoints; ++j) {
+  for (std::size_t j = 0; j < kArmJoints; ++j) {
     JointRows rows;
-    rows.arm = random(kPieces * kRows, 10 * static_cast<Index>(kJoints));
-    rows.own = random(kPieces * kRows, kOwnFriction + kOwnAliases);
-    rows.arm.col(0) = rows.own.col(kOwnFriction + 3) + 0.03 * random(kPieces * kRows, 1);
-    rows.target = random(kPieces * kRows, 1);
-    for (Index i = 0; i < kPieces * kRows; ++i) rows.piece.push_back(i / kRows);
+    rows.arm = random(kArmPieces * kRowsOfPiece, 10 * static_cast<Index>(kArmJoints));
+    rows.own = random(kArmPieces * kRowsOfPiece, kOwnFriction + kOwnAliases);
+    rows.arm.col(0) = rows.own.col(kOwnFriction + 3) + 0.03 * random(kArmPieces * kRowsOfPiece, 1);
+    rows.target = random(kArmPieces * kRowsOfPiece, 1);
+    for (Index i = 0; i < kArmPieces * kRowsOfPiece; ++i) rows.piece.push_back(i / kRowsOfPiece);
     joints.push_back(std::move(rows));
   }
   return joints;
@@ -49,7 +49,7 @@ Index terms_of(const ArmStructure& structure) {
 // Each joint's scale explains it as well.
 TEST(ArmStructure, OneBodyIsLikelierThanScalesOfAllJoints) {
   for (const std::uint64_t seed : {1, 2, 3}) {
-    std::vector<JointRows> joints = noise(seed);
+    std::vector<JointRows> joints = arm_noise(seed);
     for (JointRows& rows : joints) rows.target += rows.arm.col(0);
     const ArmStructure found = structure_of(joints);
     EXPECT_EQ(found.shared, 1U) << seed;
@@ -59,7 +59,7 @@ TEST(ArmStructure, OneBodyIsLikelierThanScalesOfAllJoints) {
 
 TEST(ArmStructure, TheScaleOfOneJointIsNoBody) {
   for (const std::uint64_t seed : {1, 2, 3}) {
-    std::vector<JointRows> joints = noise(seed);
+    std::vector<JointRows> joints = arm_noise(seed);
     joints[2].target += joints[2].arm.col(0);
     const ArmStructure found = structure_of(joints);
     EXPECT_EQ(found.shared, 0U) << seed;
@@ -71,7 +71,7 @@ TEST(ArmStructure, TheScaleOfOneJointIsNoBody) {
 // A joint whose scale is off and a body: both are found, whichever is louder.
 TEST(ArmStructure, ABodyStandsBesideATermOfOneJoint) {
   for (const double size : {0.5, 5.0}) {
-    std::vector<JointRows> joints = noise(4);
+    std::vector<JointRows> joints = arm_noise(4);
     for (JointRows& rows : joints) rows.target += rows.arm.col(0);
     joints[4].target += size * joints[4].own.col(kOwnFriction);
     const ArmStructure found = structure_of(joints);
@@ -84,7 +84,7 @@ TEST(ArmStructure, ABodyStandsBesideATermOfOneJoint) {
 TEST(ArmStructure, NoiseHoldsNothing) {
   int found = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const ArmStructure structure = structure_of(noise(seed));
+    const ArmStructure structure = structure_of(arm_noise(seed));
     found += structure.shared > 0 || terms_of(structure) > 0;
   }
   EXPECT_LE(found, 2);  // of 20, where one in 25 is a name's prior

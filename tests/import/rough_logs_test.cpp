@@ -59,6 +59,22 @@ TEST(RoughLogs, WithoutAClockTheRateOfRowsIsProposed) {
   EXPECT_NE(words.find("--rate 1000"), std::string::npos) << words;
 }
 
+// LabVIEW's X_Value, a word in another language: a first column that grows evenly is asked about.
+TEST(RoughLogs, AFirstColumnThatGrowsEvenlyIsProposedAsTheClock) {
+  const auto log = [](double step) {
+    std::ostringstream text;
+    text << "X_Value,fx,fy,fz\n";
+    for (int k = 0; k < 20; ++k) text << step * k << ",1,2," << 3 + k % 3 << "\n";
+    return text.str();
+  };
+  const std::string words = data_error([&] { import_text(log(0.002)); });
+  EXPECT_NE(words.find("--clock 'X_Value'"), std::string::npos) << words;
+  ImportWishes wishes;
+  wishes.clock = "X_Value";
+  EXPECT_NEAR(cell(import_text(log(0.002), wishes), "t", 19), 0.038, 1e-9);
+  EXPECT_FALSE(has_column(import_text(log(1.0)), "t"));  // numbers of poses at rest
+}
+
 TEST(RoughLogs, NumberedWordsAreJointsBesideTheirTorque) {
   EXPECT_TRUE(
       has_column(import_text("t,Position3,Velocity3,Torque3\n0,1,2,3\n0.1,1,2,3\n"), "qd_3"));
