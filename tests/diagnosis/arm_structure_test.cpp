@@ -68,7 +68,7 @@ TEST(ArmStructure, TheScaleOfOneJointIsNoBody) {
   }
 }
 
-// A joint whose scale is off and a body: both are found, whichever is louder.
+// A spring in one joint and a body: both are found, a weak spring and a strong one.
 TEST(ArmStructure, ABodyStandsBesideATermOfOneJoint) {
   for (const double size : {0.5, 5.0}) {
     std::vector<JointRows> joints = arm_noise(4);
