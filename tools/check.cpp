@@ -12,6 +12,7 @@ constexpr const char* kExamples =
     "  dcnn-check log.csv                            # what is wrong with it, and what mends it\n"
     "  dcnn-check log.csv --sim sim.json --out check # with the nominal mass and mounting; a page\n"
     "  dcnn-check a.csv b.csv --system arm.json --json\n"
+    "  dcnn-check joints.csv --urdf robot.urdf       # q_1, qd_1, tau_1, … beside its links\n"
     "\n"
     "A log is read in every way that people write logs by mistake (units, signs, axes, frames,\n"
     "orders), and a rigid tool is fitted to each; clocks, channels and rows have statistics of "
@@ -44,6 +45,15 @@ int main(int argc, char** argv) {
   tool.option("--system", request.system, "system description of another machine (JSON)")
       .excludes(sim)
       .holds({FileKind::kSystem, FileKind::kMachine});
+  const Option arm =
+      tool.option("--urdf", request.urdf,
+                  "URDF of the arm whose joints were logged: signs, orders, zeros and units of its "
+                  "joints are compared with its links")
+          .excludes(sim);
+  arm.group("Arms");
+  tool.option("--tip", request.tip, "last link of the arm in the URDF (else its end)")
+      .needs(arm)
+      .group("Arms");
   const Output folder = tool.output("--out", out, "folder for check.json and check.html",
                                     {"check.json", "check.html"});
   const ReadFlags read(tool);

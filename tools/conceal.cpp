@@ -36,7 +36,7 @@ Exit print(const Tool& tool, std::size_t scenarios, std::uint64_t seed, const st
   return Exit::kDone;
 }
 
-/// OUT/log.csv and OUT/sim.json with one fault, its name in the seal.
+/// OUT/log.csv and OUT/sim.json or OUT/system.json with one fault, its name in the seal.
 std::string write_faulty(const std::string& kind, const std::filesystem::path& motion,
                          std::uint64_t seed, const std::filesystem::path& out,
                          const std::filesystem::path& seal) {
@@ -48,6 +48,7 @@ std::string write_faulty(const std::string& kind, const std::filesystem::path& m
   }
   write_csv(out / "log.csv", log.table);
   if (!log.simulator.is_null()) write_file(out / "sim.json", log.simulator.dump(2) + "\n");
+  if (!log.system.is_null()) write_file(out / "system.json", log.system.dump(2) + "\n");
   return conceal::write_seal({{"kind", kind}, {"fault", log.fault}, {"seed", seed}}, out, seal);
 }
 

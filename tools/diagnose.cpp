@@ -45,9 +45,11 @@ std::vector<std::string> names_of_axes(const std::filesystem::path& system) {
 
 /// Lines for the report; recordings that were likely zeroed are taken for such.
 std::vector<std::string> checked(const Tool& tool, const Doctor& doctor,
+                                 const std::filesystem::path& urdf, const std::string& tip,
                                  DiagnosisRequest& request) {
-  CheckRequest logs{request.fit, request.read, request.simulator.value_or(""),
-                    request.system.value_or("")};
+  CheckRequest logs{
+      request.fit, request.read, request.simulator.value_or(""), request.system.value_or(""),
+      urdf,        tip};
   logs.logs.insert(logs.logs.end(), request.holdout.begin(), request.holdout.end());
   Examined examined = doctor.examine(tool, logs);
   if (!request.system && request.zeroed.empty()) request.zeroed = std::move(examined.zeroed);
@@ -126,7 +128,7 @@ int main(int argc, char** argv) {
     if (zeroed) request.zeroed = request.fit;
     if (zeroed)
       request.zeroed.insert(request.zeroed.end(), request.holdout.begin(), request.holdout.end());
-    const std::vector<std::string> check = checked(tool, doctor, request);
+    const std::vector<std::string> check = checked(tool, doctor, urdf, tip, request);
     request.without = ablation_of(without);
     if (clock != "auto") request.shared_clock = clock == "shared";
     Progress bar(tool.common().quiet);

@@ -112,7 +112,9 @@ Exit identify_joints(Command& command, const Doctor& doctor, const Tool& tool) {
   std::vector<Path> logs = command.arm.logs;
   logs.insert(logs.end(), command.arm.loaded.begin(), command.arm.loaded.end());
   chain_of(command.arm);  // a faulty description is told before the logs are examined by it
-  doctor.examine(tool, {logs, {}, "", command.arm.system});
+  std::vector<std::string> own;
+  if (command.arm.drive_gains) own.push_back("torque_unit");
+  doctor.examine(tool, {logs, {}, "", command.arm.system, command.arm.urdf, command.arm.tip}, own);
   const ArmIdentification result = identify_arm(command.arm);
   write_file(command.out, result.system.dump(2) + "\n");
   write_report(command, result);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "check/arm.h"
 #include "check/kind.h"
 #include "check/rows.h"
 #include "physics/foreign_force.h"
@@ -92,10 +93,37 @@ void set_curves(const Log& log, const Adopted& a, Report& report) {
   }
   for (Index j = 0; j < 3; ++j) {
     const std::string axis = std::string("f") + "xyz"[j];
-    report.measured.push_back({axis, t, a.fit.force.col(j)});
-    report.rigid.push_back(
-        {axis + " of a rigid tool", t, a.fit.force.col(j) - a.fit.residual.col(j)});
+    report.measured.push_back({axis, "force [N]", t, a.fit.force.col(j)});
+    report.rigid.push_back({axis, "force [N]", t, a.fit.force.col(j) - a.fit.residual.col(j)});
   }
+  report.model = "rigid tool";
+}
+
+/// What the motion shows of a drive, to a tenth of the joint's torque.
+void set_identifiable_drives(const Log& log, const ArmFit& fit, Report& report) {
+  constexpr double kShown = 0.1;
+  for (Index j = 0; j < fit.drive_deviation.rows(); ++j) {
+    const std::string& joint = log.declared.arm->joints[static_cast<std::size_t>(j)].name;
+    Index term = 1;
+    for (const char* stem : {"dry_", "viscous_", "inertia_"}) {
+      report.identifiable[stem + joint] = fit.drive_deviation(j, term++) < kShown;
+    }
+  }
+}
+
+void set_arm_curves(const Log& log, const Adopted& a, const ArmFit& fit, Report& report) {
+  Eigen::VectorXd t(fit.torque.rows());
+  for (Index i = 0; i < t.size(); ++i) {
+    const Index row = fit.rows[static_cast<std::size_t>(i)];
+    t[i] = log.t.size() > 0 ? log.t[row] * a.reading.clock : static_cast<double>(row);
+  }
+  for (Index j = 0; j < fit.torque.cols(); ++j) {
+    const ChainJoint& joint = log.declared.arm->joints[static_cast<std::size_t>(j)];
+    const std::string quantity = joint.slides ? "force [N]" : "torque [N·m]";
+    report.measured.push_back({joint.name, quantity, t, fit.torque.col(j)});
+    report.rigid.push_back({joint.name, quantity, t, fit.torque.col(j) - fit.residual.col(j)});
+  }
+  report.model = "arm described";
 }
 
 double foreign_share_of(const Log& log, const Adopted& a) {
@@ -115,7 +143,7 @@ std::string foreign_note_of(const Log& log, const Adopted& a) {
       "from this log is the tool's");
 }
 
-void add_notes(const Log& log, const Adopted& a, Report& report) {
+void add_notes(const Log& log, const Adopted& a, const std::optional<ArmFit>& fit, Report& report) {
   if (a.compared) {
     const std::string note = foreign_note_of(log, a);
     if (note.empty()) return;
@@ -123,6 +151,18 @@ void add_notes(const Log& log, const Adopted& a, Report& report) {
     // Signs, axes and frames by which a tool explains the rest, however well, may be of what a
     // controller subtracted or of a cable.
     drop_readings_of_forces(report.faults, "compensated");
+    return;
+  }
+  if (fit) {
+    const std::string note =
+        foreign_force_note(unexplained_share(*fit),
+                           "another arm than described, contacts, or torques that are none; signs, "
+                           "zeros and orders of "
+                           "its joints are not told from this log",
+                           "what the torques vary by is not the described arm's");
+    if (note.empty()) return;
+    report.notes.push_back(note);
+    drop_readings_of_forces(report.faults);
     return;
   }
   report.notes.push_back(
@@ -160,7 +200,10 @@ Report check(const Log& log) {
   if (report.readings.size() > kReadingsListed) report.readings.resize(kReadingsListed);
   set_identifiable(adopted, report);
   set_curves(log, adopted, report);
-  add_notes(log, adopted, report);
+  std::optional<ArmFit> fit;
+  if (can_fit_arm(log, adopted.rows)) fit = fit_arm(log, adopted.rows, adopted.reading);
+  if (fit) set_identifiable_drives(log, *fit, report), set_arm_curves(log, adopted, *fit, report);
+  add_notes(log, adopted, fit, report);
   return report;
 }
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 
+#include "check/arm.h"
 #include "check/kind.h"
 #include "check/statistics.h"
 #include "core/elementary.h"
@@ -190,6 +191,7 @@ Fault fault_from(const Round& round, const Reading& reading) {
   Fault fault = fault_of(kind_of(reading.fault), round.of_fault.at(reading.fault), reading.channel,
                          reading.words);
   if (!reading.flag.empty()) fault.flag = reading.flag;
+  if (!reading.remedy.empty()) fault.remedy = reading.remedy;
   fault.stops = fault.stops && !reading.harmless;
   return fault;
 }
@@ -227,6 +229,10 @@ Reading declared_reading(const Log& log) {
   reading.force = 1.0;
   reading.force_axes *= log.declared.read.force_sign;
   reading.orientation.order = log.has_quaternion() ? "wxyz" : "zyx";
+  const auto joints = static_cast<Index>(log.arm.size());
+  reading.arm.joint = log.arm;
+  reading.arm.sign = reading.arm.torque = Eigen::VectorXd::Ones(joints);
+  reading.arm.zero = Eigen::VectorXd::Zero(joints);
   return reading;
 }
 
@@ -236,6 +242,7 @@ double log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
   double sum = elementary::log(reading.prior) + angle_weight(log, reading) -
                0.5 * reading.estimated * elementary::log(independent_residuals(rows));
   if (log.smooth && log.step > 0.0) sum += clock_weight(log, reading.clock);
+  if (can_fit_arm(log, rows)) sum += arm_weight(log, rows, reading);
   if (motion == nullptr) return sum;
   sum += motion_weight(log, *motion, reading);
   const auto weight = [&](const Reading& as) {

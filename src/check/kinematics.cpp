@@ -81,6 +81,10 @@ void add_rotations(const Eigen::MatrixXd& q, const Eigen::MatrixXd& dq, const Ei
 
 }  // namespace
 
+double Sampled::seconds(Index count) const {
+  return half == 0 ? 0.0 : static_cast<double>(count) * kWindow / static_cast<double>(2 * half);
+}
+
 Eigen::MatrixXd Sampled::smoothed(const Eigen::MatrixXd& signals, const Eigen::VectorXd& weights,
                                   Index shift) const {
   Eigen::MatrixXd out(static_cast<Index>(centres.size()), signals.cols());

@@ -22,8 +22,7 @@ std::vector<Joint> declared_joints(const System& system) {
   std::vector<Joint> joints;
   for (const Axis& axis : system.axes) {
     const bool turns = axis.position_unit.empty() ? axis.unit != "N" : axis.position_unit != "m";
-    joints.push_back({axis.name, axis.position, axis.velocity, axis.measured, turns,
-                      axis.scale < 0.0 ? -1.0 : 1.0});
+    joints.push_back({axis.name, axis.position, axis.velocity, axis.measured, turns, axis.scale});
   }
   return joints;
 }
@@ -138,7 +137,7 @@ Names Log::positions() const {
 }
 
 Log make_log(const std::string& name, Table table, const Declared& declared) {
-  Log log{name, std::move(table), declared, {}, {}, 0.0, false, {}};
+  Log log{name, std::move(table), declared, {}, {}, {}, 0.0, false, {}};
   const bool axes = declared.system.kind == System::Kind::kAxes;
   log.joints = axes ? declared_joints(declared.system) : recognised_joints(log);
   for (const Joint& joint : log.joints) {
@@ -155,6 +154,30 @@ Log make_log(const std::string& name, Table table, const Declared& declared) {
   log.smooth = log.rows() >= kFewRows && neighbours_ratio(log) < kSmoothRatio;
   log.segments = log.step > 0.0 ? segments_of(log) : std::vector<Segment>{{0, log.rows()}};
   return log;
+}
+
+void describe_arm(Log& log, const JointChain& chain) {
+  const std::size_t joints = chain.joints.size();
+  require(log.joints.size() == joints, Exit::kData, log.name, ":1: columns of ", log.joints.size(),
+          " joints (such as q_1, qd_1, tau_1), the arm described has ", joints,
+          "; name the columns by --system, or the arm's end by --tip");
+  const auto place_of = [&](const std::string& joint) {
+    const auto it = std::find_if(log.joints.begin(), log.joints.end(),
+                                 [&](const Joint& logged) { return logged.name == joint; });
+    return static_cast<std::size_t>(it - log.joints.begin());
+  };
+  log.arm.clear();
+  for (const ChainJoint& joint : chain.joints) log.arm.push_back(place_of(joint.name));
+  if (std::find(log.arm.begin(), log.arm.end(), joints) != log.arm.end()) {
+    for (std::size_t j = 0; j < joints; ++j) log.arm[j] = j;
+  }
+  for (const Joint& joint : log.joints) {
+    require(!joint.position.empty() && !joint.measured.empty(), Exit::kData, log.name,
+            ":1: joint '", joint.name, "' has no column of its ",
+            joint.position.empty() ? "position" : "torque",
+            "; add it, or describe no arm (without --urdf)");
+  }
+  log.declared.arm = chain;
 }
 
 Log read_log(const std::filesystem::path& path, const Declared& declared) {

@@ -15,6 +15,16 @@ constexpr double kQuasiStatic = 0.1;
 /// No plausibility of one quantity counts more than this [nats].
 constexpr double kMostSurprise = 30.0;
 
+/// Relative error of a link's described mass, moment and inertia.
+constexpr double kLinkError = 0.3;
+/// Share of a joint's torque that a described arm may be wrong by.
+constexpr double kArmError = 0.05;
+/// Independent residuals of a joint in a second: what a description leaves is as slow as the
+/// motion.
+constexpr double kIndependentPerSecond = 1.0;
+/// Mass of what an arm carries, over its own.
+constexpr double kPayloadShare = 0.1;
+
 /// Log-normal quantities of people's logs: median, and deviation of the logarithm below and above.
 struct Typical {
   double median, below, above;

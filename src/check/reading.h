@@ -21,13 +21,23 @@ struct Orientation {
   bool operator==(const Orientation&) const = default;
 };
 
+/// How an arm's columns make the angles and torques of the chain described, by joint of the chain:
+/// angle = sign · logged + zero.
+struct ArmReading {
+  std::vector<std::size_t> joint;      ///< whose columns of the log these are
+  Eigen::VectorXd sign, zero, torque;  ///< zero in rad; torque: described over logged
+  Eigen::Matrix3d gravity = Eigen::Matrix3d::Identity();  ///< turn of the one described
+};
+
 struct Reading {
   std::string fault, words, channel, flag;  ///< empty as declared
+  std::string remedy;                       ///< in place of the kind's
   double prior = 1.0;
   double clock = 1.0, position = 1.0, angle = 1.0, force = 1.0;  ///< SI per unit of the file
   Orientation orientation;
   Eigen::Matrix3d position_axes = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d force_axes = Eigen::Matrix3d::Identity();  ///< F_S = force_axes * F_log
+  ArmReading arm;                                            ///< of Log::arm
   bool force_in_base = false, compensated = false;
   bool harmless = false;  ///< what one may leave undeclared: it stops nothing
   int estimated = 0;      ///< numbers chosen to suit the log
@@ -40,6 +50,8 @@ struct Sampled {
   Eigen::Index half = 0;  ///< of the window [rows]; 0: single rows of a list of poses
   Eigen::VectorXd value, first, second;  ///< weights of the window
 
+  /// Seconds in so many rows of the log; 0 of poses.
+  double seconds(Eigen::Index count) const;
   Eigen::MatrixXd smoothed(const Eigen::MatrixXd& signals, const Eigen::VectorXd& weights,
                            Eigen::Index shift = 0) const;
 };

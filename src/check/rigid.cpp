@@ -15,7 +15,6 @@ constexpr int kMostReweightings = 60;
 constexpr double kSettled = 1e-6;  // relative change of the residual's variance
 constexpr Index kStretches = 8;
 constexpr Index kFewestRows = 12;           // of a stretch
-constexpr double kChiSquareMedian = 2.366;  // of three degrees of freedom
 constexpr double kOwnScale = 3.0;           // Cauchy's weights halve at so many deviations
 
 constexpr double kFrictionSpeed = 0.02;  // m/s, over which dry friction changes its sign
@@ -111,7 +110,7 @@ double fit_once(const Design& design, bool with_tool, RigidFit& fit, Eigen::Matr
     }
     squares = fit.residual.rowwise().squaredNorm();
     const double before = k == 0 ? 0.0 : fit.variance;
-    fit.variance = std::max(median(squares) / kChiSquareMedian, 1e-300);
+    fit.variance = std::max(median(squares) / chi_square_median(3), 1e-300);
     if (std::abs(fit.variance - before) <= kSettled * before) break;
     weight = (1.0 + squares.array() / (3.0 * kOwnScale * kOwnScale * fit.variance)).inverse();
   }
@@ -152,7 +151,8 @@ double log_variance(const Eigen::MatrixXd& residual, double floor) {
   double sum = 0.0;
   for (Index k = 0; k < stretches; ++k) {
     const Index begin = n * k / stretches, end = n * (k + 1) / stretches;
-    const double variance = median(squares.segment(begin, end - begin)) / kChiSquareMedian;
+    const double variance =
+        median(squares.segment(begin, end - begin)) / chi_square_median(residual.cols());
     sum += elementary::log(std::max(variance + floor * floor, 1e-300));
   }
   return sum / static_cast<double>(stretches);

@@ -41,6 +41,8 @@ std::vector<Run> runs_of(const Eigen::VectorXd& values) {
   return runs;
 }
 
+double chi_square_median(Eigen::Index freedom) { return freedom == 1 ? 0.4549 : 2.366; }
+
 double plausibility(double value, const Typical& typical) {
   if (!(value > 0.0)) return -kMostSurprise;
   const double spread = value < typical.median ? typical.below : typical.above;

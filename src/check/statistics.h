@@ -24,6 +24,9 @@ std::vector<Run> runs_of(const Eigen::VectorXd& values);
 /// (n-1) steps.
 Eigen::VectorXd steps_of(const Eigen::VectorXd& values);
 
+/// Median of chi square with so many degrees of freedom, 1 or 3.
+double chi_square_median(Eigen::Index freedom);
+
 /// Log density of a log-normal quantity relative to its largest, not below -kMostSurprise.
 double plausibility(double value, const Typical& typical);
 /// Probability of a fault whose prior is kFaultPrior where a statistic's p-value is `p`: the bound

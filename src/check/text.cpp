@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <map>
 
 #include "dcnn/check/check.h"
 
@@ -51,7 +52,12 @@ std::string words_of_number(const std::string& key) {
   const auto cut = key.find('_');
   const std::string stem = key.substr(0, cut),
                     axis = cut == key.npos ? "" : ", " + key.substr(cut + 1);
-  return (stem == "com" ? "centre of mass" : stem == "bias" ? "sensor offset" : stem) + axis;
+  static const std::map<std::string, std::string> kWords{{"com", "centre of mass"},
+                                                         {"bias", "sensor offset"},
+                                                         {"dry", "dry friction"},
+                                                         {"viscous", "viscous friction"}};
+  const auto known = kWords.find(stem);
+  return (known == kWords.end() ? stem : known->second) + axis;
 }
 
 std::string verdict(const Report& report) {

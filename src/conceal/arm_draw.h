@@ -34,6 +34,10 @@ std::vector<Limb> draw_limbs(std::size_t joints, Rng& rng);
 Eigen::MatrixXd draw_angles(std::size_t joints, Rng& rng);
 Eigen::Matrix3d drawn_turn(Rng& rng);
 
+/// `arm` of a system's description; limbs are turned about x alone.
+Json arm_json(const std::vector<Limb>& limbs, const Eigen::Vector3d& flange,
+              const std::vector<std::string>& names, bool with_bodies);
+
 /// Of an id of arm_plan(); the same arguments give the same bytes.
 ArmScenario draw_arm(const std::string& id, std::uint64_t seed);
 

@@ -31,7 +31,8 @@ Json body_of(const std::vector<PointMass>& masses) {
 }
 
 Json system_of(const ArmScenario& s) {
-  Json axes = Json::array(), joints = Json::array();
+  Json axes = Json::array();
+  std::vector<std::string> names;
   for (std::size_t j = 0; j < s.limbs.size(); ++j) {
     const std::string number = std::to_string(j + 1);
     Json axis{{"name", "joint" + number},
@@ -40,20 +41,10 @@ Json system_of(const ArmScenario& s) {
               {"position", "q_" + number}};
     if (!s.described) axis["simulated"] = "tau_" + number + "_sim";
     axes.push_back(axis);
-    const Limb& limb = s.limbs[j];
-    // Limbs are turned about x alone.
-    const double roll = std::atan2(limb.turned(2, 1), limb.turned(2, 2));
-    Json joint{
-        {"name", "joint" + number}, {"xyz_m", three(limb.origin)}, {"rpy_rad", {roll, 0.0, 0.0}}};
-    if (s.described) joint["body"] = body_of(limb.masses);
-    joints.push_back(joint);
+    names.push_back("joint" + number);
   }
-  return {{"kind", "axes"},
-          {"axes", axes},
-          {"arm",
-           {{"joints", joints},
-            {"flange", {{"xyz_m", three(s.flange)}}},
-            {"gravity_mps2", three(kGravity)}}}};
+  return {
+      {"kind", "axes"}, {"axes", axes}, {"arm", arm_json(s.limbs, s.flange, names, s.described)}};
 }
 
 Table table_of(const ArmScenario& s, const ArmLog& log) {
@@ -116,6 +107,21 @@ Json write_arm(const ArmScenario& s, const fs::path& folder) {
 }
 
 }  // namespace
+
+Json arm_json(const std::vector<Limb>& limbs, const Vector3d& flange,
+              const std::vector<std::string>& names, bool with_bodies) {
+  Json joints = Json::array();
+  for (std::size_t j = 0; j < limbs.size(); ++j) {
+    const double roll = std::atan2(limbs[j].turned(2, 1), limbs[j].turned(2, 2));
+    Json joint{
+        {"name", names[j]}, {"xyz_m", three(limbs[j].origin)}, {"rpy_rad", {roll, 0.0, 0.0}}};
+    if (with_bodies) joint["body"] = body_of(limbs[j].masses);
+    joints.push_back(joint);
+  }
+  return {{"joints", joints},
+          {"flange", {{"xyz_m", three(flange)}}},
+          {"gravity_mps2", three(kGravity)}};
+}
 
 std::string conceal_arms(const std::vector<std::string>& ids, std::uint64_t seed,
                          const fs::path& folder, const fs::path& seal,

@@ -6,7 +6,7 @@ namespace dcnn::conceal {
 namespace {
 
 const FaultyKind& faulty_kind(const std::string& name) {
-  for (const auto* kinds : {&faults_of_meaning(), &faults_of_rows()}) {
+  for (const auto* kinds : {&faults_of_meaning(), &faults_of_rows(), &faults_of_arms()}) {
     for (const FaultyKind& kind : *kinds) {
       if (kind.name == name) return kind;
     }
@@ -24,7 +24,7 @@ std::uint64_t stream_of(const std::string& name) {
 
 std::vector<std::string> faulty_kinds() {
   std::vector<std::string> names;
-  for (const auto* kinds : {&faults_of_meaning(), &faults_of_rows()}) {
+  for (const auto* kinds : {&faults_of_meaning(), &faults_of_rows(), &faults_of_arms()}) {
     for (const FaultyKind& kind : *kinds) names.emplace_back(kind.name);
   }
   return names;

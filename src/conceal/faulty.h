@@ -6,11 +6,28 @@
 
 namespace dcnn::conceal {
 
-/// Clean logs: a wrist with Euler angles, on a motion whose accelerations count, with a quaternion, with logged rates; that hardly turns;
-/// poses at rest; three joints.
-enum class CleanLog { kEuler, kBrisk, kQuaternion, kRates, kStill, kStatic, kJoints };
+/// Clean logs: a wrist with Euler angles, on a motion whose accelerations count, with a quaternion,
+/// with logged rates; that hardly turns; poses at rest; three joints; an arm with its description,
+/// one of six joints, one that hangs from a ceiling or a wall though it is described upright, one
+/// whose torques hold no weight.
+enum class CleanLog {
+  kEuler,
+  kBrisk,
+  kQuaternion,
+  kRates,
+  kStill,
+  kStatic,
+  kJoints,
+  kArm,
+  kSixJoints,
+  kHanging,
+  kOnWall,
+  kWeightless
+};
 
 FaultyLog make_clean(CleanLog kind, Rng& rng);
+/// Of the kinds from kArm on.
+FaultyLog make_arm(CleanLog kind, Rng& rng);
 
 Eigen::Index column_of(const Table& table, const std::string& name);
 Eigen::Ref<Eigen::VectorXd> column(Table& table, const std::string& name);

@@ -17,5 +17,6 @@ struct FaultyKind {
 
 const std::vector<FaultyKind>& faults_of_meaning();  ///< units, signs, axes, frames, orders
 const std::vector<FaultyKind>& faults_of_rows();     ///< clocks, channels, rows, contacts
+const std::vector<FaultyKind>& faults_of_arms();     ///< joints against the arm's description
 
 }  // namespace dcnn::conceal

@@ -87,8 +87,11 @@ FaultyLog make_wrist(CleanLog kind, Rng& rng) {
   if (kind == CleanLog::kStatic) path.acceleration.setZero(), path.rate.setZero(), path.rate_derivative.setZero();
   const Eigen::MatrixXd F = reading(path, tool, kind == CleanLog::kStatic ? std::vector<Hidden>{} : draw_friction(rng), {}, kStride);
   const double noise = rng.uniform(0.02, 0.06), metres = logarithmic(rng, 5e-6, 5e-5), angles = logarithmic(rng, 5e-6, 1e-4);
-  FaultyLog out{{{"t", "x", "y", "z", "alpha", "beta", "gamma", "fx", "fy", "fz"}, Eigen::MatrixXd(F.rows(), 10)},
-                simulator_of(tool, rng), ""};
+  FaultyLog out{{{"t", "x", "y", "z", "alpha", "beta", "gamma", "fx", "fy", "fz"},
+                 Eigen::MatrixXd(F.rows(), 10)},
+                simulator_of(tool, rng),
+                nullptr,
+                ""};
   for (Index i = 0; i < F.rows(); ++i) {
     out.table.values(i, 0) = digits(path.time(i * kStride), 1e6);
     for (Index j = 0; j < 6; ++j) {
@@ -106,7 +109,7 @@ FaultyLog make_wrist(CleanLog kind, Rng& rng) {
 FaultyLog make_joints(Rng& rng) {
   const auto rows = static_cast<Index>(250.0 * rng.uniform(12.0, 18.0));
   const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(rows, 0.0, static_cast<double>(rows - 1) / 250.0);
-  FaultyLog out{{{"t"}, t}, nullptr, ""};
+  FaultyLog out{{{"t"}, t}, nullptr, nullptr, ""};
   Eigen::MatrixXd q(rows, 3), v(rows, 3), a(rows, 3), tau(rows, 3);
   q.setZero(), v.setZero(), a.setZero();
   for (Index j = 0; j < 3; ++j) {
@@ -160,6 +163,7 @@ void remove(Table& table, const std::string& name) {
 }
 
 FaultyLog make_clean(CleanLog kind, Rng& rng) {
+  if (kind >= CleanLog::kArm) return make_arm(kind, rng);
   return kind == CleanLog::kJoints ? make_joints(rng) : make_wrist(kind, rng);
 }
 

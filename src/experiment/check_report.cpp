@@ -23,18 +23,24 @@ void add_faults(const check::Report& report, HtmlReport& page) {
   page.table({"fault", "probability", "what is wrong", "t", "what mends it"}, rows);
 }
 
+std::string caption_of(const check::Report& report) {
+  const bool tool = report.model == "rigid tool";
+  return std::string(tool ? "The force" : "The torques") +
+         ", in the likeliest reading of the log, beside the best fit of " +
+         (tool ? "a rigid tool (mass, centre of mass, offset)"
+               : "the arm described (links within 30 %, a body at the flange, friction, rotors)") +
+         ", both smoothed over 0.12 s.";
+}
+
 void add_forces(const check::Report& report, HtmlReport& page) {
   for (std::size_t k = 0; k < report.measured.size(); ++k) {
     const check::Curve& logged = report.measured[k];
     const check::Curve& rigid = report.rigid[k];
-    Chart chart{logged.label, "time [s]", "force [N]", {}, {}, false, 720, 220};
+    Chart chart{logged.label, "time [s]", logged.quantity, {}, {}, false, 720, 220};
     chart.series.push_back({"as logged", list_of(logged.t), list_of(logged.values), {}});
-    chart.series.push_back({"rigid tool", list_of(rigid.t), list_of(rigid.values), {}});
+    chart.series.push_back({report.model, list_of(rigid.t), list_of(rigid.values), {}});
     const bool last = k + 1 == report.measured.size();
-    page.chart(chart, last ? "The force, in the likeliest reading of the log, beside the best fit "
-                             "of a rigid tool (mass, "
-                             "centre of mass, offset), both smoothed over 0.12 s."
-                           : "");
+    page.chart(chart, last ? caption_of(report) : "");
   }
 }
 

@@ -10,6 +10,9 @@ namespace dcnn {
 double foreign_share(double residual, double noise, double force);
 
 /// A sentence where more than half of the force is foreign, ended by `conclusion`; else nothing.
-std::string foreign_force_note(double share, const std::string& conclusion);
+/// `what` is not the model's.
+std::string foreign_force_note(
+    double share, const std::string& conclusion,
+    const std::string& what = "what the force varies by is no rigid tool's");
 
 }  // namespace dcnn

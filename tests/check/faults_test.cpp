@@ -14,7 +14,11 @@ check::Log log_of(const std::string& kind, std::uint64_t seed, bool with_simulat
   if (with_simulator && !made.simulator.is_null()) {
     declared.model = parse_tool_model(made.simulator, "sim.json", Exit::kData);
   }
-  return check::make_log(kind + ".csv", made.table, declared);
+  if (made.system.is_null()) return check::make_log(kind + ".csv", made.table, declared);
+  declared.system = parse_system(made.system, "system.json");
+  check::Log log = check::make_log(kind + ".csv", made.table, declared);
+  check::describe_arm(log, parse_chain(declared.system.arm, "system.json", Exit::kData));
+  return log;
 }
 
 class FaultyLogs : public ::testing::TestWithParam<std::string> {};

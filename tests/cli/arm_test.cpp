@@ -107,6 +107,53 @@ TEST_F(ArmPrograms, TorquesOfAUrdfAreSimulatedAndThenNothingIsMissing) {
   EXPECT_EQ(report["arm"]["words"], "nothing is missing");
 }
 
+/// Gravity at both joints in closed form, noise of 0.05 N·m; the second joint's angle as `sign` has
+/// it.
+Table resting_log(double sign) {
+  Table log = motion();
+  log.columns.insert(log.columns.end(), {"tau_1", "tau_2"});
+  log.values.conservativeResize(Eigen::NoChange, 5);
+  Rng rng({3u});
+  for (Eigen::Index i = 0; i < log.values.rows(); ++i) {
+    log.values(i, 0) *= 10.0;  // slow: nothing but gravity
+    const double q1 = log.values(i, 1), q12 = q1 + log.values(i, 2), g = 9.81;
+    const double second = 2.0 * g * (0.15 * std::cos(q12) - 0.02 * std::sin(q12));
+    log.values(i, 3) = g * (3.0 * 0.2 + 2.0 * 0.4) * std::cos(q1) + second + 0.05 * rng.normal();
+    log.values(i, 4) = second + 0.05 * rng.normal();
+    log.values(i, 2) *= sign;
+  }
+  return log;
+}
+
+TEST_F(ArmPrograms, TheCheckComparesJointsWithTheUrdf) {
+  write_csv(folder_ / "right.csv", resting_log(1.0));
+  write_csv(folder_ / "turned.csv", resting_log(-1.0));
+  // Columns q_1 and tau_1 alone: no description of the machine is needed.
+  const auto right = run("check", {at("right.csv"), "--urdf", at("robot.urdf"), "--json"});
+  if (contains(right.err, "reads no URDF")) GTEST_SKIP() << right.err;
+  ASSERT_EQ(right.exit_code, 0) << right.err;
+  EXPECT_TRUE(Json::parse(right.out)["faults"].empty()) << right.out;
+  const auto turned = run("check", {at("turned.csv"), "--urdf", at("robot.urdf"), "--json"});
+  ASSERT_EQ(turned.exit_code, 0) << turned.err;
+  const Json fault = Json::parse(turned.out)["faults"][0];
+  EXPECT_EQ(fault["fault"], "joint_sign") << turned.out;
+  EXPECT_EQ(fault["channel"], "q_2");
+  // The tools that learn from the log stop at it.
+  const auto diagnosed = run("diagnose", {"--system", at("joints.json"), "--urdf", at("robot.urdf"),
+                                          "--fit", at("turned.csv"), "--out", at("report"), "-q"});
+  EXPECT_EQ(diagnosed.exit_code, 3);
+  EXPECT_TRUE(contains(diagnosed.err, "joint_sign")) << diagnosed.err;
+
+  Table three = resting_log(1.0);
+  three.columns.insert(three.columns.end(), {"q_3", "tau_3"});
+  three.values.conservativeResize(Eigen::NoChange, 7);
+  three.values.rightCols(2) = three.values.middleCols(1, 2);
+  write_csv(folder_ / "three.csv", three);
+  const auto other = run("check", {at("three.csv"), "--urdf", at("robot.urdf")});
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_TRUE(contains(other.err, "columns of 3 joints")) << other.err;
+}
+
 TEST_F(ArmPrograms, AnArmWithoutBodiesIsNoSimulator) {
   Json system = two_axes();
   system["arm"] = {{"dh", {{0.0, 1.57, 0.3, 0.0}, {0.4, 0.0, 0.0, 0.0}}}};

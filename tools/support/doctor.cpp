@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dcnn/identification/urdf.h"
 #include "dcnn/physics/axis_machine.h"
 #include "dcnn/physics/simulator.h"
 
@@ -47,6 +48,17 @@ std::vector<std::string> likely_lines(const std::vector<check::Report>& reports)
   return lines;
 }
 
+std::optional<JointChain> arm_of(const CheckRequest& request, const System& system,
+                                 const check::Log& log) {
+  if (request.urdf.empty()) {
+    if (system.arm.is_null()) return std::nullopt;
+    return parse_chain(system.arm, request.system.string(), Exit::kData);
+  }
+  std::vector<std::string> names;
+  for (const check::Joint& joint : log.joints) names.push_back(joint.name);
+  return read_urdf_chain(request.urdf, request.tip, names);
+}
+
 std::vector<std::filesystem::path> files_in(const std::vector<std::filesystem::path>& logs) {
   std::vector<std::filesystem::path> files;
   std::copy_if(logs.begin(), logs.end(), std::back_inserter(files),
@@ -65,7 +77,15 @@ std::vector<check::Report> check_logs(const CheckRequest& request) {
   if (!request.simulator.empty()) declared.model = read_simulator(request.simulator).model;
   std::vector<check::Report> reports;
   for (const auto& path : files_in(request.logs)) {
-    reports.push_back(check::check(check::read_log(path, declared)));
+    check::Log log = check::read_log(path, declared);
+    const std::optional<JointChain> arm = arm_of(request, declared.system, log);
+    if (arm && arm->bodies()) describe_arm(log, *arm);
+    reports.push_back(check::check(log));
+    if (arm && !arm->bodies()) {
+      reports.back().notes.push_back(
+          "the arm's description has no masses of its links: signs, zeros and orders of its joints "
+          "were not compared");
+    }
   }
   return reports;
 }

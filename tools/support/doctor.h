@@ -15,6 +15,8 @@ struct CheckRequest {
   std::vector<std::filesystem::path> logs;
   ReadOptions read;
   std::filesystem::path simulator, system;  ///< empty for none
+  std::filesystem::path urdf = {};          ///< of the arm; else `arm` of the system's description
+  std::string tip = {};
 };
 
 /// Reports in the order of the logs; streams (`-`) are left out, for they can be read once only.

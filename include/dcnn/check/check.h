@@ -35,7 +35,7 @@ struct ReadingWeight {
 
 /// Lines for a picture.
 struct Curve {
-  std::string label;
+  std::string label, quantity;  ///< "force [N]"
   Eigen::VectorXd t, values;
 };
 
@@ -45,7 +45,8 @@ struct Report {
   std::vector<ReadingWeight> readings;  ///< by falling probability, the likeliest few
   std::map<std::string, bool> identifiable;
   std::vector<std::string> notes;      ///< why something could not be looked at
-  std::vector<Curve> measured, rigid;  ///< per axis: as logged, and the rigid tool's best fit
+  std::vector<Curve> measured, rigid;  ///< per axis: as logged, and the best fit of `model`
+  std::string model;                   ///< "rigid tool"
 
   /// The first fault that is certain and stops.
   const Fault* stopping(const std::vector<std::string>& accepted) const;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dcnn/data/recording.h"
+#include "dcnn/physics/chain.h"
 #include "dcnn/physics/tool_model.h"
 
 namespace dcnn::check {
@@ -16,7 +17,7 @@ namespace dcnn::check {
 struct Joint {
   std::string name, position, velocity, measured;
   bool turns = true;    ///< position in rad, else in m
-  double sense = 1.0;  ///< sign of the declared scale of the measured column
+  double scale = 1.0;   ///< declared, of the measured column
 };
 
 /// What the user declares about the log.
@@ -24,6 +25,7 @@ struct Declared {
   ReadOptions read;                ///< units and sign, as every tool takes them
   System system;                   ///< of another machine than a wrist
   std::optional<ToolModel> model;  ///< sim.json: nominal mass and mounting
+  std::optional<JointChain> arm;   ///< with the bodies of its links; see describe_arm()
 };
 
 struct Log {
@@ -31,6 +33,7 @@ struct Log {
   Table table;       ///< values as logged
   Declared declared;
   std::vector<Joint> joints;
+  std::vector<std::size_t> arm;  ///< place in `joints` of each joint of the arm; empty without one
 
   Eigen::VectorXd t;  ///< (T) as logged, from 0; empty without a clock
   double step = 0.0;  ///< median of its steps; 0 without a clock
@@ -55,6 +58,9 @@ struct Log {
 /// Of any table. Columns of joints are those of the system description, else recognised by the
 /// names q_1, qd_1 and tau_1.
 Log make_log(const std::string& name, Table table, const Declared& declared);
+/// Declares the arm whose joints the log's are: by their names where all are among them, else in
+/// their order. Error(kData) where numbers differ, or where positions or torques are missing.
+void describe_arm(Log& log, const JointChain& chain);
 /// Reads a CSV; what cannot be read is an Error(kData).
 Log read_log(const std::filesystem::path& path, const Declared& declared);
 

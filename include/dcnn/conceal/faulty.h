@@ -13,6 +13,7 @@ namespace dcnn::conceal {
 struct FaultyLog {
   Table table;
   Json simulator;     ///< sim.json of the tool; null for joints
+  Json system;        ///< system.json of an arm, with its links; null for others
   std::string fault;  ///< id of the fault that a check should name, empty for a clean log
 };
 

@@ -94,7 +94,7 @@ Eigen::VectorXd residual_with_sign(const Eigen::MatrixXd& A, const Eigen::Vector
 /// independent.
 SignEvidence sign_of(const Log& log, const Joint& joint, const Sampled& rows,
                      const std::vector<Motion>& motions, std::size_t own) {
-  const Eigen::VectorXd y = joint.sense * rows.smoothed(log.column(joint.measured), rows.value);
+  const Eigen::VectorXd y = joint.scale * rows.smoothed(log.column(joint.measured), rows.value);
   const Eigen::MatrixXd A = columns_of(motions, own);
   const Eigen::VectorXd with = residual_with_sign(A, y, 1.0),
                         against = residual_with_sign(A, y, -1.0);
@@ -107,9 +107,30 @@ SignEvidence sign_of(const Log& log, const Joint& joint, const Sampled& rows,
               elementary::log((against.squaredNorm() + floor) / (with.squaredNorm() + floor))};
 }
 
+/// Of an arm whose links are known, gravity and inertia tell it: readings of the log.
+void opposite_torques(const Log& log, const Reading& base, std::vector<Reading>& out) {
+  if (log.arm.empty()) return;
+  Reading all = base;
+  all.arm.torque *= -1.0;
+  all.channel = log.joints[base.arm.joint[0]].measured;
+  all.words =
+      "all torques have the other sign than the arm described: they are of the load, not "
+      "of the drives";
+  out.push_back(all);
+  for (std::size_t j = 0; j < log.arm.size() && log.arm.size() > 1; ++j) {
+    Reading reading = base;
+    reading.arm.torque[static_cast<Index>(j)] *= -1.0;
+    reading.channel = log.joints[base.arm.joint[j]].measured;
+    reading.words = log.declared.arm->joints[j].name + ": " + reading.channel +
+                    " has the other sign than the arm described";
+    out.push_back(std::move(reading));
+  }
+}
+
 std::vector<Fault> find_power_sign(const Evidence& e) {
   const Sampled& rows = e.adopted.rows;
   std::vector<Fault> out;
+  if (!e.log.arm.empty()) return out;
   if (rows.half == 0 || rows.centres.size() < 40) return out;
   std::vector<const Joint*> joints;
   std::vector<Motion> motions;
@@ -144,9 +165,13 @@ std::vector<Fault> find_power_sign(const Evidence& e) {
 
 }  // namespace
 
-const FaultKind power_sign_fault{"power_sign", true,
+const FaultKind power_sign_fault{"power_sign",
+                                 true,
                                  "turn the sign of the column, of its scale in the system's "
                                  "description, or of the joint's position",
-                                 "", find_power_sign};
+                                 "",
+                                 find_power_sign,
+                                 opposite_torques,
+                                 true};
 
 }  // namespace dcnn::check

@@ -4,6 +4,7 @@
 
 #include "check/rows.h"
 #include "core/elementary.h"
+#include "data/held_rows.h"
 
 namespace dcnn::check {
 namespace {
@@ -75,6 +76,7 @@ void find_joint_rates(const Evidence& e, std::vector<Fault>& out) {
   const double dt = e.log.step * e.adopted.reading.clock;
   for (const Joint& joint : e.log.joints) {
     if (joint.position.empty() || joint.velocity.empty()) continue;
+    if (never_changes(e.log.column(joint.position))) continue;
     const Eigen::MatrixXd rate = rows.smoothed(e.log.column(joint.position), rows.first) / dt;
     const Eigen::MatrixXd logged = rows.smoothed(e.log.column(joint.velocity), rows.value);
     if (rate.norm() == 0.0) continue;
