@@ -10,6 +10,7 @@ namespace dcnn {
 namespace {
 
 constexpr double kFoldRidge = 1e-10;
+constexpr double kElsewhere = 0.01;  // of a column's square, without which other pieces do not tell
 
 /// Which piece of its recording each row belongs to, numbered over all recordings.
 std::vector<int> pieces_of(const Setting& setting) {
@@ -28,6 +29,19 @@ struct Sums {
   Eigen::VectorXd match;
 };
 
+/// Coefficients by all but one piece. A column that lives in that piece alone, as the state of a
+/// cable when the recording begins, is told by no other: it stays zero.
+Eigen::VectorXd fit_elsewhere(const Sums& whole, const Sums& own) {
+  std::vector<Index> told;
+  for (Index k = 0; k < whole.match.size(); ++k) {
+    if (whole.gram(k, k) - own.gram(k, k) > kElsewhere * whole.gram(k, k)) told.push_back(k);
+  }
+  Eigen::VectorXd c = Eigen::VectorXd::Zero(whole.match.size());
+  c(told) = solve_gram(whole.gram(told, told) - own.gram(told, told),
+                       whole.match(told) - own.match(told), kFoldRidge);
+  return c;
+}
+
 /// What a fit to all but one piece explains of that piece (or, with no piece left out, of all).
 double explained(const Sums& all, const std::vector<Sums>& pieces,
                  const std::vector<Index>& columns, bool leave_out) {
@@ -39,8 +53,7 @@ double explained(const Sums& all, const std::vector<Sums>& pieces,
   const Eigen::VectorXd fitted = solve_gram(whole.gram, whole.match, kFoldRidge);
   for (const Sums& piece : pieces) {
     const Sums own = part(piece);
-    Eigen::VectorXd c = fitted;
-    if (leave_out) c = solve_gram(whole.gram - own.gram, whole.match - own.match, kFoldRidge);
+    const Eigen::VectorXd c = leave_out ? fit_elsewhere(whole, own) : fitted;
     sum += 2.0 * c.dot(own.match) - c.dot(own.gram * c);
   }
   return sum;
