@@ -74,6 +74,7 @@ bool Search::admit_slow_noise() {
   const auto smoothed = smoothed_;
   const auto other_filter = other_filter_;
   const bool tuned = tuned_, ringing = ringing_;
+  const double before = passes();
   while (grow()) {
   }
   const double plain = unlikely();
@@ -83,6 +84,7 @@ bool Search::admit_slow_noise() {
   explore();
   if (unlikely() < plain && are_constant() && is_independent()) return true;
   const std::vector<Member> found = fit_.members;
+  begun_ += passes() - before;  // an attempt that failed is not what the search may take
   in_slow_noise_ = false;
   events_allowed_ = true;
   study_ = study, smoothed_ = smoothed, other_filter_ = other_filter;
