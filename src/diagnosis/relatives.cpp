@@ -19,14 +19,16 @@ constexpr double kLeastDoubtBeside = 0.003;  // the same beside a law that is re
 constexpr double kSmallRest = 0.05;          // of what was missing
 constexpr double kSlowPart = 0.7;            // of what is left
 
-/// A cogging beside a spring, or a hysteresis, of its angle that would make less than a turn if it
-/// could: together they are a spring that bends.
+/// A cogging beside a spring, or a hysteresis, of its angle that does not repeat itself within the
+/// motion (a cubic less its line has one period and a half): together they are a spring that bends.
 bool bends_a_spring(const Member& cogging, const std::vector<Member>& members) {
-  const bool least =
-      cogging.name() == "cogging" && cogging.shapes(0) < 1.01 * cogging.least_shapes(0);
-  return least && std::any_of(members.begin(), members.end(), [&](const Member& m) {
+  constexpr double kRepeats = 2.0;  // periods; the least shape makes one
+  const bool once =
+      cogging.name() == "cogging" && cogging.shapes(0) < kRepeats * cogging.least_shapes(0);
+  const auto angle = [](const Member& m) { return m.axis.substr(0, m.axis.find(':')); };
+  return once && std::any_of(members.begin(), members.end(), [&](const Member& m) {
            const bool bends = m.name() == "cable_spring" || m.name() == "hysteresis";
-           return bends && m.axis == cogging.axis;
+           return bends && angle(m) == angle(cogging);
          });
 }
 
