@@ -3,6 +3,7 @@
 #include "data/spectral.h"
 #include "diagnosis/axis_case.h"
 #include "physics/driven.h"
+#include "physics/effect_law.h"
 
 namespace dcnn {
 
@@ -79,10 +80,31 @@ Motion wrist_motion(const Log& log, const Case& study) {
   return motion;
 }
 
+namespace {
+
+void set_top_speeds(Case& study) {
+  study.top_speed.clear();
+  const Motion& first = study.logs.front().motion;
+  if (study.is_static() || first.v_B.rows() != first.samples()) return;
+  for (const std::string& axis : admitted_axes(AxisRule::kLine)) {
+    double top = 0.0;
+    for (const Log& log : study.logs) {
+      top = std::max(top, velocity_of(axis, log.motion).cwiseAbs().maxCoeff());
+    }
+    study.top_speed[axis] = top;
+  }
+}
+
+}  // namespace
+
 void set_derivative(Case& study, const DerivativeSpec& derivative) {
   study.derivative = derivative;
-  if (study.axis) return set_axis_motion(study);
-  for (Log& log : study.logs) log.motion = wrist_motion(log, study);
+  if (study.axis) {
+    set_axis_motion(study);
+  } else {
+    for (Log& log : study.logs) log.motion = wrist_motion(log, study);
+  }
+  set_top_speeds(study);
 }
 
 bool has_own_offsets(const Case& study) {

@@ -1,6 +1,7 @@
 // What a diagnosis is about: recordings, the simulator at hand, and the quantities both give.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,6 +47,7 @@ struct Case {
   /// Units of length and time in which shapes along the axis are looked for; 1 for a tool, and for
   /// a machine of usual size in rad or m and seconds.
   double axis_length = 1.0, axis_seconds = 1.0;
+  std::map<std::string, double> top_speed;  ///< m/s (rad/s) along each line that friction may take
   bool axis_moves = true;             ///< by more than the noise of its position
   Eigen::VectorXd base_coefficients;  ///< of the base simulator's columns that are used
   double lowpass_hz =

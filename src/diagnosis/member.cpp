@@ -82,6 +82,12 @@ Member make(const Case& study, const EffectKind& kind, const EffectFit& form,
     const ShapeParameter& shape = member.shape(i);
     member.least_shapes(i) = unit_of(study, shape) * shape.low;
     member.most_shapes(i) = unit_of(study, shape) * shape.high;
+    const auto top = study.top_speed.find(axis);
+    if (shape.turns_within_motion && top != study.top_speed.end()) {
+      const double within = std::max(0.5 * top->second, member.least_shapes(i));
+      member.most_shapes(i) = std::min(double(member.most_shapes(i)), within);
+      member.shapes(i) = std::min(double(member.shapes(i)), double(member.most_shapes(i)));
+    }
   }
   if (with_torque && has_lever(kind)) add_lever(member);
   return member;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dcnn/core/random.h"
+#include "dcnn/data/rotation.h"
 #include "diagnosis/load.h"
 #include "diagnosis/support.h"
 #include "diagnosis/whitener.h"
@@ -97,6 +98,63 @@ TEST(Relatives, AHysteresisMayBeginAnyhow) {
   const Json& found = report["findings"][0]["parameters"];
   EXPECT_NEAR(found["width_rad"]["value"].get<double>(), 0.5, 0.015);
   EXPECT_NEAR(found["force_n"]["value"].get<double>(), 0.4, 0.012);
+}
+
+// The weight was hung on the sensor when the recording began: what has yet to settle is neither a
+// drift nor an offset.
+TEST(Relatives, ACreepMayBeginAnyhow) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Bench bench(
+      configuration(Json::array({hidden("creep", nullptr, {{"a", 0.05}, {"tau_s", 4.0}})})));
+  change(bench, [](Recording& log) {
+    const Eigen::VectorXd t = log.column("t");
+    for (const char* name : {"fx", "fy", "fz"}) {
+      const double load = log.column(name).head(20).mean() / 1.05;
+      const Eigen::ArrayXd late = 0.05 * load * (-(t.array() - t(0)) / 4.0).exp();
+      log.set(name, log.column(name) - late.matrix());
+    }
+  });
+  const Json report = bench.diagnose().report;
+  ASSERT_EQ(names(report), std::vector<std::string>{"creep"}) << report["findings"].dump(1);
+  EXPECT_NEAR(report["findings"][0]["parameters"]["a"]["value"].get<double>(), 0.05, 0.002);
+  EXPECT_NEAR(report["findings"][0]["parameters"]["tau_s"]["value"].get<double>(), 4.0, 0.3);
+}
+
+// A tanh that does not turn within the motion is no dry friction.
+TEST(Relatives, FrictionThatGrowsFasterThanTheSpeedIsNotDry) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Bench bench(configuration(Json::array()));
+  change(bench, [](Recording& log) {
+    const Eigen::VectorXd v = rate(log.column("x"));
+    Eigen::MatrixXd F(v.size(), 3);
+    F << log.column("fx"), log.column("fy"), log.column("fz");
+    for (Index i = 0; i < v.size(); ++i) {
+      const Eigen::Matrix3d R = rotation_from_euler(
+          {log.column("alpha")(i), log.column("beta")(i), log.column("gamma")(i)});
+      F.row(i) -= std::copysign(2.0 * std::pow(std::abs(v(i)), 1.5), v(i)) * R.row(0);
+    }
+    log.set("fx", F.col(0)), log.set("fy", F.col(1)), log.set("fz", F.col(2));
+  });
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(found(report).count("coulomb_friction"), 0U) << report["findings"].dump(1);
+  EXPECT_NE(report["verdict"], "consistent");
+}
+
+// How a cable is bent at first shows in the first piece of a recording alone: the pieces that judge
+// the laws beside it know nothing of it.
+TEST(Relatives, LawsBesideAHysteresisAreKept) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Json step{{"effect", "step_bias"},
+                  {"interval_s", {9.0, 45.0}},
+                  {"parameters", {{"step_x_n", 0.06}, {"step_y_n", -0.09}, {"step_z_n", 0.0}}}};
+  const Bench bench(
+      configuration(Json::array({hidden("hysteresis", "beta:sensor_z",
+                                        {{"force_n", 0.1}, {"width_rad", 0.12}, {"asym", 0.5}}),
+                                 hidden("quadratic_drag", "tool_z", {{"c2_ns2pm2", 3.0}}), step})));
+  const Json report = bench.diagnose().report;
+  const std::set<std::string> wanted{"hysteresis", "quadratic_drag", "step_bias"};
+  EXPECT_EQ(found(report), wanted) << report["findings"].dump(1);
+  EXPECT_EQ(report["verdict"], "explained");
 }
 
 // Of the samples one in fifty is some seven times as noisy.

@@ -92,6 +92,9 @@ struct ShapeParameter {
   /// Bounds and seeds are in rad or m and s; along an axis of a machine of another size they grow
   /// with these powers of its units of length and time.
   int length = 0, time = 0;
+  /// A speed within which friction turns: at most half of the fastest motion along the axis, beyond
+  /// which it is no dry friction but grows with speed.
+  bool turns_within_motion = false;
 };
 
 /// How an effect is found from data: the force is linear in its amplitudes where the shapes are
@@ -131,6 +134,8 @@ struct EffectKind {
   bool of_load = false;        ///< needs Wrench::load
   /// A relative of a commoner law, which it must outdo by the price of a number (prior::kSpecial).
   bool special = false;
+  /// Its state at the first sample of a recording is one that nobody knows: fitted beside it.
+  bool begins_anywhere = false;
   /// A constant: no error of a law or of the motion comes with it, however large it is.
   bool is_constant = false;
   /// The parameter that the force is proportional to, the others held: it may follow a logged

@@ -29,7 +29,7 @@ constexpr double kSameCause = 20.0;
 constexpr double kTempering = 60.0;
 /// Deviation of what filtering the pose a little more or less changes, in units of that change.
 constexpr double kFiltering = 1.5;
-/// Deviation of a cable's force at the first sample, as a share of its largest.
+/// Deviation of a cable's or a creep's force at the first sample, as a share of its largest.
 constexpr double kBeginning = 0.6;
 /// Time [s] to within which the ends of an interval are known; they are uniform over the
 /// recordings.

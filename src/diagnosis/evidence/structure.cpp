@@ -7,7 +7,9 @@
 
 #include "core/elementary.h"
 #include "core/linear_algebra.h"
+#include "diagnosis/beginning.h"
 #include "diagnosis/candidates.h"
+#include "diagnosis/evidence/bounds.h"
 #include "diagnosis/evidence/few_rows.h"
 #include "diagnosis/evidence/marginal.h"
 #include "diagnosis/evidence/priors.h"
@@ -29,7 +31,7 @@ Eigen::VectorXd precisions(const Setting& setting, const JointFit& fit) {
   Index column = first + smoothing;
   const auto logs = static_cast<Index>(setting.study.logs.size());
   for (const Member& member : fit.members) {
-    if (member.name() != "hysteresis" || column + logs > precision.size()) continue;
+    if (!begins_anywhere(setting.study, member) || column + logs > precision.size()) continue;
     const double sd = prior::kBeginning * std::max(1e-12, std::abs(member.amplitudes(0)));
     precision.segment(column, logs).setConstant(1.0 / (sd * sd));
     column += logs;
@@ -248,16 +250,17 @@ struct NamedEvidence {
 };
 
 NamedEvidence named_evidence(const Setting& setting, const Grid& grid, const JointFit& fit) {
-  const Eigen::VectorXd precision = precisions(setting, fit);
+  Eigen::VectorXd precision = precisions(setting, fit);
+  const double widths = hold_at_bounds(fit, precision);
   // The residual with what the nuisance columns took off put back.
   const Eigen::VectorXd target =
       fit.residual + fit.tangent.rightCols(fit.nuisance.size()) * fit.nuisance;
   Background background(grid, grid.pooled(fit.tangent), precision, grid.pooled(target));
   const double pooled = background.log_probability();
-  double sum =
-      grid.study().is_static()
-          ? pooled
-          : log_evidence(linear_model(fit.tangent, target, precision)) - 0.5 * target.squaredNorm();
+  double sum = widths + (grid.study().is_static()
+                             ? pooled
+                             : log_evidence(linear_model(fit.tangent, target, precision)) -
+                                   0.5 * target.squaredNorm());
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
     if (!fit.members[m].fixed) sum += log_prior(setting, fit, m);
   }

@@ -54,6 +54,7 @@ const EffectKind effect{
     .example = R"({"a": 0.03, "tau_s": 8.0})",
     .needs_time = TimeNeed::kMotion,
     .special = true,
+    .begins_anywhere = true,
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 1,

@@ -55,7 +55,7 @@ const EffectKind effect{
     .stream = stream,
     .fits = {{.amplitudes = 3,
               .shapes = {{"order", 0.5, 200.0, {}, -1},
-                         {"v0", 3e-4, 0.3, {0.003, 0.012, 0.05}, 1, -1}},
+                         {"v0", 3e-4, 0.3, {0.003, 0.012, 0.05}, 1, -1, true}},
               .parameters = published}},
 };
 

@@ -115,6 +115,7 @@ const EffectKind effect{
     .example = R"({"force_n": 0.3, "width_rad": 0.2, "asym": 0.4})",
     .axis = AxisRule::kAngle,
     .needs_time = TimeNeed::kMotion,
+    .begins_anywhere = true,
     .strength = "force_n",
     .apply = apply,
     .stream = stream,
