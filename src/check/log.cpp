@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "check/statistics.h"
 
@@ -157,26 +158,28 @@ Log make_log(const std::string& name, Table table, const Declared& declared) {
 }
 
 void describe_arm(Log& log, const JointChain& chain) {
-  const std::size_t joints = chain.joints.size();
-  require(log.joints.size() == joints, Exit::kData, log.name, ":1: columns of ", log.joints.size(),
-          " joints (such as q_1, qd_1, tau_1), the arm described has ", joints,
-          "; name the columns by --system, or the arm's end by --tip");
-  const auto place_of = [&](const std::string& joint) {
+  const std::size_t joints = chain.joints.size(), logged = log.joints.size();
+  const auto place_of = [&](const ChainJoint& joint) {
     const auto it = std::find_if(log.joints.begin(), log.joints.end(),
-                                 [&](const Joint& logged) { return logged.name == joint; });
+                                 [&](const Joint& own) { return own.name == joint.name; });
     return static_cast<std::size_t>(it - log.joints.begin());
   };
-  log.arm.clear();
-  for (const ChainJoint& joint : chain.joints) log.arm.push_back(place_of(joint.name));
-  if (std::find(log.arm.begin(), log.arm.end(), joints) != log.arm.end()) {
-    for (std::size_t j = 0; j < joints; ++j) log.arm[j] = j;
+  std::vector<std::size_t> places;
+  for (const ChainJoint& joint : chain.joints) places.push_back(place_of(joint));
+  if (std::find(places.begin(), places.end(), logged) != places.end()) {  // names of their own
+    require(logged == joints, Exit::kData, log.name, ":1: columns of ", logged,
+            " joints (such as q_1, qd_1, tau_1), the arm described has ", joints,
+            "; name the columns by --system, or the arm's end by --tip");
+    std::iota(places.begin(), places.end(), std::size_t{0});
   }
-  for (const Joint& joint : log.joints) {
+  for (const std::size_t place : places) {
+    const Joint& joint = log.joints[place];
     require(!joint.position.empty() && !joint.measured.empty(), Exit::kData, log.name,
             ":1: joint '", joint.name, "' has no column of its ",
             joint.position.empty() ? "position" : "torque",
             "; add it, or describe no arm (without --urdf)");
   }
+  log.arm = std::move(places);
   log.declared.arm = chain;
 }
 

@@ -31,6 +31,18 @@ TEST(DescribedArms, JointsAreMatchedByTheirNamesInAnyOrder) {
   EXPECT_TRUE(report.faults.empty()) << check::to_text(report);
 }
 
+// A gripper's finger, which has no torque.
+TEST(DescribedArms, TheLogMayHaveMoreJointsThanTheArm) {
+  MadeArm arm = made_arm("arm_sign", 3);
+  check::Joint finger{"finger", arm.log.joints[0].position, "", ""};
+  arm.log.joints.insert(arm.log.joints.begin(), finger);
+  check::describe_arm(arm.log, arm.chain);
+  EXPECT_EQ(arm.log.arm[0], 1U);
+  const check::Report report = check::check(arm.log);
+  ASSERT_FALSE(report.faults.empty());
+  EXPECT_EQ(report.faults[0].id, "joint_sign") << check::to_text(report);
+}
+
 TEST(DescribedArms, OtherNamesCountInTheirOrder) {
   MadeArm arm = made_arm("arm_exchanged", 3);
   for (check::Joint& joint : arm.log.joints) joint.name += "_of_mine";
@@ -95,6 +107,7 @@ TEST(DescribedArms, AnotherArmThanDescribedIsSaidAndNoJointIsBlamed) {
 TEST(DescribedArms, AnotherNumberOfJointsIsRefused) {
   MadeArm arm = made_arm("clean_arm", 7);
   arm.chain.joints.pop_back();
+  for (check::Joint& joint : arm.log.joints) joint.name += "_of_mine";
   EXPECT_THROW(check::describe_arm(arm.log, arm.chain), Error);
 }
 

@@ -16,8 +16,8 @@ namespace dcnn::check {
 /// Columns of one joint or machine axis; empty names mean "not there".
 struct Joint {
   std::string name, position, velocity, measured;
-  bool turns = true;    ///< position in rad, else in m
-  double scale = 1.0;   ///< declared, of the measured column
+  bool turns = true;   ///< position in rad, else in m
+  double scale = 1.0;  ///< declared, of the measured column
 };
 
 /// What the user declares about the log.
@@ -35,8 +35,8 @@ struct Log {
   std::vector<Joint> joints;
   std::vector<std::size_t> arm;  ///< place in `joints` of each joint of the arm; empty without one
 
-  Eigen::VectorXd t;  ///< (T) as logged, from 0; empty without a clock
-  double step = 0.0;  ///< median of its steps; 0 without a clock
+  Eigen::VectorXd t;    ///< (T) as logged, from 0; empty without a clock
+  double step = 0.0;    ///< median of its steps; 0 without a clock
   bool smooth = false;  ///< neighbouring rows are near each other, as samples of a motion are
   std::vector<Segment> segments;  ///< without a gap of more than 5 steps
 
@@ -58,8 +58,9 @@ struct Log {
 /// Of any table. Columns of joints are those of the system description, else recognised by the
 /// names q_1, qd_1 and tau_1.
 Log make_log(const std::string& name, Table table, const Declared& declared);
-/// Declares the arm whose joints the log's are: by their names where all are among them, else in
-/// their order. Error(kData) where numbers differ, or where positions or torques are missing.
+/// Declares the arm whose joints are logged: by their names where all are among the log's (which
+/// may have more, a gripper's), else in their order. Error(kData) where their numbers differ then,
+/// or where a position or torque is missing.
 void describe_arm(Log& log, const JointChain& chain);
 /// Reads a CSV; what cannot be read is an Error(kData).
 Log read_log(const std::filesystem::path& path, const Declared& declared);
