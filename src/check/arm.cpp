@@ -5,6 +5,7 @@
 
 #include "check/statistics.h"
 #include "core/elementary.h"
+#include "physics/foreign_force.h"
 
 namespace dcnn::check {
 namespace {
@@ -235,12 +236,7 @@ ArmFit fit_arm(const Log& log, const Sampled& all, const Reading& reading) {
       fit.variance[j] = median(fit.residual.col(j).cwiseAbs2()) / chi_square_median(1);
     }
   }
-  const MatrixXd inverse =
-      precision(normal, weight).ldlt().solve(MatrixXd::Identity(x.size(), x.size()));
-  fit.drive_deviation = inverse.diagonal()
-                            .tail(kTerms * joints)
-                            .cwiseSqrt()
-                            .reshaped<Eigen::RowMajor>(joints, kTerms);
+  fit.precision = precision(normal, weight);
   fit.surprise = 0.5 * x.head(10 * joints + 10).squaredNorm();
   return fit;
 }
@@ -270,8 +266,7 @@ std::optional<VectorXd> torque_factors(const Log& log, const Reading& reading) {
     A << chain_regressor(chain, motion.q, motion.qd, motion.qdd, static_cast<std::size_t>(j)) *
              links,
         drive_columns(motion, j);
-    const auto qr = A.colPivHouseholderQr();
-    const VectorXd x = qr.solve(torque.col(j));
+    const VectorXd x = A.colPivHouseholderQr().solve(torque.col(j));
     const double freedom = static_cast<double>(std::max<Index>(1, A.rows() - A.cols()));
     const double variance = (torque.col(j) - A * x).squaredNorm() / freedom;
     const MatrixXd inverse =
@@ -289,10 +284,16 @@ std::optional<VectorXd> torque_factors(const Log& log, const Reading& reading) {
   return factors;
 }
 
+MatrixXd drive_deviation(const ArmFit& fit) {
+  const Index unknowns = fit.precision.rows(), joints = fit.torque.cols();
+  const MatrixXd inverse = fit.precision.ldlt().solve(MatrixXd::Identity(unknowns, unknowns));
+  const VectorXd deviations = inverse.diagonal().tail(kTerms * joints).cwiseSqrt();
+  return deviations.reshaped<Eigen::RowMajor>(joints, kTerms);
+}
+
 double unexplained_share(const ArmFit& fit) {
   const MatrixXd centred = fit.torque.rowwise() - fit.torque.colwise().mean();
-  const double power = centred.squaredNorm();
-  return power > 0.0 ? fit.residual.squaredNorm() / power : 0.0;
+  return foreign_share(fit.residual.squaredNorm(), 0.0, centred.squaredNorm());
 }
 
 }  // namespace dcnn::check

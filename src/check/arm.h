@@ -12,9 +12,7 @@ struct ArmFit {
   Eigen::MatrixXd torque, residual;  ///< (n, joints), N·m
   Eigen::VectorXd variance, floor;   ///< (joints), of the residual, robust; N·m, see kArmError
   double independent = 0.0;          ///< residuals of each joint
-  /// (joints, 4): deviations of offset, dry and viscous friction and rotor inertia as torques on
-  /// this motion, over the joint's rms torque.
-  Eigen::MatrixXd drive_deviation;
+  Eigen::MatrixXd precision;         ///< of the posterior, in units of the prior's deviations
   double surprise = 0.0;  ///< -ln of the prior's density at the links found, but for a constant
   std::vector<Eigen::Index> rows;  ///< of the log
 };
@@ -34,6 +32,10 @@ double arm_weight(const Log& log, const Sampled& rows, const Reading& reading);
 /// nothing where the motion tells it of no joint. A joint that does not tell its own takes the
 /// median of the others.
 std::optional<Eigen::VectorXd> torque_factors(const Log& log, const Reading& reading);
+
+/// (joints, 4): deviations of offset, dry and viscous friction and rotor inertia as torques on this
+/// motion, over the joint's rms torque.
+Eigen::MatrixXd drive_deviation(const ArmFit& fit);
 
 /// Share of the torques' power about their mean that the described arm leaves; 0 without one.
 double unexplained_share(const ArmFit& fit);

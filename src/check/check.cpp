@@ -83,14 +83,19 @@ void set_identifiable(const Adopted& a, Report& report) {
   report.identifiable["delay"] = a.rows.half > 0;
 }
 
-void set_curves(const Log& log, const Adopted& a, Report& report) {
-  if (!a.compared) return;
-  const auto n = static_cast<Index>(a.rows.centres.size());
-  Eigen::VectorXd t(n);
-  for (Index i = 0; i < n; ++i) {
-    const Index row = a.rows.centres[static_cast<std::size_t>(i)];
+/// Seconds of these rows; their numbers without a clock.
+Eigen::VectorXd times_of(const Log& log, const Adopted& a, const std::vector<Index>& rows) {
+  Eigen::VectorXd t(static_cast<Index>(rows.size()));
+  for (Index i = 0; i < t.size(); ++i) {
+    const Index row = rows[static_cast<std::size_t>(i)];
     t[i] = log.t.size() > 0 ? log.t[row] * a.reading.clock : static_cast<double>(row);
   }
+  return t;
+}
+
+void set_curves(const Log& log, const Adopted& a, Report& report) {
+  if (!a.compared) return;
+  const Eigen::VectorXd t = times_of(log, a, a.rows.centres);
   for (Index j = 0; j < 3; ++j) {
     const std::string axis = std::string("f") + "xyz"[j];
     report.measured.push_back({axis, "force [N]", t, a.fit.force.col(j)});
@@ -102,21 +107,18 @@ void set_curves(const Log& log, const Adopted& a, Report& report) {
 /// What the motion shows of a drive, to a tenth of the joint's torque.
 void set_identifiable_drives(const Log& log, const ArmFit& fit, Report& report) {
   constexpr double kShown = 0.1;
-  for (Index j = 0; j < fit.drive_deviation.rows(); ++j) {
+  const Eigen::MatrixXd deviation = drive_deviation(fit);
+  for (Index j = 0; j < deviation.rows(); ++j) {
     const std::string& joint = log.declared.arm->joints[static_cast<std::size_t>(j)].name;
     Index term = 1;
     for (const char* stem : {"dry_", "viscous_", "inertia_"}) {
-      report.identifiable[stem + joint] = fit.drive_deviation(j, term++) < kShown;
+      report.identifiable[stem + joint] = deviation(j, term++) < kShown;
     }
   }
 }
 
 void set_arm_curves(const Log& log, const Adopted& a, const ArmFit& fit, Report& report) {
-  Eigen::VectorXd t(fit.torque.rows());
-  for (Index i = 0; i < t.size(); ++i) {
-    const Index row = fit.rows[static_cast<std::size_t>(i)];
-    t[i] = log.t.size() > 0 ? log.t[row] * a.reading.clock : static_cast<double>(row);
-  }
+  const Eigen::VectorXd t = times_of(log, a, fit.rows);
   for (Index j = 0; j < fit.torque.cols(); ++j) {
     const ChainJoint& joint = log.declared.arm->joints[static_cast<std::size_t>(j)];
     const std::string quantity = joint.slides ? "force [N]" : "torque [N·m]";

@@ -29,6 +29,9 @@ FaultyLog make_clean(CleanLog kind, Rng& rng);
 /// Of the kinds from kArm on.
 FaultyLog make_arm(CleanLog kind, Rng& rng);
 
+/// Rounded to so many steps a unit, as a logger writes it.
+double rounded(double value, double per_unit);
+
 Eigen::Index column_of(const Table& table, const std::string& name);
 Eigen::Ref<Eigen::VectorXd> column(Table& table, const std::string& name);
 void append(Table& table, const std::string& name, const Eigen::VectorXd& values);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -70,8 +69,6 @@ DrawnArm move(const std::vector<Limb>& limbs, const Eigen::Vector3d& gravity, Rn
   }
   return out;
 }
-
-double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
 
 /// Dry and viscous friction, a drive whose constant is a few percent off, noise, an offset.
 Eigen::VectorXd logged(const DrawnArm& arm, Index joint, Rng& rng) {

@@ -44,8 +44,6 @@ Path draw_any_path(CleanLog kind, Rng& rng) {
   return follow(0.0, pose, rotation, {0.0, 0.0, 0.0});
 }
 
-double digits(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
-
 Json simulator_of(const Tool& tool, Rng& rng) {
   Json sim;  // nominal numbers: the mass is known to some 10 %
   sim["tool"]["mass_kg"] = tool.mass * rng.uniform(0.9, 1.1);
@@ -59,7 +57,7 @@ void add_rates(const Path& path, Index rows, Rng& rng, Table& table) {
     const Index k = i * kStride;
     const Eigen::Matrix3d& R = path.rotation[static_cast<std::size_t>(k)];
     rates.row(i) << path.velocity.row(k) * R, path.rate.row(k);
-    for (Index j = 0; j < 6; ++j) rates(i, j) = digits(rates(i, j) + 1e-3 * rng.normal(), 1e7);
+    for (Index j = 0; j < 6; ++j) rates(i, j) = rounded(rates(i, j) + 1e-3 * rng.normal(), 1e7);
   }
   Index j = 0;
   for (const char* name : {"vx", "vy", "vz", "wx", "wy", "wz"}) append(table, name, rates.col(j++));
@@ -93,11 +91,11 @@ FaultyLog make_wrist(CleanLog kind, Rng& rng) {
                 nullptr,
                 ""};
   for (Index i = 0; i < F.rows(); ++i) {
-    out.table.values(i, 0) = digits(path.time(i * kStride), 1e6);
+    out.table.values(i, 0) = rounded(path.time(i * kStride), 1e6);
     for (Index j = 0; j < 6; ++j) {
-      out.table.values(i, 1 + j) = digits(path.pose(i * kStride, j) + (j < 3 ? metres : angles) * rng.normal(), 1e8);
+      out.table.values(i, 1 + j) = rounded(path.pose(i * kStride, j) + (j < 3 ? metres : angles) * rng.normal(), 1e8);
     }
-    for (Index j = 0; j < 3; ++j) out.table.values(i, 7 + j) = digits(F(i, j) + noise * rng.normal(), 1e6);
+    for (Index j = 0; j < 3; ++j) out.table.values(i, 7 + j) = rounded(F(i, j) + noise * rng.normal(), 1e6);
   }
   if (kind == CleanLog::kRates) add_rates(path, F.rows(), rng, out.table);
   if (kind == CleanLog::kQuaternion) use_quaternion(out.table);
@@ -130,14 +128,16 @@ FaultyLog make_joints(Rng& rng) {
   }
   for (Index j = 0; j < 3; ++j) {
     const std::string number = std::to_string(j + 1);
-    append(out.table, "q_" + number, q.col(j).unaryExpr([&](double x) { return digits(x + 2e-5 * rng.normal(), 1e7); }));
-    append(out.table, "qd_" + number, v.col(j).unaryExpr([&](double x) { return digits(x + 2e-3 * rng.normal(), 1e7); }));
-    append(out.table, "tau_" + number, tau.col(j).unaryExpr([&](double x) { return digits(x, 1e6); }));
+    append(out.table, "q_" + number, q.col(j).unaryExpr([&](double x) { return rounded(x + 2e-5 * rng.normal(), 1e7); }));
+    append(out.table, "qd_" + number, v.col(j).unaryExpr([&](double x) { return rounded(x + 2e-3 * rng.normal(), 1e7); }));
+    append(out.table, "tau_" + number, tau.col(j).unaryExpr([&](double x) { return rounded(x, 1e6); }));
   }
   return out;
 }
 
 }  // namespace
+
+double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
 
 Index column_of(const Table& table, const std::string& name) {
   const auto it = std::find(table.columns.begin(), table.columns.end(), name);
