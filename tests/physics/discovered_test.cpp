@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "dcnn/physics/law.h"
 #include "dcnn/physics/streaming_simulator.h"
@@ -227,6 +228,30 @@ TEST(DiscoveredLaw, IsToldInWordsTextAndLatex) {
       law::latex(law).find("\\left|\\tfrac{v_{\\text{tool z}}}{0.1\\,\\mathrm{m/s}}\\right|^{1.5}"),
       std::string::npos)
       << law::latex(law);
+}
+
+// "largest at 0.05 m/s of the velocity …: 0.4 N": the force at 0.05 m/s is 0.4 N; so of every shape
+// whose size is told at a place.
+TEST(DiscoveredLaw, TheSizeInWordsIsTheForceAtThePlaceThatTheyName) {
+  const std::map<std::string, double> told{{"linear", 0.05}, {"power", 0.05}, {"peaked", 0.05},
+                                           {"fading", 0.05}, {"log", 0.05},   {"dead_band", 0.1}};
+  for (const auto& [shape, speed] : told) {
+    const bool with_power = shape == "power";
+    Json numbers{{"amplitude_n", -0.8}, {"scale_1_mps", 0.05}};
+    if (with_power) numbers["power_1"] = 1.5;
+    const EffectSpec effect = discovered(
+        (R"({"axis": "base_x", "factors": [{"shape": ")" + shape + R"(", "of": "v_base_x"}]})")
+            .c_str(),
+        numbers);
+    const Wrench wrench =
+        applied(effect, moving(Eigen::VectorXd::Constant(3, speed), 0.01), no_wrench(3));
+    const std::string words = law::words(law_of(effect));
+    EXPECT_NEAR(std::stod(words.substr(words.rfind(": ") + 2)), wrench.force.row(2).norm(), 5e-3)
+        << words;
+    EXPECT_NE(words.find(" at " + std::string(speed == 0.1 ? "0.1" : "0.05") + " m/s"),
+              std::string::npos)
+        << words;
+  }
 }
 
 TEST(DiscoveredLaw, RefusesUnknownWordsAndUnitsThatItsStructureDoesNotHave) {

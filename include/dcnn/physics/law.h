@@ -67,6 +67,7 @@ struct Shape {
   bool free_centre = true;
   bool signed_scale = false;  ///< the two signs of the scale are two laws
   double (*value)(double u, double p) = nullptr;
+  double told_at = 0.0;  ///< u at which words tell the law's size; 0: the amplitude itself is told
 };
 const std::vector<Shape>& shapes();
 

@@ -240,10 +240,17 @@ std::string latex(const Law& law, const Terms& terms) {
 std::string words(const Law& law, const Terms& terms) {
   std::string text = beginning_words(law, terms);
   std::string at;
+  double size = std::abs(law.numbers(0));
   for (const FactorText& factor : texts_of(law, terms)) {
-    text += ", " + clause(factor);
-    const bool reference = !factor.shape->free_scale && std::string(factor.shape->name) != "affine";
-    if (reference) at += (at.empty() ? " at " : " and ") + factor.scale + " of " + factor.q->words;
+    const std::string how = clause(factor);
+    text += ", " + how;
+    const double u = factor.shape->told_at;
+    if (u == 0.0) continue;
+    size *= std::abs(factor.shape->value(u, factor.extra));
+    if (how.starts_with("largest at")) continue;
+    const std::string where =
+        u == 1.0 ? factor.scale : brief(u * std::abs(factor.scale_value)) + unit_of(factor);
+    at += (at.empty() ? " at " : " and ") + where + " of " + factor.q->words;
   }
   const Structure& structure = law.structure;
   Eigen::Index next = 1;
@@ -256,7 +263,6 @@ std::string words(const Law& law, const Terms& terms) {
     text += ", the vector behind a lag of " + brief(law.numbers(next++)) + " s";
   }
   if (structure.lagged) text += ", following with " + brief(law.numbers(next)) + " s";
-  const double size = std::abs(law.numbers(0));
   return text + ": " + brief(size) + " " + amplitude_unit(law, terms) + at;
 }
 
