@@ -1,4 +1,6 @@
 // Changes of a law that are tried: other shapes, further factors, memories.
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "discovery/dictionary.h"
@@ -45,6 +47,28 @@ void add_modulators(const Data& data, std::size_t c, std::vector<Piece>& list) {
   }
 }
 
+/// What 1 + p f(u) is for large p: f(u) alone, which needs one number fewer. Nothing for others.
+std::vector<Piece> without_constant(const Piece& from) {
+  constexpr double kMostly = 3.0;  // times the constant
+  if (std::abs(from.extra) < kMostly) return {};
+  const std::string name = law::shapes()[from.factor.shape].name;
+  Piece p = from;
+  p.extra = 0.0;
+  if (name == "affine") {
+    p.factor.shape = shape_named("linear");
+    p.factor.centred = true;
+    p.centre -= from.scale / from.extra;
+  } else if (name == "wavy") {
+    p.factor.shape = shape_named("sine");
+  } else if (name == "falling") {
+    p.factor.shape = shape_named("gaussian");
+    p.scale = from.scale / std::numbers::sqrt2;
+  } else {
+    return {};
+  }
+  return {p};
+}
+
 }  // namespace
 
 std::vector<Piece> modulators(const Data& data) {
@@ -56,7 +80,7 @@ std::vector<Piece> modulators(const Data& data) {
 }
 
 std::vector<Piece> other_shapes(const Data& data, const Piece& from) {
-  std::vector<Piece> list;
+  std::vector<Piece> list = without_constant(from);
   const std::size_t c = from.factor.coordinate;
   const double size = kind_of(c) == Kind::kPlace ? data.half_range(c) : data.rms(c);
   const auto add = [&](const char* shape, double scale, double extra = 0.0) {

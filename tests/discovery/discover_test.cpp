@@ -1,6 +1,7 @@
 // Laws that no catalogue has are found in residuals, and none in noise.
 #include <gtest/gtest.h>
 
+#include "discovery/dictionary.h"
 #include "discovery/support.h"
 
 namespace dcnn::discovery {
@@ -168,6 +169,30 @@ TEST(Discover, TheSameTwice) {
   ASSERT_FALSE(once.empty());
   EXPECT_EQ(once[0].law.numbers, again[0].law.numbers);
   EXPECT_LE(held_out_ratio(once, truth), 1.05) << law::expression(once[0].law);
+}
+
+// "Stronger by 10^6 % where the speed is near 0" is "where the speed is near 0": one number fewer.
+TEST(Discover, AModulatorOfWhichOnlyOneIsNoPartLosesIt) {
+  static const Scene at = scene(3, 500);
+  const Problem problem = problem_of(at, white(500, kDeviation, 4), kDeviation);
+  const Data data(problem);
+  for (const auto& [shape, coordinate] :
+       {std::pair{"falling", "v_base_x"}, {"affine", "gamma"}, {"wavy", "alpha"}}) {
+    const std::size_t c = coordinate_named(coordinate);
+    const Piece from = centred(piece(shape, c, 0.5 * data.half_range(c), 1e4), data.middle(c));
+    const VectorXd whole = data.product({from}, Sketch{});
+    double least = 1.0;  // of the form that differs least, as a share
+    for (const Piece& other : other_shapes(data, from)) {
+      EXPECT_NE(other.factor.shape, from.factor.shape);
+      const VectorXd x = data.product({other}, Sketch{});
+      const VectorXd left = whole - x * (x.dot(whole) / x.squaredNorm());
+      least = std::min(least, left.norm() / whole.norm());
+    }
+    EXPECT_LT(least, 1e-3) << shape;
+    Piece slight = from;
+    slight.extra = 0.3;
+    EXPECT_LT(other_shapes(data, slight).size(), other_shapes(data, from).size());
+  }
 }
 
 }  // namespace
