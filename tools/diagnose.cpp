@@ -112,7 +112,9 @@ int main(int argc, char** argv) {
       .excludes(system)
       .group("Reading recordings");
   std::vector<std::string> without;
-  tool.option("--without", without, "leave out parts of the method, to see what they are worth")
+  tool.option(
+          "--without", without,
+          "leave out parts of the method, or effects of the catalogue, to see what they are worth")
       .one_of(ablations())
       .group("For research");
   tool.check([&] { expect_apart(request.fit, request.holdout); });

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "dcnn/core/error.h"
+#include "dcnn/physics/effect.h"
 
 namespace dcnn {
 namespace {
@@ -27,6 +28,7 @@ std::vector<std::string> Ablation::names() const {
   for (const auto& [name, part] : parts_by_name()) {
     if (this->*part) names.emplace_back(name);
   }
+  names.insert(names.end(), effects.begin(), effects.end());
   return names;
 }
 
@@ -34,6 +36,7 @@ const std::vector<std::string>& ablations() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
     for (const auto& [name, part] : parts_by_name()) all.emplace_back(name);
+    for (const EffectKind* kind : effect_kinds()) all.push_back(kind->name);
     return all;
   }();
   return names;
@@ -46,7 +49,12 @@ Ablation ablation_of(const std::vector<std::string>& parts) {
     for (const auto& [name, part] : parts_by_name()) {
       if (wanted == name) ablation.*part = known = true;
     }
-    require(known, Exit::kUsage, "'", wanted, "' is no part of the diagnosis to leave out");
+    if (find_effect(wanted) != nullptr) {
+      ablation.effects.insert(wanted);
+      known = true;
+    }
+    require(known, Exit::kUsage, "'", wanted,
+            "' is no part of the diagnosis and no effect to leave out");
   }
   return ablation;
 }

@@ -154,7 +154,7 @@ std::vector<Trial> Search::additions(const JointFit& fit, bool events,
   });
   if (events && events_allowed_ && !study_.is_static()) {
     if (is_listed(study_, *find_effect("contact"))) chosen.push_back(find_contact(scan));
-    chosen.push_back(find_step(scan));
+    if (is_listed(study_, *find_effect("step_bias"))) chosen.push_back(find_step(scan));
   }
   std::erase_if(chosen, [](const Trial& trial) { return trial.gain <= 0.0; });
   std::stable_sort(chosen.begin(), chosen.end(), by_net_gain);

@@ -165,6 +165,7 @@ void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& fl
   constexpr std::size_t kTried = 2;
   const Case& study = scan.setting().study;
   const EffectKind& kind = *find_effect("hum");  // a periodic motion has lines of its own
+  if (!is_listed(study, kind)) return;
   const Signals prediction = scan.chain().prediction();
   const Signals sense = study.axis ? senses(study) : Signals();
   std::size_t tried = 0;
@@ -207,6 +208,7 @@ double seed_scale(const std::string& axis) {
 }
 
 bool is_listed(const Case& study, const EffectKind& kind) {
+  if (study.without.effects.count(kind.name) > 0) return false;
   if (!study.axis) return !kind.machines_only;
   // Of a tool's effects an axis has no body to carry, no gravity to feel and nothing to leak into;
   // and what a drive leaves in some seconds of one motion is hardly ever a hand on the machine.

@@ -14,6 +14,7 @@ namespace dcnn {
 void Search::detect() {
   for (const Clipping& clip : clipping(study_)) {
     const EffectKind& kind = *find_effect("saturation");
+    if (!is_listed(study_, kind)) break;
     Member member = make_member(study_, kind, kind.fits[0],
                                 admitted_axes(AxisRule::kSensor)[static_cast<std::size_t>(
                                     study_.channels[static_cast<std::size_t>(clip.channel)])],
@@ -27,8 +28,8 @@ void Search::detect() {
   }
   // A machine's values come in any unit: its lattice matters where the noise does not cover it.
   const double least = study_.axis ? floors_.front().deviation() : 0.0;
-  if (const double step = rounding_step(study_); step > least) {
-    const EffectKind& kind = *find_effect("quantisation");
+  const EffectKind& kind = *find_effect("quantisation");
+  if (const double step = rounding_step(study_); step > least && is_listed(study_, kind)) {
     Member member = make_member(study_, kind, kind.fits[0], "", Eigen::VectorXd::Constant(1, step));
     member.fixed = true;
     member.fixed_deviation = Eigen::VectorXd::Constant(1, rounding_deviation(study_, step));
@@ -39,7 +40,8 @@ void Search::detect() {
     }
   }
   if (study_.is_static()) return;
-  if (const auto hum = find_fast_hum(study_, left_, floors_)) {
+  if (const auto hum = find_fast_hum(study_, left_, floors_);
+      hum && is_listed(study_, *hum->kind)) {
     double power = 0.0, rows = 0.0;
     for (const auto& left : left_) {
       power += left.squaredNorm();
