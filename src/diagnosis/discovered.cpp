@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "diagnosis/candidates.h"
 #include "diagnosis/laws.h"
 
 namespace dcnn {
@@ -15,6 +16,7 @@ constexpr int kFewestNumbers = 2;  // of a law: its size, and a scale or a power
 
 bool can_hold_laws(const Case& study) {
   if (study.is_static() || !study.axis_moves) return false;
+  if (!is_listed(study, *find_effect("discovered"))) return false;
   return std::all_of(study.logs.begin(), study.logs.end(), [](const Log& log) {
     return log.motion.v_B.rows() == log.motion.samples() &&
            log.motion.a_B.rows() == log.motion.samples();
@@ -88,8 +90,8 @@ bool name_in_place_of_one(Search& search, Laws& laws) {
   return false;
 }
 
-/// Several names along one axis may be one law that no catalogue has: where it explains more than
-/// they, for its further numbers and for what any law must gain, and held-out data do not speak
+/// Names along one axis may be one law that no catalogue has: where it explains more than they,
+/// each number of either at its price, by what any law must gain, and held-out data do not speak
 /// against it, it stands in their place.
 Laws in_place_of_names(Search& search, const HoldOut& holdout) {
   const Setting& setting = search.setting();
@@ -110,10 +112,12 @@ Laws in_place_of_names(Search& search, const HoldOut& holdout) {
     }
     if (numbers <= kFewestNumbers) continue;
     Laws laws = worthy_laws(setting, joint_fit(setting, rest));
-    if (laws.found.size() != 1 || !laws.found.front().established) continue;
+    if (laws.found.empty() || !laws.found.front().established) continue;
+    laws.found.resize(1);  // the loudest; what it leaves is looked at beside it
+    laws.members.resize(1);
     std::vector<Member> other = rest;
     other.push_back(laws.members.front());
-    const int more = std::max(0, fitted_numbers(laws.found.front()) - numbers);
+    const int more = fitted_numbers(laws.found.front()) - numbers;
     const JointFit with = joint_fit(setting, other);
     if (fit.chi2 - with.chi2 - setting.price * more < least_gain_of_law(setting)) continue;
     const double support =

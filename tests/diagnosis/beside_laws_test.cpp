@@ -53,6 +53,36 @@ TEST(BesideLaws, AnEffectWithANameIsNoSecondLaw) {
   EXPECT_LT(report["findings"][0]["confidence"].get<double>(), 0.8);  // another form may hold it
 }
 
+// An eddy-current brake fades as Stribeck's curve does, whose four numbers the brake's two outdo.
+TEST(BesideLaws, ALawOfFewerNumbersTakesThePlaceOfOneName) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Bench bench(
+      configuration(Json::array({drag("peaked", {{"amplitude_n", -0.7}, {"scale_1_mps", 0.05}})})));
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(report["verdict"], "unexplained") << report["findings"].dump(1);
+  ASSERT_EQ(report["findings"].size(), 1u);
+  const Json& law = report["findings"][0];
+  ASSERT_EQ(law["effect"], "discovered");
+  EXPECT_NEAR(law["parameters"]["scale_1_mps"]["value"].get<double>(), 0.05, 0.01);
+}
+
+// What the catalogue lacks is a formula, be it only that its name was left out.
+TEST(BesideLaws, AnEffectLeftOutOfTheCatalogueIsFoundAsAFormula) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Bench bench(
+      configuration(Json::array({hidden("quadratic_drag", "tool_z", {{"c2_ns2pm2", 3.0}})})));
+  DiagnosisRequest request = bench.request();
+  request.without = ablation_of({"quadratic_drag"});
+  const Json report = diagnose(request, nullptr).report;
+  EXPECT_EQ(report["without"], Json({"quadratic_drag"}));
+  ASSERT_EQ(report["findings"].size(), 1u) << report["findings"].dump(1);
+  const Json& law = report["findings"][0];
+  ASSERT_EQ(law["effect"], "discovered");
+  EXPECT_EQ(law["axis"], "tool_z");
+  EXPECT_NEAR(law["parameters"]["power_1"]["value"].get<double>(), 2.0, 0.1);
+  EXPECT_THROW(ablation_of({"quadratic_drags"}), Error);
+}
+
 // The 1.5th power of the speed lies between a viscous friction and a drag that grows as its square.
 TEST(BesideLaws, OneLawTakesThePlaceOfTwoNamesThatImitateIt) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
