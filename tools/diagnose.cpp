@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 
 #include "dcnn/design/design.h"
@@ -23,10 +24,40 @@ constexpr const char* kExamples =
     "  dcnn-diagnose --system arm.json --urdf robot.urdf --fit a.csv --out report     # an arm\n"
     "  dcnn-sim --sim report/model.json --motion c.csv --out corrected.csv\n";
 
-/// What the check of the recordings found, before everything else.
-Json with_check(const std::vector<std::string>& lines, const Json& report) {
+/// Effects of the catalogue as which the diagnosis finds a fault of the check; none of others.
+std::vector<std::string> effects_of(const std::string& fault) {
+  if (fault == "delay") return {"time_delay", "lowpass", "flexible_resonance"};
+  if (fault == "mounting") return {"misalignment", "gravity_tilt", "crosstalk"};
+  if (fault == "contact" || fault == "saturation" || fault == "quantisation") return {fault};
+  return {};
+}
+
+bool is_named(const Json& report, const std::vector<std::string>& effects) {
+  const auto wanted = [&](const std::string& effect) {
+    return std::find(effects.begin(), effects.end(), effect) != effects.end();
+  };
+  for (const Json& finding : report["findings"]) {
+    if (wanted(finding["effect"])) return true;
+    for (const Json& other : finding.value("alternatives", Json::array())) {
+      if (wanted(other)) return true;
+    }
+  }
+  return false;
+}
+
+/// What the check of the recordings found, before everything else. It weighs a fault beside rigid
+/// bodies alone, the diagnosis beside all physics that it knows: what that does not bear out is
+/// said to be so.
+Json with_check(const std::vector<Suspicion>& likely, const Json& report) {
   Json out;
-  out["check"] = lines;
+  out["check"] = Json::array();
+  for (const Suspicion& one : likely) {
+    const auto effects = effects_of(one.fault);
+    const bool is_refuted = !effects.empty() && !is_named(report, effects);
+    out["check"].push_back(
+        one.line +
+        (is_refuted ? "; the diagnosis, which weighs it beside other causes, finds none" : ""));
+  }
   out.update(report);
   return out;
 }
@@ -43,17 +74,17 @@ std::vector<std::string> names_of_axes(const std::filesystem::path& system) {
   return names;
 }
 
-/// Lines for the report; recordings that were likely zeroed are taken for such.
-std::vector<std::string> checked(const Tool& tool, const Doctor& doctor,
-                                 const std::filesystem::path& urdf, const std::string& tip,
-                                 DiagnosisRequest& request) {
+/// What is likely; recordings that were likely zeroed are taken for such.
+std::vector<Suspicion> checked(const Tool& tool, const Doctor& doctor,
+                               const std::filesystem::path& urdf, const std::string& tip,
+                               DiagnosisRequest& request) {
   CheckRequest logs{
       request.fit, request.read, request.simulator.value_or(""), request.system.value_or(""),
       urdf,        tip};
   logs.logs.insert(logs.logs.end(), request.holdout.begin(), request.holdout.end());
   Examined examined = doctor.examine(tool, logs);
   if (!request.system && request.zeroed.empty()) request.zeroed = std::move(examined.zeroed);
-  return examined.lines;
+  return examined.likely;
 }
 
 }  // namespace
@@ -130,7 +161,7 @@ int main(int argc, char** argv) {
     if (zeroed) request.zeroed = request.fit;
     if (zeroed)
       request.zeroed.insert(request.zeroed.end(), request.holdout.begin(), request.holdout.end());
-    const std::vector<std::string> check = checked(tool, doctor, urdf, tip, request);
+    const std::vector<Suspicion> check = checked(tool, doctor, urdf, tip, request);
     request.without = ablation_of(without);
     if (clock != "auto") request.shared_clock = clock == "shared";
     Progress bar(tool.common().quiet);
@@ -145,7 +176,8 @@ int main(int argc, char** argv) {
     if (tool.common().json) {
       Tool::print(diagnosis.report);
     } else {
-      for (const std::string& line : check) std::cout << line << "\n";
+      for (const Json& line : diagnosis.report["check"])
+        std::cout << line.get<std::string>() << "\n";
       std::cout << to_text(diagnosis);
     }
     return Exit::kDone;

@@ -151,7 +151,9 @@ std::vector<std::string> checked(const Tool& tool, const Doctor& doctor,
   CheckRequest logs{request.training, request.read, request.base.value_or(""),
                     request.configuration.system.value_or("")};
   logs.logs.insert(logs.logs.end(), request.validation.begin(), request.validation.end());
-  return doctor.examine(tool, logs).lines;
+  std::vector<std::string> lines;
+  for (const Suspicion& one : doctor.examine(tool, logs).likely) lines.push_back(one.line);
+  return lines;
 }
 
 }  // namespace

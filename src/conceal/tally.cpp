@@ -60,6 +60,9 @@ void add_effect(const Json& e, Tally& tally) {
   }
 }
 
+constexpr double kWithin = 1.05;  // of the true law's held-out error
+constexpr double kLittle = 0.05;  // of the hidden force
+
 void add_holdout(const Json& s, Tally& tally) {
   const Json& h = s["holdout"];
   if (!h.contains("oracle")) return;
@@ -67,6 +70,19 @@ void add_holdout(const Json& s, Tally& tally) {
     if (!h.contains(key)) continue;
     tally.add(std::string(key) + "_over_oracle", h[key].get<double>() / h["oracle"].get<double>());
   }
+  if (!h.contains("before") || !h.contains("after")) return;
+  const double before = h["before"], after = h["after"], oracle = h["oracle"];
+  const bool within = after <= kWithin * oracle;
+  tally.count("holdout_within", within);
+  for (const Json& law : s["laws"]) {
+    if (law["established"].get<bool>()) tally.count("law_within", within);
+  }
+  // Errors and noise are independent: their mean squares add up.
+  const double hidden = before * before - oracle * oracle;
+  if (s["hidden"].empty() || !(hidden > 0.0)) return;
+  const double left = std::sqrt(std::max(0.0, after * after - oracle * oracle) / hidden);
+  tally.add("force_left", left);
+  tally.count("force_within", left <= kLittle);
 }
 
 void add_scenario(const Json& s, Tally& tally) {

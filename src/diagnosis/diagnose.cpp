@@ -221,6 +221,8 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   report["where"] = locate(study, before, search.floors());
   report["where"]["budget"] =
       budget(search.setting(), before, own_parameters(study), report["where"]["segments"]);
+  // A form is not established beside which held-out data show more than noise.
+  for (discovery::Discovered& law : laws) law.established = law.established && !refuted;
   const Json formulas = law_findings(search, laws, holdout);
   report["left_out"] = outlying_json(search);
   report["unnamed"] = unnamed_part(search, bands, formulas, refuted);

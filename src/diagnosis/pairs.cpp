@@ -118,6 +118,7 @@ bool Search::exchange(std::size_t split, const std::vector<Member>& parts) {
   std::vector<Member> members = rest.members;
   int numbers = 0;
   for (const Member& part : parts) {
+    if (!is_listed(study_, *part.kind)) return false;
     const bool there = std::any_of(rest.members.begin(), rest.members.end(), [&](const Member& m) {
       return m.kind == part.kind && m.axis == part.axis;
     });

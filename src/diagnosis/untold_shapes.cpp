@@ -65,8 +65,8 @@ bool Search::even_out_gears() {
     if (fit_.members[m].kind != find_effect("gear_friction")) continue;
     if (!is_even(fit_.members[m], estimates(*setting_, fit_)[m])) continue;
     std::vector<Member> members = members_without(m);
-    if (std::none_of(members.begin(), members.end(), is_dry)) {
-      const EffectKind& kind = *find_effect("coulomb_friction");
+    const EffectKind& kind = *find_effect("coulomb_friction");
+    if (std::none_of(members.begin(), members.end(), is_dry) && is_listed(study_, kind)) {
       members.push_back(make_member(study_, kind, kind.fits[0], axes_of(study_, kind).front(),
                                     fit_.members[m].shapes.tail(1)));
       // The mean over the positions; one that would drive is none.

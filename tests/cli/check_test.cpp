@@ -85,6 +85,26 @@ TEST(CheckTool, ALikelyFaultIsTheFirstLineOfADiagnosis) {
   EXPECT_FALSE(read_json(folder / "report/report.json", Exit::kData)["check"].empty());
 }
 
+// A flywheel's force lags nothing, but to a check that knows rigid bodies alone: the diagnosis says
+// so.
+TEST(CheckTool, ASuspicionThatTheDiagnosisDoesNotBearOutIsSaidToBeNone) {
+  const test::TemporaryFolder folder;
+  const auto set = (folder / "set").string();
+  ASSERT_EQ(run("conceal", {"--scenario", "poor:2/crosstalk/1", "--seed", "1712632582", "--out",
+                            set, "--seal", folder / "seal"})
+                .exit_code,
+            0);
+  const auto scenario = folder / "set/s0001";
+  const auto result =
+      run("diagnose", {"--sim", (scenario / "sim.json").string(), "--fit",
+                       (scenario / "fit_0.csv").string(), "--out", (folder / "report").string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json report = read_json(folder / "report/report.json", Exit::kData);
+  ASSERT_EQ(report["check"].size(), 1u) << report["check"];
+  const auto line = report["check"][0].get<std::string>();
+  EXPECT_TRUE(contains(line, ": delay: ") && contains(line, "finds none")) << line;
+}
+
 TEST(CheckTool, ADiagnosisOfAForceInTheBaseFrameIsRefused) {
   const test::TemporaryFolder folder;
   make_log(folder, "base_frame");

@@ -19,7 +19,7 @@ std::string line_of(const std::string& log, const check::Fault& fault,
 }
 
 /// One line a kind of fault: its first recording and column, and names of the others.
-std::vector<std::string> likely_lines(const std::vector<check::Report>& reports) {
+std::vector<Suspicion> suspicions(const std::vector<check::Report>& reports) {
   struct Kind {
     const check::Report* report;
     const check::Fault* first;
@@ -41,11 +41,12 @@ std::vector<std::string> likely_lines(const std::vector<check::Report>& reports)
       if (!told) also.push_back(name);
     }
   }
-  std::vector<std::string> lines;
+  std::vector<Suspicion> likely;
   for (const Kind& kind : kinds) {
-    lines.push_back("likely: " + line_of(kind.report->log, *kind.first, kind.also));
+    likely.push_back(
+        {kind.first->id, "likely: " + line_of(kind.report->log, *kind.first, kind.also)});
   }
-  return lines;
+  return likely;
 }
 
 std::optional<JointChain> arm_of(const CheckRequest& request, const System& system,
@@ -125,8 +126,8 @@ Examined Doctor::examine(const Tool& tool, const CheckRequest& request,
       if (fault.id == "zeroed" && !accepted) examined.zeroed.push_back(files[k]);
     }
   }
-  examined.lines = likely_lines(reports);
-  for (const std::string& line : examined.lines) tool.note(line);
+  examined.likely = suspicions(reports);
+  for (const Suspicion& one : examined.likely) tool.note(one.line);
   return examined;
 }
 

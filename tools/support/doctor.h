@@ -22,9 +22,14 @@ struct CheckRequest {
 /// Reports in the order of the logs; streams (`-`) are left out, for they can be read once only.
 std::vector<check::Report> check_logs(const CheckRequest& request);
 
+/// A likely fault, as a line of a report.
+struct Suspicion {
+  std::string fault, line;
+};
+
 /// What the check found that does not stop a command.
 struct Examined {
-  std::vector<std::string> lines;             ///< of likely faults, for the report
+  std::vector<Suspicion> likely;
   std::vector<std::filesystem::path> zeroed;  ///< logs whose sensor was likely set to zero first
 };
 
