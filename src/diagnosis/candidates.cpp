@@ -165,7 +165,6 @@ void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& fl
   constexpr std::size_t kTried = 2;
   const Case& study = scan.setting().study;
   const EffectKind& kind = *find_effect("hum");  // a periodic motion has lines of its own
-  if (!is_listed(study, kind)) return;
   const Signals prediction = scan.chain().prediction();
   const Signals sense = study.axis ? senses(study) : Signals();
   std::size_t tried = 0;
@@ -262,6 +261,7 @@ std::vector<Member> candidates(const Scan& scan, const Signals& left,
   add_gear_frictions(study, left, list);
   add_resonances(scan, left, floors, list);
   add_hum(scan, left, floors, list);
+  std::erase_if(list, [&](const Member& m) { return !is_listed(study, *m.kind); });
   return list;
 }
 

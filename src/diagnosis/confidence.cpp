@@ -61,6 +61,19 @@ double before_held_out(double before, const Search& search, double log_support) 
   return open ? std::min(before, evidence::prior::kFittedOnMachine) : before;
 }
 
+/// What chi-square falls by in each channel of the fitted rows from `rest` to `fit`.
+std::vector<double> gain_by_channel(const Setting& setting, const JointFit& fit,
+                                    const JointFit& rest) {
+  std::vector<double> gain(static_cast<std::size_t>(setting.study.channel_count()), 0.0);
+  const auto& rows = setting.whitener.row_info();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto at = static_cast<Index>(i);
+    gain[rows[i].channel] +=
+        rest.residual(at) * rest.residual(at) - fit.residual(at) * fit.residual(at);
+  }
+  return gain;
+}
+
 }  // namespace
 
 double supported(double before, const Search& search, const HoldOut& holdout, const Signals& with,
@@ -91,9 +104,10 @@ std::vector<Contradicted> contradicted(const Search& search, const HoldOut& hold
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
     if (fit.members[m].fixed) continue;
     const JointFit& rest = search.without(m);
-    const auto support = holdout.support_by_channel(
-        with, holdout.prediction(rest.members, rest.base), search.floors());
     // A channel in which the name makes no force says nothing of it, whatever the odds before.
+    const auto support =
+        holdout.support_by_channel(with, holdout.prediction(rest.members, rest.base),
+                                   search.floors(), gain_by_channel(search.setting(), fit, rest));
     const double inclusion = search.posterior().inclusion(fit.members[m]);
     const double before = std::max(inclusion, supported(inclusion, search, holdout, with, m));
     for (std::size_t j = 0; j < support.size(); ++j) {

@@ -37,6 +37,17 @@ std::vector<Member> own_parameters(const Case& study) {
   return members;
 }
 
+/// Whether held-out channels make a finding, whatever may stand in its place, rather wrong than
+/// right.
+bool is_doubtful(const Json& finding) {
+  if (!finding.contains("against")) return false;
+  double probability = finding["confidence"];
+  for (const auto& [name, share] : finding.value("shared_with", Json::object()).items()) {
+    probability += share.get<double>();
+  }
+  return probability < 0.5;
+}
+
 const char* verdict_of(bool named, bool remains) {
   if (named) return remains ? "partly-explained" : "explained";
   return remains ? "unexplained" : "consistent";
@@ -209,8 +220,10 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   // What a loose load's impacts are is not predicted.
   std::optional<HoldOut::Excess> refuted;
   if (!search.knocking()) refuted = holdout.excess(search, heldout_floors);
-  report["verdict"] =
-      verdict_of(!report["findings"].empty(), search.remains() || refuted.has_value());
+  const auto doubtful =
+      std::count_if(report["findings"].begin(), report["findings"].end(), is_doubtful);
+  report["verdict"] = verdict_of(static_cast<std::size_t>(doubtful) < report["findings"].size(),
+                                 search.remains() || refuted.has_value() || doubtful > 0);
   const bool corrected = is_corrected(study);
   Case simulator = corrected ? as_given(study) : study;
   if (given.base.size() > 0) set_base(simulator, given.base);

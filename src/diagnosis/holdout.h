@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dcnn/diagnosis/diagnose.h"
+#include "diagnosis/evidence/support.h"
 #include "diagnosis/search.h"
 
 namespace dcnn {
@@ -46,17 +47,20 @@ class HoldOut {
   /// (diagnosis/evidence/support.h; blocks of 1 s, of poses at rest each).
   double log_support(const Signals& with, const Signals& without,
                      const std::vector<Floor>& floors) const;
-  /// The same of each channel alone: what helps most of them may be wrong in one.
+  /// The same of each channel alone, in whose fitted rows what they predict apart gained so much of
+  /// chi-square: what helps most channels may be wrong in one.
   std::vector<double> support_by_channel(const Signals& with, const Signals& without,
-                                         const std::vector<Floor>& floors) const;
+                                         const std::vector<Floor>& floors,
+                                         const std::vector<double>& gained) const;
   std::vector<HeldOut> records(const JointFit& before, const JointFit& after) const;
   /// The same recordings without the low-pass.
   HoldOut unfiltered() const;
 
  private:
   HoldOut() = default;
-  double support_of(const std::vector<Index>& channels, const Signals& with, const Signals& without,
-                    const std::vector<Floor>& floors) const;
+  std::vector<evidence::BlockChange> changes(const std::vector<Index>& channels,
+                                             const Signals& with, const Signals& without,
+                                             const std::vector<Floor>& floors) const;
   /// Of recordings of their own.
   std::vector<Floor> own_floors(const Search& search) const;
   /// Of a recording that was zeroed: from the rows that are not held out, or from these where all

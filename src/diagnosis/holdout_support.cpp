@@ -3,7 +3,6 @@
 #include <map>
 #include <numeric>
 
-#include "diagnosis/evidence/support.h"
 #include "diagnosis/holdout.h"
 
 namespace dcnn {
@@ -14,9 +13,13 @@ constexpr double kErrorBlock = 1.0;  // s, over which errors count as one
 }  // namespace
 
 std::vector<double> HoldOut::support_by_channel(const Signals& a, const Signals& b,
-                                                const std::vector<Floor>& floors) const {
+                                                const std::vector<Floor>& floors,
+                                                const std::vector<double>& gained) const {
   std::vector<double> list;
-  for (Index j = 0; j < study_.channel_count(); ++j) list.push_back(support_of({j}, a, b, floors));
+  for (Index j = 0; j < study_.channel_count(); ++j) {
+    list.push_back(
+        evidence::log_support(changes({j}, a, b, floors), gained[static_cast<std::size_t>(j)]));
+  }
   return list;
 }
 
@@ -24,11 +27,12 @@ double HoldOut::log_support(const Signals& a, const Signals& b,
                             const std::vector<Floor>& floors) const {
   std::vector<Index> all(static_cast<std::size_t>(study_.channel_count()));
   std::iota(all.begin(), all.end(), 0);
-  return support_of(all, a, b, floors);
+  return evidence::log_support(changes(all, a, b, floors));
 }
 
-double HoldOut::support_of(const std::vector<Index>& channels, const Signals& a, const Signals& b,
-                           const std::vector<Floor>& floors) const {
+std::vector<evidence::BlockChange> HoldOut::changes(const std::vector<Index>& channels,
+                                                    const Signals& a, const Signals& b,
+                                                    const std::vector<Floor>& floors) const {
   std::vector<double> deviation;
   for (const Floor& floor : floors) deviation.push_back(floor.whole_deviation());
   std::map<std::pair<std::size_t, std::int64_t>, evidence::BlockChange> blocks;
@@ -52,7 +56,7 @@ double HoldOut::support_of(const std::vector<Index>& channels, const Signals& a,
   }
   std::vector<evidence::BlockChange> list;
   for (const auto& [key, block] : blocks) list.push_back(block);
-  return evidence::log_support(list);
+  return list;
 }
 
 }  // namespace dcnn

@@ -70,5 +70,25 @@ TEST(Support, OfNothingIsNone) {
   EXPECT_EQ(log_support({{0.0, 0.0}, {0.0, 0.0}}), 0.0);
 }
 
+// Against a search over the size that was fitted, s times d with s ~ N(1, 1/gained).
+TEST(Support, OfAnEstimateIsThatOfTheSizeThatBothBearOut) {
+  for (const double gained : {0.5, 6.0, 400.0}) {
+    for (const double along : {-3.0, 0.0, 2.5, 8.0}) {  // of what was measured, along d
+      const double d = 4.0, fall = 2.0 * along * d - d * d;
+      double most = -1e9;
+      for (double s = -20.0; s <= 20.0; s += 1e-4) {
+        const double off = s - 1.0;
+        most = std::max(most, s * along * d - 0.5 * s * s * d * d - 0.5 * gained * off * off);
+      }
+      const std::vector<BlockChange> blocks(4, {0.25 * fall, 0.25 * d * d});
+      EXPECT_NEAR(log_support(blocks, gained), most, 1e-4) << gained << " " << along;
+      EXPECT_GE(log_support(blocks, gained), log_support(blocks));
+    }
+  }
+  const std::vector<BlockChange> against(4, {-10.0, 10.0});
+  EXPECT_NEAR(log_support(against, 1e9), log_support(against), 1e-3);  // as good as known
+  EXPECT_GE(log_support(against, 0.0), 0.0);  // nothing was known of it: nothing is refuted
+}
+
 }  // namespace
 }  // namespace dcnn::evidence

@@ -4,9 +4,17 @@
 
 namespace dcnn::evidence {
 
-double log_support(const std::vector<BlockChange>& blocks) {
+namespace {
+
+BlockChange sum_of(const std::vector<BlockChange>& blocks) {
   BlockChange all;
   for (const BlockChange& block : blocks) all.fall += block.fall, all.apart += block.apart;
+  return all;
+}
+
+/// One over the factor by which the fall varies more than in white noise, at most 1; 0 where blocks
+/// say nothing.
+double weight_of(const std::vector<BlockChange>& blocks, const BlockChange& all) {
   if (blocks.size() < 2 || all.apart <= 0.0) return 0.0;
   double square = 0.0;  // of each block's fall about what its share of `apart` would make of it
   for (const BlockChange& block : blocks) {
@@ -15,7 +23,26 @@ double log_support(const std::vector<BlockChange>& blocks) {
   }
   const auto n = static_cast<double>(blocks.size());
   const double variance = square * n / (n - 1.0);
-  return 0.5 * all.fall / std::max(1.0, variance / (4.0 * all.apart));
+  return 1.0 / std::max(1.0, variance / (4.0 * all.apart));
+}
+
+}  // namespace
+
+double log_support(const std::vector<BlockChange>& blocks) {
+  const BlockChange all = sum_of(blocks);
+  return 0.5 * all.fall * weight_of(blocks, all);
+}
+
+double log_support(const std::vector<BlockChange>& blocks, double gained) {
+  const BlockChange all = sum_of(blocks);
+  const double weight = weight_of(blocks, all);
+  if (weight == 0.0) return 0.0;
+  // Largest over s of s r d - (s d)^2/2 - gained (s - 1)^2/2, with d the length of what the two
+  // predict apart and r what was measured along it: fall = 2 r d - d^2.
+  const double beyond = (all.fall - all.apart) * (all.fall - all.apart) / (4.0 * all.apart);
+  const double known = std::max(0.0, gained);
+  const double moved = beyond * all.apart / (all.apart + known);
+  return 0.5 * (all.fall + moved) * weight;
 }
 
 }  // namespace dcnn::evidence

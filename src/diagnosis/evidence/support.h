@@ -17,4 +17,10 @@ struct BlockChange {
 /// much. 0 for fewer than two blocks, and where both predict the same.
 double log_support(const std::vector<BlockChange>& blocks);
 
+/// The same where the size of what the two predict apart is an estimate: fitted to other rows, in
+/// which it gained `gained` of chi-square, so that its variance is 1/gained of its square. Of the
+/// first model that size counts which both the fit and these data bear out best: an estimate that
+/// hardly differs from zero says little where it is extrapolated. Never below the plain one.
+double log_support(const std::vector<BlockChange>& blocks, double gained);
+
 }  // namespace dcnn::evidence
