@@ -254,6 +254,15 @@ TEST(DiscoveredLaw, TheSizeInWordsIsTheForceAtThePlaceThatTheyName) {
   }
 }
 
+TEST(DiscoveredLaw, ThePreslidingIsToldWhereItIsComplete) {
+  const auto law = law_of(discovered(
+      R"({"axis": "base_x", "factors": [{"shape": "linear", "of": "v_base_x", "memory": "dahl"}]})",
+      {{"amplitude_n", -0.2}, {"memory_1_m", 0.003}, {"scale_1", 1.0}}));
+  EXPECT_EQ(law::words(law),
+            "a force against the motion along the base's x axis, proportional to the presliding of "
+            "the velocity along the base's x axis over 0.003 m: 0.2 N");
+}
+
 TEST(DiscoveredLaw, RefusesUnknownWordsAndUnitsThatItsStructureDoesNotHave) {
   const Json numbers{{"amplitude_n", 1.0}, {"scale_1_mps", 0.1}};
   EXPECT_EQ(refusal_of(R"({"axis": "base_x", "factors": [{"shape": "tanh", "of": "v_base_x"}]})",

@@ -247,7 +247,8 @@ std::string words(const Law& law, const Terms& terms) {
     const double u = factor.shape->told_at;
     if (u == 0.0) continue;
     size *= std::abs(factor.shape->value(u, factor.extra));
-    if (how.starts_with("largest at")) continue;
+    // Presliding has no unit: its size is told where it is complete.
+    if (how.starts_with("largest at") || factor.factor->memory == Memory::kDahl) continue;
     const std::string where =
         u == 1.0 ? factor.scale : brief(u * std::abs(factor.scale_value)) + unit_of(factor);
     at += (at.empty() ? " at " : " and ") + where + " of " + factor.q->words;
