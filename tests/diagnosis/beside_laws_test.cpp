@@ -74,7 +74,7 @@ TEST(BesideLaws, AnEffectLeftOutOfTheCatalogueIsFoundAsAFormula) {
   DiagnosisRequest request = bench.request();
   request.without = ablation_of({"quadratic_drag"});
   const Json report = diagnose(request, nullptr).report;
-  EXPECT_EQ(report["without"], Json({"quadratic_drag"}));
+  EXPECT_EQ(report["without"], Json::array({"quadratic_drag"}));
   ASSERT_EQ(report["findings"].size(), 1u) << report["findings"].dump(1);
   const Json& law = report["findings"][0];
   ASSERT_EQ(law["effect"], "discovered");
