@@ -104,7 +104,7 @@ function(dcnn_add_library target)
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=.*undefined")
     # Clang takes minutes over checks of every access in these unrolled loops. ASan's become calls, all UBSan's go in the largest.
     file(GLOB kernels ${PROJECT_SOURCE_DIR}/src/nn/kernels/*.cpp)
-    set_property(SOURCE ${kernels} APPEND PROPERTY COMPILE_OPTIONS "SHELL:-mllvm -asan-instrumentation-with-call-threshold=0")
+    set_property(SOURCE ${kernels} APPEND PROPERTY COMPILE_OPTIONS -mllvm -asan-instrumentation-with-call-threshold=0)
     set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/nn/kernels/fixed_convolution.cpp
       ${PROJECT_SOURCE_DIR}/src/nn/kernels/pair_convolution.cpp APPEND PROPERTY COMPILE_OPTIONS -fno-sanitize=undefined)
   endif()
