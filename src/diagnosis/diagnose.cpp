@@ -258,7 +258,10 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   report["smoother_hz"] = study.is_static() ? Json() : Json(study.derivative.cutoff_hz);
   diagnosis.corrected = study.simulator;
   if (!study.is_static()) diagnosis.corrected.derivative = study.derivative;
-  for (const auto& effect : specs_of(fit.members)) diagnosis.corrected.effects.push_back(effect);
+  for (EffectSpec effect : specs_of(fit.members)) {
+    if (refuted && effect.law.is_object()) effect.law["established"] = false;
+    diagnosis.corrected.effects.push_back(std::move(effect));
+  }
   diagnosis.model = to_json(diagnosis.corrected);
   diagnosis.holdout = holdout.records(given, fit);
   if (corrected) {
