@@ -49,7 +49,7 @@ void add_modulators(const Data& data, std::size_t c, std::vector<Piece>& list) {
 
 /// What 1 + p f(u) is for large p: f(u) alone, which needs one number fewer. Nothing for others.
 std::vector<Piece> without_constant(const Piece& from) {
-  constexpr double kMostly = 3.0;  // times the constant
+  constexpr double kMostly = 3.0;  // times the constant: a limit of computation, the score decides
   if (std::abs(from.extra) < kMostly) return {};
   const std::string name = law::shapes()[from.factor.shape].name;
   Piece p = from;

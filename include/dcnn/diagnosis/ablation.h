@@ -17,7 +17,7 @@ struct Ablation {
   bool coloured_floor = false;    ///< the floor's spectrum is flat
   bool omnibus = false;           ///< nobody asks what no name explains
   bool exchange = false;          ///< what was added first stays: no swaps, no pairs
-  bool flips = false;             ///< nothing is taken back as a coincidence
+  bool flips = false;             ///< no name is tested against random signs of the residual
   std::set<std::string> effects;  ///< of the catalogue: the diagnosis does not know their names
 
   /// Names of the parts that are left out, as ablation_of() takes them.
