@@ -41,9 +41,7 @@ bool is_of_stribeck(const Member& member) { return member.name() == "stribeck_fr
 void move(Member& member, const Coordinate& c, double step) {
   if (!c.is_shape) {
     double& amplitude = member.amplitudes(c.index);
-    amplitude += step;
-    // A law that only resists ends where it vanishes.
-    if (member.form->non_negative) amplitude = std::max(0.0, amplitude);
+    amplitude = member.form->bounded(amplitude + step);
     if (is_of_stribeck(member)) {
       member.amplitudes(1) = std::max(member.amplitudes(0), member.amplitudes(1));
     }
@@ -218,7 +216,7 @@ Eigen::MatrixXd off_basis(const Eigen::MatrixXd& columns, const Eigen::MatrixXd&
 
 JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   for (Member& m : members) {
-    if (m.form->non_negative) m.amplitudes = m.amplitudes.cwiseMax(0.0);
+    for (double& amplitude : m.amplitudes) amplitude = m.form->bounded(amplitude);
   }
   const Eigen::VectorXd wanted = setting.whitened(setting.measured);
   const auto coordinates = coordinates_of(members);

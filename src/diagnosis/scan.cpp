@@ -74,8 +74,9 @@ bool Scan::is_possible(const Member& member) const {
   const bool changes = std::any_of(chain_.members().begin(), chain_.members().end(),
                                    [&](const Member& m) { return is_undriven(m, member); });
   if (changes) return true;
-  const bool wrong_sign = member.form->non_negative && member.amplitudes.minCoeff() < 0.0;
-  return !wrong_sign && is_itself(setting_.study, member);
+  const auto is_bounded = [&](double a) { return member.form->bounded(a) == a; };
+  const bool bounded = std::all_of(member.amplitudes.begin(), member.amplitudes.end(), is_bounded);
+  return bounded && is_itself(setting_.study, member);
 }
 
 Eigen::MatrixXd Scan::off_model(const Eigen::MatrixXd& columns) const {

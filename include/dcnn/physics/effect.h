@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -103,9 +105,15 @@ struct EffectFit {
   int amplitudes = 0;         ///< where forces are measured
   int with_torque = 0;        ///< where torques are measured beside them; 0: as many
   bool non_negative = false;  ///< an amplitude below zero refutes the effect (dissipation)
+  /// An amplitude beyond it refutes the effect (physical bound).
+  double most_strength = std::numeric_limits<double>::infinity();
   std::vector<ShapeParameter> shapes = {};
   /// The published parameters that belong to amplitudes and shapes.
   Json (*parameters)(const Eigen::VectorXd& amplitudes, const Eigen::VectorXd& shapes) = nullptr;
+  /// The nearest amplitude that does not refute the effect.
+  double bounded(double amplitude) const {
+    return std::clamp(amplitude, non_negative ? 0.0 : -most_strength, most_strength);
+  }
   enum class Use { kEverywhere, kTools, kMachines, kDriven };
   /// What the diagnosis tries this form on; kDriven: where a logged signal drives the law, alone.
   Use use = Use::kEverywhere;

@@ -24,6 +24,12 @@ double side_of(const Member& member, Index shape) {
   return value < least + (logarithmic ? kAtBound * least : large) ? -1.0 : 0.0;
 }
 
+double side_of(const EffectFit& form, double amplitude) {
+  if (form.non_negative && amplitude <= 0.0) return -1.0;
+  if (std::abs(amplitude) < form.most_strength) return 0.0;
+  return amplitude > 0.0 ? 1.0 : -1.0;
+}
+
 }  // namespace
 
 double hold_at_bounds(const JointFit& fit, Eigen::VectorXd& precision) {
@@ -42,8 +48,7 @@ double hold_at_bounds(const JointFit& fit, Eigen::VectorXd& precision) {
     if (count == 0) continue;
     const Index strengths = member.amplitudes.size();
     for (Index i = 0; i < strengths; ++i) {
-      const bool at_zero = member.form->non_negative && member.amplitudes(i) <= 0.0;
-      hold(first + i, at_zero ? -1.0 : 0.0);
+      hold(first + i, side_of(*member.form, member.amplitudes(i)));
     }
     for (Index i = 0; i < member.shapes.size(); ++i) {
       hold(first + strengths + i, side_of(member, i));

@@ -44,7 +44,8 @@ EffectStream stream(const EffectSpec&, Options& parameters) {
 
 }  // namespace
 
-// Bounds: faster it is a low-pass, slower a drift.
+// Bounds: faster it is a low-pass, slower a drift; a sensor that settles to more than twice its
+// first reading, or to less than none, is no sensor.
 const EffectKind effect{
     .name = "creep",
     .stage = Stage::kDynamics,
@@ -58,6 +59,7 @@ const EffectKind effect{
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 1,
+              .most_strength = 1.0,
               .shapes = {{"tau", 0.5, 300.0, {2.0, 8.0, 40.0}}},
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
