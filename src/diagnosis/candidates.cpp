@@ -34,7 +34,7 @@ std::vector<Eigen::VectorXd> seed_grid(const Case& study, const EffectFit& form,
   return grid;
 }
 
-constexpr double kAngleBin = 0.02;  // of a motion's length
+constexpr double kAngleBin = 0.02;  // rad, of a tool
 
 struct AngleBins {
   double low = 0.0, width = kAngleBin;
@@ -51,7 +51,8 @@ AngleBins bin_by_angle(const Case& study, const Signals& left, const std::string
     high = std::max(high, log.motion.euler.col(at.angle).maxCoeff());
   }
   bins.low = low;
-  bins.width = std::max(kAngleBin * study.axis_length, (high - low) / 4000.0);
+  bins.width =
+      study.axis ? (high - low) / kPositionBins : std::max(kAngleBin, (high - low) / 4000.0);
   const auto size = static_cast<Index>((high - low) / bins.width) + 1;
   bins.sum = bins.count = Eigen::VectorXd::Zero(size);
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
@@ -79,13 +80,12 @@ double least_order(const AngleBins& bins) {
 }
 
 /// The order whose sine and cosine of the angle explain most of the bins, beside a line in it.
-double best_order(const AngleBins& bins, double length) {
+double best_order(const AngleBins& bins, double highest) {
   const Index n = bins.sum.size();
   const double range = bins.width * static_cast<double>(n), first = 0.5 * (bins.width - range);
   double best = 0.0, most = -1.0;
-  const double step = std::max(0.1 / length, 0.4 / range);
-  for (double order = least_order(bins); order < std::min(120.0 / length, 0.5 / bins.width);
-       order += step) {
+  const double step = 0.4 / range;
+  for (double order = least_order(bins); order < highest; order += step) {
     Eigen::Matrix4d gram = Eigen::Matrix4d::Zero();
     Eigen::Vector4d b = Eigen::Vector4d::Zero();
     std::complex<double> wave = elementary::polar(1.0, order * first);
@@ -110,11 +110,13 @@ void add_cogging(const Scan& scan, const Signals& left, std::vector<Member>& lis
   for (const auto& axis : axes_of(study, kind)) {
     const AngleBins bins = bin_by_angle(study, left, axis);
     if (bins.sum.size() < 16 || bins.count.maxCoeff() <= 0.0) continue;
-    const double order = best_order(bins, study.axis_length);
+    const double highest = highest_order(study, kind.fits[0].shapes[0], bins.width);
+    const double order = best_order(bins, highest);
     if (order <= 0.0) continue;
     list.push_back(
         make_member(study, kind, kind.fits[0], axis, Eigen::VectorXd::Constant(1, order)));
     list.back().least_shapes(0) = least_order(bins);
+    list.back().most_shapes(0) = highest;
   }
 }
 

@@ -12,8 +12,8 @@
 namespace dcnn {
 namespace {
 
-constexpr double kStill = 0.05;          // of the rms velocity: below it friction has no sign
-constexpr double kHighestOrder = 120.0;  // order
+constexpr double kStill = 0.05;        // of the rms velocity: below it friction has no sign
+constexpr double kLargestPhase = 0.5;  // rad, of an order, from one bin to the next
 constexpr Index kFewestGearBins = 16;
 
 /// What is left against the motion, in bins of the position.
@@ -32,7 +32,7 @@ GearBins gear_bins(const Case& study, const Signals& left) {
     samples += static_cast<double>(log.motion.samples());
   }
   const double still = kStill * std::sqrt(square / samples);
-  bins.width = std::max(0.01 * study.axis_length, (bins.high - bins.low) / 4000.0);
+  bins.width = (bins.high - bins.low) / kPositionBins;
   const auto size = static_cast<Index>((bins.high - bins.low) / bins.width) + 1;
   bins.sum = bins.count = Eigen::VectorXd::Zero(size);
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
@@ -65,6 +65,11 @@ double order_gain(const GearBins& bins, double order) {
 
 }  // namespace
 
+double highest_order(const Case& study, const ShapeParameter& order, double width) {
+  const double told = kLargestPhase / width;
+  return study.axis ? told : std::min(order.high, told);
+}
+
 void add_gear_frictions(const Case& study, const Signals& left, std::vector<Member>& list) {
   const EffectKind& kind = *find_effect("gear_friction");
   if (!is_listed(study, kind) || !is_testable(study, kind)) return;
@@ -74,8 +79,7 @@ void add_gear_frictions(const Case& study, const Signals& left, std::vector<Memb
   const double range = bins.high - bins.low, least = kFewestTurns * 2.0 * std::numbers::pi / range;
   const EffectFit& form = kind.fits[0];
   double best = 0.0, most = -1.0;
-  const double step = std::max(0.1 / study.axis_length, 0.4 / range),
-               end = std::min(kHighestOrder / study.axis_length, 0.5 / bins.width);
+  const double step = 0.4 / range, end = highest_order(study, form.shapes[0], bins.width);
   for (double order = std::max(least, unit_of(study, form.shapes[0]) * form.shapes[0].low);
        order < end; order += step) {
     const double gain = order_gain(bins, order);
@@ -86,6 +90,7 @@ void add_gear_frictions(const Case& study, const Signals& left, std::vector<Memb
     list.push_back(make_member(study, kind, form, axes_of(study, kind).front(),
                                Eigen::Vector2d(best, unit_of(study, form.shapes[1]) * v0)));
     list.back().least_shapes(0) = least;
+    list.back().most_shapes(0) = end;
   }
 }
 
