@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "data/median.h"
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/evidence/priors.h"
 
@@ -67,6 +68,16 @@ SenseFit sense_fit(const LaggedSums& sums) {
   return fit;
 }
 
+/// The median of every five rows: single rows off their neighbours say nothing of the sense.
+Eigen::VectorXd without_spikes(const Eigen::VectorXd& x) {
+  constexpr Index kBeside = 2;
+  Eigen::VectorXd smooth = x;
+  for (Index i = kBeside; i + kBeside < x.size(); ++i) {
+    smooth(i) = median({x.data() + i - kBeside, x.data() + i + kBeside + 1});
+  }
+  return smooth;
+}
+
 LaggedRows lagged_rows(const Recording& recording, const System& system, const Axis& axis,
                        const DerivativeSpec& derivative) {
   Targets target;
@@ -79,7 +90,7 @@ LaggedRows lagged_rows(const Recording& recording, const System& system, const A
   rows.motion.col(1).setZero();
   if (recording.has(axis.position)) rows.motion.col(1) = recording.column(axis.position);
   rows.motion.rightCols(2) << motion.v_B.col(0), motion.a_B.col(0);
-  rows.reading = measured(recording, target, system, true).col(0);
+  rows.reading = without_spikes(measured(recording, target, system, true).col(0));
   rows.segments = recording.segments;
   rows.dt = recording.dt;
   constexpr Index kEnough = 20'000;  // rows: a limit of computation
