@@ -145,6 +145,7 @@ DerivativeSpec parse_derivative(Options options) {
   spec.cutoff_hz = options.number("cutoff_hz", spec.cutoff_hz, 1e-3, 1e6);
   spec.subtraction = options.number("subtraction", spec.subtraction, 0.0, 100.0);
   spec.most_noise = options.number("most_noise", spec.most_noise, 0.0, 1e300);
+  spec.fastest_hz = options.number("fastest_hz", spec.fastest_hz, 0.0, 1e6);
   spec.order = options.get("order", spec.kind == Kind::kCausalSavitzkyGolay ? 2 : 3);
   if (spec.order < 2 || spec.order > 7) options.reject("order", "must be between 2 and 7");
   options.finish();
@@ -156,6 +157,7 @@ Json to_json(const DerivativeSpec& spec) {
     Json json{{"kind", "spectral"}, {"cutoff_hz", spec.cutoff_hz}};
     if (spec.subtraction > 0.0) json["subtraction"] = spec.subtraction;
     if (spec.most_noise > 0.0) json["most_noise"] = spec.most_noise;
+    if (spec.fastest_hz != DerivativeSpec().fastest_hz) json["fastest_hz"] = spec.fastest_hz;
     return json;
   }
   return {{"kind", kKinds[static_cast<std::size_t>(spec.kind)]},
@@ -206,7 +208,8 @@ Derivatives differentiate(Eigen::MatrixXd signals, const Recording& recording,
       case Kind::kSpline:
         return by_spline(t_here, x, first, second);
       case Kind::kSpectral:
-        if (by_spectrum({spec.cutoff_hz, spec.subtraction, spec.most_noise}, dt, x, first, second))
+        if (by_spectrum({spec.cutoff_hz, spec.subtraction, spec.most_noise, spec.fastest_hz}, dt, x,
+                        first, second))
           is_fast[static_cast<std::size_t>(column)] = 1;
         return;
       case Kind::kCentral:

@@ -219,7 +219,6 @@ struct Filtered {
 };
 
 Filtered filtered(const Transformed& x, const LowPass& filter) {
-  constexpr double kFastestMotion = 25.0;  // Hz: a hand trembles at up to 14
   const Index bins = x.spectrum.size();
   Filtered out{.spectrum = x.spectrum, .gain = Eigen::VectorXd::Ones(bins)};
   if (filter.subtraction > 0.0) {
@@ -240,7 +239,7 @@ Filtered filtered(const Transformed& x, const LowPass& filter) {
   const Rest rest = x.above(fast_hz(filter.cutoff_hz));
   const Relative relative = relative_of(rest, x.dt, x.length());
   const double least = filter.most_noise * least_motion(relative.chance);
-  for (Index k = 0; k < bins && x.hz(k) < kFastestMotion; ++k) {
+  for (Index k = 0; k < bins && x.hz(k) < filter.fastest_hz; ++k) {
     if (relative.power(k) == kSlow || relative.power(k) < least) continue;
     const double more = wiener_gain(relative.power(k), relative.chance) - out.gain(k);
     if (more <= 0.0) continue;

@@ -10,7 +10,7 @@ namespace dcnn {
 /// signal's own spectrum, averaged over half a hertz, in the upper half of the band, and S what
 /// stands above cN, at least what chance hides there; the variance of what it leaves is W N. What
 /// moves in several bands, a hand that moves slowly and trembles fast, passes; what lies between
-/// them does not. With `most_noise` > 0 motion near the cut-off and beyond, up to 25 Hz, passes
+/// them does not. With `most_noise` > 0 motion near the cut-off and beyond, up to `fastest_hz`, passes
 /// too, with its Wiener gain: what exceeds that many times N by more than chance (1e-6). A cut-off
 /// that was chosen on one recording, beyond which that one reaches so much, then serves one that
 /// trembles.
@@ -18,6 +18,7 @@ struct LowPass {
   double cutoff_hz = 11.0;
   double subtraction = 0.0;
   double most_noise = 0.0;
+  double fastest_hz = 25.0;
 };
 
 /// Flank of the taper at either end of a signal [s], within which fast motion passes in part.

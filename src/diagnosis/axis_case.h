@@ -1,6 +1,9 @@
 // Cases of the axes of other machines: one axis each.
 #pragma once
 
+#include <set>
+#include <string>
+
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/chain.h"
 #include "diagnosis/load.h"
@@ -20,6 +23,9 @@ LoadedAxes load_axes(const DiagnosisRequest& request);
 /// was given.
 bool is_corrected(const Case& study);
 Case as_given(Case study);
+
+/// The logged columns of motion that the case knows: its axis' own, and of an arm all joints'.
+std::set<std::string> motion_columns(const AxisPlan& plan);
 
 /// Motion and base simulator of all logs by the case's estimator.
 void set_axis_motion(Case& study);

@@ -57,7 +57,6 @@ std::vector<Clipping> clipping(const Case& study) {
 
 std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
                                     const std::vector<Floor>& floors) {
-  constexpr double kLeastGain = 28.0;  // of the best of some 10,000 frequencies
   const double top = 0.49 / study.dt();
   const double from = kFast * study.motion_hz;
   if (top < from || study.lowpass_hz > 0.0) return std::nullopt;
@@ -105,7 +104,7 @@ std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
   const double gain = gain_at(hz(0));
   const EffectKind& kind = *find_effect("hum");
   Member member = make_member(study, kind, kind.fits[0], "", hz);
-  if (gain < kLeastGain + 4.0 * member.parameters()) return std::nullopt;
+  if (gain < kLeastLine + 4.0 * member.parameters()) return std::nullopt;
   const Index half = member.amplitudes.size() / 2;
   member.amplitudes.setZero();
   member.fixed_deviation.setZero(member.amplitudes.size() + 1);

@@ -170,44 +170,6 @@ double HoldOut::mean_rmse(const std::vector<Member>& members, const Eigen::Vecto
   return sum / static_cast<double>(study_.channel_count());
 }
 
-std::vector<Floor> HoldOut::floors(const Search& search) const {
-  // What a free matrix on gravity leaves of poses at rest is no noise of theirs.
-  if (study_.is_static()) return search.floors();
-  std::vector<Floor> floors = blocks_ ? search.floors() : own_floors(search);
-  // Nor is noise more than what is left in all, where its level changes too much to be evened.
-  const std::vector<double> errors = rmse(search.fit().members, search.fit().base);
-  for (std::size_t j = 0; j < floors.size(); ++j) {
-    const double share = std::min(1.0, errors[j] / std::max(1e-300, floors[j].deviation()));
-    for (double* part :
-         {&floors[j].white, &floors[j].coloured, &floors[j].filtered, &floors[j].flicker,
-          &floors[j].markov, &floors[j].lines, &floors[j].rounding}) {
-      *part *= share * share;
-    }
-  }
-  return floors;
-}
-
-std::vector<Floor> HoldOut::own_floors(const Search& search) const {
-  const JointFit& fit = search.fit();
-  Case study = study_;
-  study.motion_hz = search.study().motion_hz;
-  study.rounding_step = search.study().rounding_step;
-  study.rounding_noise = search.study().rounding_noise;
-  if (fit.base.size() > 0) set_base(study, fit.base);
-  const Signals left = study.lowpass_hz > 0.0 ? unfiltered_left(study, fit.members)
-                                              : difference(study, predict(study, fit.members));
-  // Without the ends, as the errors are.
-  for (std::size_t k = 0; k < study.logs.size(); ++k) {
-    study.logs[k].motion.segments = inner_segments(study, k);
-  }
-  const Signals levels = noise_level(study, left);
-  std::vector<Floor> floors = noise_floor(study, left, levels);
-  bound_by_residual(study, left, levels, floors);
-  add_pose_noise(study, floors);
-  add_rounding(study, floors);
-  return floors;
-}
-
 std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
                                                const std::vector<Floor>& floors) const {
   constexpr double kMost = 1.2, kChance = 1.96;

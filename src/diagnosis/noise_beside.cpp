@@ -46,7 +46,7 @@ bool Search::admit_colour() {
   if (study_.is_static() || study_.without.coloured_floor) return false;
   const Signals raw = study_.lowpass_hz > 0.0 ? unfiltered_left(study_, fit_.members) : left_;
   const std::vector<Member> members = fit_.members;
-  noise_ = noise_of_all(study_, raw, noise_level(study_, raw));
+  noise_ = noise_of_all(study_, raw, noise_level(study_, raw), floors_);
   if (noise_) {
     settle(members);
     if (noise_suffices()) return true;

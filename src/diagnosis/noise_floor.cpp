@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <functional>
-#include <numbers>
 
 #include "core/elementary.h"
 #include "data/median.h"
+#include "diagnosis/noise_shapes.h"
 
 namespace dcnn {
 namespace {
@@ -15,22 +14,8 @@ namespace {
 constexpr double kColourGain = 12.0;  // of the log-likelihood, before noise is called coloured
 constexpr double kUpperPart = 1.4;    // of the lowest frequency of the quiet band: its upper part
 constexpr double kColourAbove = 3.0;  // of the log-likelihood there
-constexpr double kSlowest = 0.02;     // Hz: flicker noise is taken for flat below
 constexpr double kLeastOfDifferences = 1e-6;
-constexpr int kFloorPoints = 8192;  // of integrals over frequency
-constexpr Index kFewestBins = 12;   // below this the quiet band says nothing
-
-/// Shape of AR(1) noise of unit variance.
-double ar_shape(double rho, double hz, double dt) {
-  return (1.0 - rho * rho) /
-         (1.0 - 2.0 * rho * elementary::cos(2.0 * std::numbers::pi * hz * dt) + rho * rho);
-}
-
-/// Power gain of a second-order Butterworth filter.
-double filter_shape(double cutoff_hz, double hz) {
-  const double r = hz / cutoff_hz;
-  return 1.0 / (1.0 + r * r * r * r);
-}
+constexpr Index kFewestBins = 12;  // below this the quiet band says nothing
 
 /// Variance of white noise with these second differences.
 double variance_of_differences(const Signals& signals, Index channel) {
@@ -140,19 +125,6 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
   return best;
 }
 
-/// The factor at a frequency: on straight lines over log f, constant beyond the ends.
-double bound_at(const std::vector<std::pair<double, double>>& bounds, double hz) {
-  if (bounds.empty()) return 1.0;
-  if (hz <= bounds.front().first) return bounds.front().second;
-  for (std::size_t k = 1; k < bounds.size(); ++k) {
-    const auto& [from, low] = bounds[k - 1];
-    const auto& [to, high] = bounds[k];
-    if (hz < to)
-      return low + (high - low) * elementary::log(hz / from) / elementary::log(to / from);
-  }
-  return bounds.back().second;
-}
-
 std::vector<Index> bins_between(const Periodograms& p, double from, double to) {
   std::vector<Index> bins;
   for (Index i = 0; i < p.hz.size(); ++i) {
@@ -170,14 +142,6 @@ double log_likelihood(const Eigen::VectorXd& density, const Eigen::VectorXd& hz,
 
 }  // namespace
 
-double Floor::deviation() const {
-  if (lowpass_hz == 0.0 && filtered == 0.0 && !is_slow() && bounds.empty())
-    return std::sqrt(white + coloured + lines + rounding);
-  double sum = 0.0;
-  for (int i = 0; i < kFloorPoints; ++i) sum += density((i + 0.5) / kFloorPoints * 0.5 / dt);
-  return std::sqrt(sum / kFloorPoints + lines + rounding);
-}
-
 void add_rounding(const Case& study, std::vector<Floor>& floors) {
   const double q = study.rounding_step, s = study.rounding_noise;
   for (Floor& floor : floors) {
@@ -185,39 +149,6 @@ void add_rounding(const Case& study, std::vector<Floor>& floors) {
     const double known = floor.deviation();
     if (q > 0.0) floor.rounding = std::max(0.0, q * q / 12.0 + s * s - known * known);
   }
-}
-
-double Floor::whole_deviation() const {
-  if (pose_gain.empty()) return deviation();
-  double sum = 0.0;
-  for (int i = 0; i < kFloorPoints; ++i) sum += pose_density((i + 0.5) / kFloorPoints * 0.5 / dt);
-  const double sensor = deviation();
-  return std::sqrt(sensor * sensor + sum / kFloorPoints);
-}
-
-double Floor::density(double hz) const {
-  const double fitted = white + (coloured > 0.0 ? coloured * ar_shape(rho, hz, dt) : 0.0) +
-                        filtered * filter_shape(filter_hz, hz) + flicker / std::max(hz, kSlowest) +
-                        markov / (1.0 + (hz / corner_hz) * (hz / corner_hz));
-  const double plain = fitted * bound_at(bounds, hz);
-  if (lowpass_hz == 0.0) return plain;
-  const double gain =
-      1.0 / (1.0 + elementary::pow(hz / lowpass_hz, 8.0));  // Butterworth, there and back
-  return plain * gain * gain;
-}
-
-double Floor::pose_density(double hz) const {
-  if (pose_gain.empty()) return 0.0;
-  const double place = 2.0 * hz * dt * static_cast<double>(pose_gain.size());
-  const auto step = std::min(pose_gain.size() - 1, static_cast<std::size_t>(place));
-  const double w = 2.0 * std::numbers::pi * hz;
-  double rung = 1.0;
-  for (const Mode& mode : modes) {
-    const double r = hz / mode.hz;
-    const std::complex<double> below(1.0 - r * r, 2.0 * mode.zeta * r);
-    rung *= std::norm(1.0 + mode.fraction * (1.0 / below - 1.0));
-  }
-  return rung * (static_part + moving_part * w * w * w * w) * pose_gain[step];
 }
 
 double quiet_band(const Case& study) {
@@ -258,11 +189,27 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const
   return floors;
 }
 
+std::vector<double> quiet_density(const Case& study, const Signals& residual,
+                                  const Signals& levels) {
+  const Signals even = evened(residual, levels);
+  std::vector<double> list;
+  for (Index channel = 0; channel < study.channel_count(); ++channel) {
+    const Periodograms p = periodograms(study, even, channel);
+    const std::vector<Index> quiet = bins_between(p, quiet_band(study), 0.49 / study.dt());
+    const bool told = static_cast<Index>(quiet.size()) >= kFewestBins && p.power.cols() > 0;
+    const Eigen::VectorXd density = density_of(p, study.rounding_step > 0.0);
+    list.push_back(told ? without_lines(density(quiet), double(p.power.cols())).mean() : 0.0);
+  }
+  return list;
+}
+
 std::optional<std::vector<Floor>> noise_of_all(const Case& study, const Signals& residual,
-                                               const Signals& levels) {
+                                               const Signals& levels,
+                                               const std::vector<Floor>& known) {
   // One bin in 1.5 is independent behind the window, and a median knows half of what a mean does.
   constexpr double kIndependent = 1.0 / (1.5 * 2.08);
-  constexpr double kRefuted = 8.1;  // half of the 99.9 % quantile of chi-square, 3 degrees
+  constexpr double kRefuted = 8.1;   // half of the 99.9 % quantile of chi-square, 3 degrees
+  constexpr double kLeastOwn = 0.1;  // of what is left, that is the sensor's: tolerance
   const Signals even = evened(residual, levels);
   const double dt = study.dt(), from = quiet_band(study), to = 0.49 / dt;
   std::vector<Floor> floors;
@@ -270,7 +217,11 @@ std::optional<std::vector<Floor>> noise_of_all(const Case& study, const Signals&
     const Periodograms p = periodograms(study, even, channel);
     if (p.power.cols() == 0) return std::nullopt;
     const auto windows = static_cast<double>(p.power.cols());
-    const Eigen::VectorXd density = density_of(p, study.rounding_step > 0.0);
+    Eigen::VectorXd density = density_of(p, study.rounding_step > 0.0);
+    for (Index i = 0; i < density.size(); ++i) {
+      const double of_pose = known[static_cast<std::size_t>(channel)].pose_density(p.hz(i));
+      density(i) = std::max(density(i) - of_pose, kLeastOwn * density(i));
+    }
     const auto slow = slow_bins(study, even, channel);
     const auto fitted = [&](const std::vector<Index>& bins) {
       Floor floor = fit_floor(without_lines(density(bins), windows), p.hz(bins), dt, windows, false,

@@ -42,6 +42,8 @@ struct Floor {
   /// above the motion: no noise exceeds what the model leaves.
   std::vector<std::pair<double, double>> bounds = {};
 
+  /// Makes all parts of the density, and the lines, so many times as large.
+  void amplify(double factor);
   double deviation() const;                                       ///< of the sensor alone
   bool is_slow() const { return flicker > 0.0 || markov > 0.0; }  ///< louder the lower
   /// Density at `hz`, scaled so that white noise of variance s^2 has density s^2.
@@ -63,9 +65,15 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const
 
 /// The same, of all that a model leaves, as if it were nothing but noise: none where the band above
 /// the motion refutes such noise (its own likeliest is likelier by more than chance, 99.9 %). What
-/// lies far below that band it hardly tells.
+/// lies far below that band it hardly tells. What the pose's noise adds to the density is that of
+/// the `known` floors.
 std::optional<std::vector<Floor>> noise_of_all(const Case& study, const Signals& residual,
-                                               const Signals& levels);
+                                               const Signals& levels,
+                                               const std::vector<Floor>& known);
+
+/// The mean density above the motion's band, without lines, by channel; 0 where too few bins are.
+std::vector<double> quiet_density(const Case& study, const Signals& residual,
+                                  const Signals& levels);
 
 /// Whether a floor exceeds the density of a residual (of periodograms() and slow_bins()) in some
 /// octave by more than its sampling error (99.9 %).
@@ -88,6 +96,17 @@ void add_rounding(const Case& study, std::vector<Floor>& floors);
 /// Adds what the pose's own noise, read from the raw pose above the motion's band, puts into the
 /// prediction: through accelerations (mass and lever) and through gravity.
 void add_pose_noise(const Case& study, std::vector<Floor>& floors);
+
+/// Of an axis: adds what the noise of the position or rate that is differentiated puts into the
+/// prediction. It is drawn with the density of the band above the motion, passed through filter,
+/// simulator and inertias among `members`, and read off as a spectrum; in no octave more than that
+/// of what is `left`.
+void add_position_noise(const Case& study, const std::vector<Member>& members, const Signals& left,
+                        std::vector<Floor>& floors);
+
+/// Density, at `hz`, of what motion as large as that noise would make of an axis' prediction if no
+/// filter took it off; 0 for a tool.
+double unseen_motion(const Case& study, const std::vector<Member>& members, double hz);
 
 /// Correlation of the channels' noise (channels, channels), positive definite: of the second
 /// differences of a residual, where it exceeds what chance makes of independent ones.

@@ -19,7 +19,7 @@ std::vector<double> mean_gain(const Case& study) {
   constexpr Index kSteps = 400, kFewestInSegment = 8;  // rows of a segment that has a spectrum
   if (study.derivative.kind != DerivativeSpec::Kind::kSpectral) return {};
   const LowPass filter{study.derivative.cutoff_hz, study.derivative.subtraction,
-                       study.derivative.most_noise};
+                       study.derivative.most_noise, study.derivative.fastest_hz};
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(kSteps);
   double columns = 0.0;
   for (const Log& log : study.logs) {

@@ -266,6 +266,7 @@ void Search::run() {
   explore();
   if (mask_outlying())
     explore();  // what a law explains is not outlying, and beside it other things are
+  if (hums_no_more()) explore();
   // After larger effects: what is left of a mode that is not in the model resembles impacts.
   if (hear_knocks()) {
     settle(apart_);

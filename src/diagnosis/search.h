@@ -147,6 +147,8 @@ class Search {
   /// Leaves rows out that are outlying beside the model at hand: whether others than before.
   bool mask_outlying();
   void detect();
+  std::optional<Member> heard_hum(const Signals& left) const;
+  bool hums_no_more();
   bool hear_knocks();
   bool still_knocks();
   void drop_coincidences();

@@ -43,6 +43,7 @@ void Search::make_setting(const std::vector<Member>& members) {
   }
   bound_by_residual(study_, raw, levels, floors_);
   add_pose_noise(study_, floors_);
+  add_position_noise(study_, members, left_, floors_);
   slow_.clear();
   if (in_slow_noise_) slow_ = slow_parts(study_, left_, floors_).value_or(slow_);
   for (std::size_t j = 0; j < slow_.size(); ++j) {

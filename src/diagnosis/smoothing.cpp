@@ -8,6 +8,7 @@
 #include "data/spectral.h"
 #include "dcnn/data/rotation.h"
 #include "dcnn/physics/axis_machine.h"
+#include "diagnosis/axis_case.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/search.h"
 #include "physics/effect_law.h"
@@ -18,14 +19,20 @@ namespace {
 constexpr double kTuning = 1.25;  // from one cut-off to the next
 constexpr int kMostTunings = 6;
 
-DerivativeSpec low_pass_spec(double cutoff_hz, double subtraction, double most_noise = 0.0) {
+/// A hand trembles at up to 14 Hz; a machine turns within some hundredths of a second, and what
+/// lines the steps of its encoder make above that would be no motion.
+DerivativeSpec low_pass_spec(const Case& study, double cutoff_hz, double subtraction,
+                             double most_noise = 0.0) {
+  constexpr double kFastestMachine = 50.0;  // Hz
   return {.kind = DerivativeSpec::Kind::kSpectral,
           .cutoff_hz = cutoff_hz,
           .subtraction = subtraction,
-          .most_noise = most_noise};
+          .most_noise = most_noise,
+          .fastest_hz = study.axis ? kFastestMachine : DerivativeSpec().fastest_hz};
 }
 
-/// The most that the poses of a tool hold beyond the cut-off, in units of their noise's power.
+/// The most that poses, or positions of an axis, hold beyond the cut-off, in units of their noise's
+/// power.
 double most_noise_of(const Case& study) {
   double most = 0.0;
   const auto add = [&](const Eigen::MatrixXd& pose, const Recording& recording) {
@@ -38,6 +45,12 @@ double most_noise_of(const Case& study) {
     }
   };
   for (const Log& log : study.logs) {
+    if (study.axis) {
+      for (const std::string& name : motion_columns(*study.axis)) {
+        add(log.recording.column(name), log.recording);
+      }
+      continue;
+    }
     add(quaternions(log.recording), log.recording);
     if (log.recording.has_all(kPosition)) add(log.recording.block(kPosition), log.recording);
   }
@@ -134,7 +147,8 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
   for_each_piece(static_cast<Index>(all.size()), [&](Index k) {
     const auto at = static_cast<std::size_t>(k);
     Case trial = study_;
-    set_derivative(trial, low_pass_spec(grid[at % grid.size()], at < grid.size() ? 0.0 : 1.0));
+    set_derivative(trial,
+                   low_pass_spec(study_, grid[at % grid.size()], at < grid.size() ? 0.0 : 1.0));
     all[at] = linear_misfit(trial, members).square;
   });
   const auto least = std::min_element(all.begin(), all.end()) - all.begin();
@@ -148,7 +162,8 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
   if (kinds == 2) {  // the best of the other kind
     const auto others = all.begin() + static_cast<std::ptrdiff_t>((1 - kind) * grid.size());
     const auto at = std::min_element(others, others + std::ptrdiff_t(grid.size())) - others;
-    other_filter_ = low_pass_spec(grid[static_cast<std::size_t>(at)], kind == 0 ? 1.0 : 0.0);
+    other_filter_ =
+        low_pass_spec(study_, grid[static_cast<std::size_t>(at)], kind == 0 ? 1.0 : 0.0);
   }
   double cutoff = grid[best];
   if (best > 0 && best + 1 < grid.size()) {  // vertex of the parabola through the three
@@ -156,7 +171,7 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
     cutoff *= elementary::pow(1.4, 0.5 * (below - above) / (below + above));
   }
   smooth(cutoff);
-  if (!study_.axis) pass_motion(members);
+  pass_motion(members);
 }
 
 /// Lets motion beyond the cut-off pass, of this recording and of others that move otherwise: what
@@ -221,7 +236,7 @@ void Search::smooth(double cutoff_hz) {
   const DerivativeSpec chosen = study_.derivative;
   const auto smoothed = [&](double hz, double times) {
     Case other = study_;
-    set_derivative(other, low_pass_spec(hz, times * chosen.subtraction, chosen.most_noise));
+    set_derivative(other, low_pass_spec(study_, hz, times * chosen.subtraction, chosen.most_noise));
     return other;
   };
   smoothed_ = {smoothed(0.75 * cutoff_hz, kOver), smoothed(1.4 * cutoff_hz, 1.0 / kOver)};

@@ -40,17 +40,45 @@ void Search::detect() {
     }
   }
   if (study_.is_static()) return;
-  if (const auto hum = find_fast_hum(study_, left_, floors_);
-      hum && is_listed(study_, *hum->kind)) {
-    double power = 0.0, rows = 0.0;
-    for (const auto& left : left_) {
-      power += left.squaredNorm();
-      rows += static_cast<double>(left.size());
-    }
-    // A motor's log is full of faint lines: of what is left on a machine one must be a share.
-    const bool counts = !study_.axis || 0.5 * hum->amplitudes.squaredNorm() * rows > 0.002 * power;
-    if (counts) apart_.push_back(*hum);
+  if (const auto hum = heard_hum(left_)) apart_.push_back(*hum);
+}
+
+/// A line above the motion's band in what is left.
+std::optional<Member> Search::heard_hum(const Signals& left) const {
+  const auto hum = find_fast_hum(study_, left, floors_);
+  if (!hum || !is_listed(study_, *hum->kind)) return std::nullopt;
+  double power = 0.0, rows = 0.0;
+  for (const auto& signal : left) {
+    power += signal.squaredNorm();
+    rows += static_cast<double>(signal.size());
   }
+  // A motor's log is full of faint lines: of what is left on a machine one must be a share.
+  const double line = 0.5 * hum->amplitudes.squaredNorm() * rows;
+  if (study_.axis && line < 0.002 * power) return std::nullopt;
+  // Nor is it motion too small for the encoder to show.
+  return line > kLeastLine * unseen_motion(study_, fit_.members, hum->shapes(0)) ? hum
+                                                                                 : std::nullopt;
+}
+
+/// Whether a line that was heard before anything was found is none beside that: what a motion that
+/// repeats leaves has lines of its own.
+bool Search::hums_no_more() {
+  const auto is_hum = [](const Member& m) { return m.name() == "hum" && m.fixed; };
+  const auto heard = std::find_if(apart_.begin(), apart_.end(), is_hum);
+  if (heard == apart_.end()) return false;
+  const Member hum = *heard;
+  const std::vector<Member> before = fit_.members;
+  std::vector<Member> others = before;
+  std::erase_if(others, is_hum);
+  if (others.empty()) return false;
+  apart_.erase(heard);
+  settle(others);
+  while (simplify()) {
+  }
+  if (!heard_hum(left_)) return true;
+  apart_.push_back(hum);
+  settle(before);
+  return false;
 }
 
 bool Search::hear_knocks() {

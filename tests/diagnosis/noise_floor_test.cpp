@@ -61,7 +61,8 @@ TEST(NoiseFloor, OfAllThatIsLeftHasTheDensityOfTheNoise) {
     constexpr int kTrials = 40;
     for (int seed = 0; seed < kTrials; ++seed) {
       Rng rng(static_cast<std::uint64_t>(100 + seed));
-      const auto floors = noise_of_all(study, noise_of(4, rho, rng), ones(4));
+      const auto floors =
+          noise_of_all(study, noise_of(4, rho, rng), ones(4), std::vector<Floor>(1));
       if (!floors) {
         ++refuted;
         continue;

@@ -23,6 +23,7 @@ struct DerivativeSpec {
   /// spectral: how many times its noise a column holds beyond the cut-off at most; more is motion
   /// and passes. 0: nothing passes.
   double most_noise = 0.0;
+  double fastest_hz = 25.0;  ///< spectral: up to which motion beyond the cut-off passes
 
   /// Number of samples in the window: 2·round(window_s/(2·dt)) + 1, at least order + 4 (odd).
   int window(double dt) const;
@@ -37,7 +38,7 @@ inline DerivativeSpec causal_derivative() {
 }
 
 /// Keys: kind (sg|sg_causal|central|spline|spectral), window_s, order, cutoff_hz, subtraction,
-/// most_noise.
+/// most_noise, fastest_hz.
 DerivativeSpec parse_derivative(Options options);
 Json to_json(const DerivativeSpec& spec);
 
