@@ -98,17 +98,19 @@ Case with_more_noise(const Case& study) {
   return noisy;
 }
 
-/// Mean density of what the noise makes of the prediction, in even steps up to half the rate.
-std::vector<double> drawn_density(Case study, Case noisy, std::vector<Member> members) {
+/// Mean density of what noise in the motion makes of the prediction, in even steps up to half the
+/// rate.
+std::vector<double> drawn_density(const Case& study, std::vector<Member> members) {
   // An encoder at rest has no noise: what friction and cables would make of that which is drawn
   // there says nothing. Inertias make most of it.
   std::erase_if(members, [](const Member& m) { return std::string(m.kind->kind) != "parameter"; });
-  set_axis_motion(study);
+  Case clean = study, noisy = with_more_noise(study);
+  set_axis_motion(clean);
   set_axis_motion(noisy);
   Signals error = predict(noisy, members);
-  const Signals exact = predict(study, members);
+  const Signals exact = predict(clean, members);
   for (std::size_t k = 0; k < error.size(); ++k) error[k] -= exact[k];
-  const Periodograms p = periodograms(study, error, 0);
+  const Periodograms p = periodograms(study, error, 0);  // of its segments, ends cut off or not
   if (p.power.cols() == 0) return {};
   const Eigen::VectorXd density = p.power.rowwise().mean();
   return {density.begin(), density.end()};
@@ -131,7 +133,8 @@ std::set<std::string> motion_columns(const AxisPlan& plan) {
 void add_position_noise(const Case& study, const std::vector<Member>& members, const Signals& left,
                         std::vector<Floor>& floors) {
   if (!study.axis) return;
-  std::vector<double> density = drawn_density(study, with_more_noise(study), members);
+  floors[0].pose_gain.clear();
+  std::vector<double> density = drawn_density(study, members);
   const Periodograms p = periodograms(study, left, 0);
   for (std::size_t first = 0; first < density.size();) {
     const std::size_t end = std::min(density.size(), 2 * first + 1);
@@ -142,6 +145,7 @@ void add_position_noise(const Case& study, const std::vector<Member>& members, c
     for (std::size_t k = first; k < end && drawn > residual; ++k) density[k] *= residual / drawn;
     first = end;
   }
+  if (std::all_of(density.begin(), density.end(), [](double d) { return d == 0.0; })) return;
   floors[0].pose_gain = std::move(density);
   floors[0].static_part = 1.0;
 }
@@ -152,7 +156,7 @@ double unseen_motion(const Case& study, const std::vector<Member>& members, doub
   Case open = study;
   open.derivative = {.kind = DerivativeSpec::Kind::kSpectral, .cutoff_hz = kNoFilter};
   Floor floor{.dt = study.dt()};
-  floor.pose_gain = drawn_density(open, with_more_noise(open), members);
+  floor.pose_gain = drawn_density(open, members);
   floor.static_part = 1.0;
   return floor.pose_density(hz);
 }

@@ -150,6 +150,17 @@ TEST(DiagnoseEncoder, StepsOfAnEncoderAreNoLaw) {
   EXPECT_EQ(viscous["verdict"], "explained") << viscous["unnamed"].dump(1);
 }
 
+// Of held-out recordings of a few seconds the ends are no part, and fewer windows fit into the
+// rest.
+TEST(DiagnoseEncoder, ShortRecordingsHaveAVerdict) {
+  for (const double seconds : {3.0, 5.0, 8.0}) {
+    const Recorded log{swinging(0.4), seconds, 1e-4};
+    const Encoder bench(log, log, [](const JointMotion& m) { return 0.3 * m.v; });
+    const Json report = bench.report(kFittedInertia);
+    EXPECT_EQ(names_in(report), std::vector<std::string>{"viscous_friction"}) << seconds;
+  }
+}
+
 // Fitted where motion is slow, whose own noise wants a low cut-off, and held out where it is fast.
 TEST(DiagnoseEncoder, AFasterMotionPassesTheSmoother) {
   const Encoder bench({swinging(0.07), 40.0, 1e-5}, {swinging(0.25), 20.0, 1e-5},
