@@ -180,9 +180,19 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
   // Relative deviation of an rms of n normal numbers: 1/sqrt(2n).
   const auto block = static_cast<double>(search.setting().whitener.block());
   const double chance = kChance / std::sqrt(2.0 * std::max(1.0, rows / block));
+  const Case& fitted = search.study();
+  const JointFit& fit = search.fit();
+  const Signals left =
+      fitted.lowpass_hz > 0.0 ? unfiltered_left(fitted, fit.members) : search.left();
+  // What the band above the motion hardly tells of the noise below may all be left of the fit.
+  std::optional<std::vector<Floor>> all;
+  if (!fitted.is_static()) {
+    all = noise_of_all(fitted, left, noise_level(fitted, left), search.floors());
+  }
   std::optional<Excess> worst;
   for (std::size_t j = 0; j < errors.size(); ++j) {
     double noise = std::max(search.floors()[j].whole_deviation(), floors[j].whole_deviation());
+    if (all) noise = std::max(noise, (*all)[j].deviation());
     if (!search.floors()[j].pose_gain.empty()) {
       const double square = mean_square(search.study(), search.left(), static_cast<Index>(j));
       noise = std::max(noise, std::sqrt(square));
