@@ -23,12 +23,13 @@ constexpr int kMostTunings = 6;
 /// lines the steps of its encoder make above that would be no motion.
 DerivativeSpec low_pass_spec(const Case& study, double cutoff_hz, double subtraction,
                              double most_noise = 0.0) {
-  constexpr double kFastestMachine = 50.0;  // Hz
+  constexpr double kFastestMachine = 50.0;  // Hz; a low-pass that is declared ends the motion
+  const double machine = study.lowpass_hz > 0.0 ? study.lowpass_hz : kFastestMachine;
   return {.kind = DerivativeSpec::Kind::kSpectral,
           .cutoff_hz = cutoff_hz,
           .subtraction = subtraction,
           .most_noise = most_noise,
-          .fastest_hz = study.axis ? kFastestMachine : DerivativeSpec().fastest_hz};
+          .fastest_hz = study.axis ? machine : DerivativeSpec().fastest_hz};
 }
 
 /// The most that poses, or positions of an axis, hold beyond the cut-off, in units of their noise's
