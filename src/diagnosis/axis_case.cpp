@@ -216,7 +216,10 @@ Signals unfiltered_left(const Case& study, const std::vector<Member>& members) {
   Case raw = study;
   raw.lowpass_hz = 0.0;
   Signals left = predict(raw, members);
-  for (std::size_t k = 0; k < left.size(); ++k) left[k] = study.logs[k].unfiltered - left[k];
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    const Log& log = study.logs[k];
+    left[k] = (study.lowpass_hz > 0.0 ? log.unfiltered : log.measured) - left[k];
+  }
   return left;
 }
 

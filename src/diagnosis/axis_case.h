@@ -33,7 +33,7 @@ void set_axis_motion(Case& study);
 /// Lets the base simulator of all logs have these coefficients.
 void set_base(Case& study, const Eigen::VectorXd& coefficients);
 
-/// measured - predicted before the low-pass.
+/// measured - predicted, before the low-pass where there is one.
 Signals unfiltered_left(const Case& study, const std::vector<Member>& members);
 
 }  // namespace dcnn

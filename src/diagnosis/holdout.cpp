@@ -181,12 +181,10 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
   const auto block = static_cast<double>(search.setting().whitener.block());
   const double chance = kChance / std::sqrt(2.0 * std::max(1.0, rows / block));
   const Case& fitted = search.study();
-  const JointFit& fit = search.fit();
-  const Signals left =
-      fitted.lowpass_hz > 0.0 ? unfiltered_left(fitted, fit.members) : search.left();
   // What the band above the motion hardly tells of the noise below may all be left of the fit.
   std::optional<std::vector<Floor>> all;
   if (!fitted.is_static()) {
+    const Signals left = unfiltered_left(fitted, search.fit().members);
     all = noise_of_all(fitted, left, noise_level(fitted, left), search.floors());
   }
   std::optional<Excess> worst;

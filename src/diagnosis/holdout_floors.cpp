@@ -31,11 +31,8 @@ std::vector<Floor> HoldOut::own_floors(const Search& search) const {
   study.rounding_step = search.study().rounding_step;
   study.rounding_noise = search.study().rounding_noise;
   if (fit.base.size() > 0) set_base(study, fit.base);
-  const auto left_of = [&](const Case& some) {
-    return some.lowpass_hz > 0.0 ? unfiltered_left(some, fit.members)
-                                 : difference(some, predict(some, fit.members));
-  };
-  const Signals left = left_of(study), fitted = left_of(search.study());
+  const Signals left = unfiltered_left(study, fit.members),
+                fitted = unfiltered_left(search.study(), fit.members);
   // Without the ends, as the errors are.
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     study.logs[k].motion.segments = inner_segments(study, k);

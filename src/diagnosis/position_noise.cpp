@@ -28,7 +28,8 @@ double difference_shape(double hz, double dt) {
   return 2.0 - 2.0 * elementary::cos(2.0 * std::numbers::pi * hz * dt);
 }
 
-/// Of a column within its segments: motion, far louder than the noise below, leaks less from them.
+/// Of a column within its segments: of slow motion, whose power is far above the noise's, less
+/// leaks through a window's side lobes into the upper band.
 Eigen::MatrixXd second_differences(const Bridged& x) {
   Eigen::MatrixXd differences = Eigen::MatrixXd::Zero(x.columns.rows(), 1);
   for (const Segment& s : x.segments) {

@@ -133,8 +133,7 @@ bool Search::choose_rounding_noise() {
 /// members began far from their best.
 bool Search::floor_moved() const {
   constexpr double kFar = 1.5;
-  const Signals left = study_.lowpass_hz > 0.0 ? unfiltered_left(study_, fit_.members)
-                                               : difference(study_, predict(study_, fit_.members));
+  const Signals left = unfiltered_left(study_, fit_.members);
   const auto now = noise_floor(study_, left, noise_level(study_, left));
   for (std::size_t j = 0; j < now.size(); ++j) {
     if (floors_[j].deviation() > kFar * now[j].deviation()) return true;
