@@ -72,15 +72,18 @@ double log_prior(const Setting& setting, const JointFit& fit, std::size_t m) {
   }
   const auto [first, count] = tangent_columns(fit, m);
   if (count == 0) return sum;
+  const Eigen::MatrixXd own = fit.tangent.middleCols(first, member.amplitudes.size());
   std::vector<Index> open;  // amplitudes that are not held at zero
+  Index measured = 0;       // those that change any reading: of a force on one axis one of three
   for (Index i = 0; i < member.amplitudes.size(); ++i) {
+    if (own.col(i).isZero(0.0)) continue;
+    ++measured;
     if (!member.is_held(i)) open.push_back(i);
   }
   const auto d = static_cast<Index>(open.size());
   // Which of the entries act: any number of them alike, and any choice of so many.
-  if (!member.held.empty()) sum -= log_choices(member.amplitudes.size(), d);
+  if (!member.held.empty()) sum -= log_choices(measured, d);
   if (d > 0) {
-    const Eigen::MatrixXd own = fit.tangent.middleCols(first, member.amplitudes.size());
     const Eigen::MatrixXd columns = own(Eigen::all, open);
     const Eigen::MatrixXd gram = columns.transpose() * columns;
     const double norm = std::sqrt(std::max(1.0, (own * member.amplitudes).squaredNorm()));
