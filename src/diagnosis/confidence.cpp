@@ -18,8 +18,8 @@ void add_support(const Search& search, const HoldOut& holdout,
   const Signals own = holdout.prediction(fit.members, fit.base);
   for (auto& of_member : alternatives) {
     for (Alternative& other : of_member) {
-      other.log_support =
-          holdout.log_support(holdout.prediction(other.members, other.base), own, search.floors());
+      other.log_support = holdout.log_support(holdout.prediction(other.members, other.base), own,
+                                              other.floors, other.noisier);
     }
   }
 }

@@ -40,12 +40,17 @@ double Floor::deviation() const {
   return std::sqrt(sum / kFloorPoints + lines + rounding);
 }
 
-double Floor::whole_deviation() const {
-  if (pose_gain.empty()) return deviation();
+double Floor::pose_variance() const {
+  if (pose_gain.empty()) return 0.0;
   double sum = 0.0;
   for (int i = 0; i < kFloorPoints; ++i) sum += pose_density((i + 0.5) / kFloorPoints * 0.5 / dt);
+  return sum / kFloorPoints;
+}
+
+double Floor::whole_deviation() const {
+  if (pose_gain.empty()) return deviation();
   const double sensor = deviation();
-  return std::sqrt(sensor * sensor + sum / kFloorPoints);
+  return std::sqrt(sensor * sensor + pose_variance());
 }
 
 double Floor::density(double hz) const {

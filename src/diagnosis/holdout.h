@@ -45,9 +45,11 @@ class HoldOut {
   std::vector<Floor> floors(const Search& search) const;
   Signals prediction(const std::vector<Member>& members, const Eigen::VectorXd& base) const;
   /// ln of the factor by which the held-out data change the odds of one prediction against another
-  /// (diagnosis/evidence/support.h; blocks of 1 s, of poses at rest each).
-  double log_support(const Signals& with, const Signals& without,
-                     const std::vector<Floor>& floors) const;
+  /// (diagnosis/evidence/support.h; blocks of 1 s, of poses at rest each). Where noise of the
+  /// motion makes the one `noisier`, by these variances of the channels, its errors are so much
+  /// larger though its law be right.
+  double log_support(const Signals& with, const Signals& without, const std::vector<Floor>& floors,
+                     const std::vector<double>& noisier = {}) const;
   /// The same of each channel alone, in whose fitted rows what they predict apart gained so much of
   /// chi-square: what helps most channels may be wrong in one.
   std::vector<double> support_by_channel(const Signals& with, const Signals& without,
@@ -61,7 +63,8 @@ class HoldOut {
   HoldOut() = default;
   std::vector<evidence::BlockChange> changes(const std::vector<Index>& channels,
                                              const Signals& with, const Signals& without,
-                                             const std::vector<Floor>& floors) const;
+                                             const std::vector<Floor>& floors,
+                                             const std::vector<double>& noisier) const;
   /// Of recordings of their own.
   std::vector<Floor> own_floors(const Search& search) const;
   /// Of a recording that was zeroed: from the rows that are not held out, or from these where all

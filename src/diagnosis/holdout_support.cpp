@@ -18,21 +18,22 @@ std::vector<double> HoldOut::support_by_channel(const Signals& a, const Signals&
   std::vector<double> list;
   for (Index j = 0; j < study_.channel_count(); ++j) {
     list.push_back(
-        evidence::log_support(changes({j}, a, b, floors), gained[static_cast<std::size_t>(j)]));
+        evidence::log_support(changes({j}, a, b, floors, {}), gained[static_cast<std::size_t>(j)]));
   }
   return list;
 }
 
-double HoldOut::log_support(const Signals& a, const Signals& b,
-                            const std::vector<Floor>& floors) const {
+double HoldOut::log_support(const Signals& a, const Signals& b, const std::vector<Floor>& floors,
+                            const std::vector<double>& noisier) const {
   std::vector<Index> all(static_cast<std::size_t>(study_.channel_count()));
   std::iota(all.begin(), all.end(), 0);
-  return evidence::log_support(changes(all, a, b, floors));
+  return evidence::log_support(changes(all, a, b, floors, noisier));
 }
 
 std::vector<evidence::BlockChange> HoldOut::changes(const std::vector<Index>& channels,
                                                     const Signals& a, const Signals& b,
-                                                    const std::vector<Floor>& floors) const {
+                                                    const std::vector<Floor>& floors,
+                                                    const std::vector<double>& noisier) const {
   std::vector<double> deviation;
   for (const Floor& floor : floors) deviation.push_back(floor.whole_deviation());
   std::map<std::pair<std::size_t, std::int64_t>, evidence::BlockChange> blocks;
@@ -49,7 +50,8 @@ std::vector<evidence::BlockChange> HoldOut::changes(const std::vector<Index>& ch
         const double s = deviation[static_cast<std::size_t>(j)];
         const double with_it = (log.measured(i, j) - a[k](i, j)) / s,
                      without_it = (log.measured(i, j) - b[k](i, j)) / s;
-        block.fall += without_it * without_it - with_it * with_it;
+        const double more = noisier.empty() ? 0.0 : noisier[static_cast<std::size_t>(j)] / (s * s);
+        block.fall += without_it * without_it - with_it * with_it + more;
         block.apart += (without_it - with_it) * (without_it - with_it);
       }
     }

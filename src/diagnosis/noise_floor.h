@@ -50,6 +50,8 @@ struct Floor {
   double density(double hz) const;
   /// Standard deviation with what the pose's noise adds.
   double whole_deviation() const;
+  /// Variance that the pose's noise adds.
+  double pose_variance() const;
   /// What the pose's noise adds to the density.
   double pose_density(double hz) const;
 };
@@ -96,6 +98,9 @@ void add_rounding(const Case& study, std::vector<Floor>& floors);
 /// Adds what the pose's own noise, read from the raw pose above the motion's band, puts into the
 /// prediction: through accelerations (mass and lever) and through gravity.
 void add_pose_noise(const Case& study, std::vector<Floor>& floors);
+
+/// Of an axis: whether an effect makes noise of the position a part of the prediction.
+bool brings_position_noise(const Case& study, const Member& member);
 
 /// Of an axis: adds what the noise of the position or rate that is differentiated puts into the
 /// prediction. It is drawn with the density of the band above the motion, passed through filter,

@@ -102,9 +102,7 @@ Case with_more_noise(const Case& study) {
 /// Mean density of what noise in the motion makes of the prediction, in even steps up to half the
 /// rate.
 std::vector<double> drawn_density(const Case& study, std::vector<Member> members) {
-  // An encoder at rest has no noise: what friction and cables would make of that which is drawn
-  // there says nothing. Inertias make most of it.
-  std::erase_if(members, [](const Member& m) { return std::string(m.kind->kind) != "parameter"; });
+  std::erase_if(members, [&](const Member& m) { return !brings_position_noise(study, m); });
   Case clean = study, noisy = with_more_noise(study);
   set_axis_motion(clean);
   set_axis_motion(noisy);
@@ -129,6 +127,12 @@ std::set<std::string> motion_columns(const AxisPlan& plan) {
     }
   }
   return names;
+}
+
+bool brings_position_noise(const Case& study, const Member& member) {
+  // An encoder at rest has no noise: what friction and cables would make of that which is drawn
+  // there says nothing. Inertias make most of it.
+  return study.axis && std::string(member.kind->kind) == "parameter";
 }
 
 void add_position_noise(const Case& study, const std::vector<Member>& members, const Signals& left,

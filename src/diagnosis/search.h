@@ -23,14 +23,26 @@ struct Span {
   }
 };
 
+/// What a model is weighed by: what it leaves, the noise that is estimated from that, and all that
+/// fits beside it share.
+struct Surroundings {
+  Signals left;  ///< measured - predicted, at the log's rate
+  std::vector<Floor> floors;
+  std::vector<SlowPart> slow;
+  std::unique_ptr<Setting> setting;
+};
+
 /// Another effect in the place of a member.
 struct Alternative {
   std::string name;
   std::vector<Member> members;  ///< the whole model with it, fitted
   Eigen::VectorXd base;         ///< and the coefficients of its linear base, where there is one
-  double log_odds = 0.0;        ///< ln of its evidence over that of the model that was chosen
-  double chi2_above = 0.0;      ///< its chi-square less that of the chosen
-  double log_support = 0.0;     ///< ln of the factor by which held-out data change those odds
+  std::vector<Floor> floors;    ///< the noise by which both are weighed
+  /// Variances by which noise of the motion makes its prediction noisier than that of the chosen.
+  std::vector<double> noisier;
+  double log_odds = 0.0;     ///< ln of its evidence over that of the model that was chosen
+  double chi2_above = 0.0;   ///< its chi-square less that of the chosen
+  double log_support = 0.0;  ///< ln of the factor by which held-out data change those odds
 };
 
 class Search {
@@ -133,6 +145,7 @@ class Search {
   void pass_motion(const std::vector<Member>& members);
   void tune_to_mode();
   bool choose_rounding_noise();
+  Surroundings surroundings(const std::vector<Member>& members) const;
   void make_setting(const std::vector<Member>& members);
   void fit_beside_base(const std::vector<Member>& members);
   bool grow();

@@ -29,37 +29,38 @@ Eigen::VectorXd mask_of(const Whitener& whitener, const std::vector<Span>& a,
 
 }  // namespace
 
-void Search::make_setting(const std::vector<Member>& members) {
+Surroundings Search::surroundings(const std::vector<Member>& members) const {
+  Surroundings made;
+  std::vector<Floor>& floors = made.floors;
   const Signals prediction = predict(study_, members);
-  left_ = difference(study_, prediction);
+  made.left = difference(study_, prediction);
   Signals measured;
   for (const Log& log : study_.logs) measured.push_back(log.measured);
-  const Signals raw = study_.lowpass_hz > 0.0 ? unfiltered_left(study_, members) : left_;
+  const Signals raw = study_.lowpass_hz > 0.0 ? unfiltered_left(study_, members) : made.left;
   const auto levels = noise_level(study_, raw);
   if (noise_) {
-    floors_ = *noise_;
+    floors = *noise_;
   } else {
-    floors_ = noise_floor(study_, raw, levels);
+    floors = noise_floor(study_, raw, levels);
   }
-  bound_by_residual(study_, raw, levels, floors_);
-  add_pose_noise(study_, floors_);
-  add_position_noise(study_, members, left_, floors_);
-  slow_.clear();
-  if (in_slow_noise_) slow_ = slow_parts(study_, left_, floors_).value_or(slow_);
-  for (std::size_t j = 0; j < slow_.size(); ++j) {
-    slow_[j].add_to(floors_[j]);
-    floors_[j].source += "; below, slow noise that depends on nothing";
+  bound_by_residual(study_, raw, levels, floors);
+  add_pose_noise(study_, floors);
+  add_position_noise(study_, members, made.left, floors);
+  if (in_slow_noise_) made.slow = slow_parts(study_, made.left, floors).value_or(made.slow);
+  for (std::size_t j = 0; j < made.slow.size(); ++j) {
+    made.slow[j].add_to(floors[j]);
+    floors[j].source += "; below, slow noise that depends on nothing";
   }
   for (const Member& m : members) {
     if (!ringing_ || m.kind->stage != Stage::kResonance) continue;
     const auto own = std::find(study_.channels.begin(), study_.channels.end(), axis_index(m.axis));
     if (own == study_.channels.end()) continue;
-    floors_[static_cast<std::size_t>(own - study_.channels.begin())].modes.push_back(
+    floors[static_cast<std::size_t>(own - study_.channels.begin())].modes.push_back(
         {m.shapes(0), m.shapes(1), m.amplitudes(0)});
   }
   // What a machine leaves above the motion's band has friction's harmonics in it: its colour says
   // nothing of the noise in the band until all that is left bears it out.
-  for (Floor& floor : floors_) {
+  for (Floor& floor : floors) {
     if (!study_.axis || noise_) continue;
     Floor unfiltered = floor;
     unfiltered.lowpass_hz = 0.0;
@@ -67,35 +68,36 @@ void Search::make_setting(const std::vector<Member>& members) {
     floor.coloured = floor.filtered = floor.flicker = 0.0;
     floor.bounds.clear();
   }
-  if (study_.axis && !noise_) bound_by_residual(study_, raw, levels, floors_);
-  add_rounding(study_, floors_);
-  const Whitener whitener(study_, floors_, levels, noise_correlation(study_, raw, levels));
+  if (study_.axis && !noise_) bound_by_residual(study_, raw, levels, floors);
+  add_rounding(study_, floors);
+  const Whitener whitener(study_, floors, levels, noise_correlation(study_, raw, levels));
   const Index blocks = whitener.rows() / study_.channel_count();
   require(blocks >= kFewestBlocks, Exit::kData, study_.logs.front().recording.name, ": ", blocks,
           " blocks of ", whitener.block_seconds(),
           " s are left of the recordings without the ends of their stretches, which cannot tell "
           "noise from faults; record for longer, without gaps");
   const Index stride = whitener.coarse_stride();
-  setting_ = std::make_unique<Setting>(Setting{
+  made.setting = std::make_unique<Setting>(Setting{
       study_, whitener, thinned(study_, stride), whitener.at_stride(stride), measured, {}, {}});
-  const Index rows = setting_->whitener.rows();
+  Setting& setting = *made.setting;
+  const Index rows = setting.whitener.rows();
   std::vector<Span> masked = masked_;
   masked.insert(masked.end(), knock_spans_.begin(), knock_spans_.end());
   masked.insert(masked.end(), outlying_.begin(), outlying_.end());
-  setting_->mask = mask_of(setting_->whitener, held_out_, masked);
-  setting_->nuisance.resize(rows, 0);
+  setting.mask = mask_of(setting.whitener, held_out_, masked);
+  setting.nuisance.resize(rows, 0);
   for (std::size_t k = 0; k < study_.logs.front().regressors.size(); ++k) {
     Signals column;
     for (const Log& log : study_.logs) {
       column.push_back(
           low_pass(log.regressors[k], log.motion.segments, log.motion.dt, study_.lowpass_hz));
     }
-    setting_->nuisance = appended(setting_->nuisance, setting_->whitened(column));
+    setting.nuisance = appended(setting.nuisance, setting.whitened(column));
   }
   for (const Signals& column : own_offsets(study_)) {
-    setting_->nuisance = appended(setting_->nuisance, setting_->whitened(column));
+    setting.nuisance = appended(setting.nuisance, setting.whitened(column));
   }
-  if (study_.is_static() || study_.without.smoothing) return;
+  if (study_.is_static() || study_.without.smoothing) return made;
   // What other filters of the pose change, per channel.
   for (const Case& other : smoothed_) {
     const Signals there = predict(other, members);
@@ -105,9 +107,18 @@ void Search::make_setting(const std::vector<Member>& members) {
         change.push_back(Eigen::MatrixXd::Zero(there[k].rows(), there[k].cols()));
         change.back().col(j) = there[k].col(j) - prediction[k].col(j);
       }
-      setting_->nuisance = appended(setting_->nuisance, setting_->whitened(change));
+      setting.nuisance = appended(setting.nuisance, setting.whitened(change));
     }
   }
+  return made;
+}
+
+void Search::make_setting(const std::vector<Member>& members) {
+  Surroundings made = surroundings(members);
+  left_ = std::move(made.left);
+  floors_ = std::move(made.floors);
+  slow_ = std::move(made.slow);
+  setting_ = std::move(made.setting);
 }
 
 /// What rounding makes of the mean depends on the noise before it, which a coarse lattice hides:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <set>
 
 #include "dcnn/core/file.h"
 #include "dcnn/core/random.h"
@@ -223,6 +224,24 @@ TEST(DiagnoseEncoder, ASpikeDoesNotTurnTheReading) {
   write_csv(bench / "fit.csv", table);
   const Json report = bench.report(kSimulated);
   EXPECT_EQ(names_in(report), std::vector<std::string>{"coulomb_friction"}) << report.dump(1);
+}
+
+// Where all that is simulated is inertia, a fifth more of the one is a fifth more of the other;
+// that the acceleration comes from an encoder, and the simulated torque from elsewhere, tells
+// nothing.
+TEST(DiagnoseEncoder, AScaleOfInertiaMayBeMoreInertia) {
+  const Recorded log{swinging(0.12), 15.0, 1e-4};
+  const Encoder bench(log, log,
+                      [](const JointMotion& m) { return 0.2 * kOwnInertia * m.a + 0.3 * m.v; });
+  const Json report = bench.report(kSimulated);
+  ASSERT_EQ(report["findings"].size(), 2U) << report["findings"].dump(1);
+  std::set<std::string> either;
+  for (const Json& finding : report["findings"]) {
+    if (finding["effect"] == "viscous_friction") continue;
+    either.insert(finding["effect"]);
+    for (const Json& other : finding["alternatives"]) either.insert(other);
+  }
+  EXPECT_EQ(either, (std::set<std::string>{"gain", "inertia"})) << report["findings"].dump(1);
 }
 
 }  // namespace
