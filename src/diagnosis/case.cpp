@@ -112,13 +112,21 @@ bool has_own_offsets(const Case& study) {
                      [](const Log& log) { return log.zeroed; });
 }
 
-double end_seconds(double length) { return std::min(kFlankSeconds, 0.1 * length); }
+bool moves_fast(const Case& study) {
+  return std::any_of(study.logs.begin(), study.logs.end(),
+                     [](const Log& log) { return log.motion.is_fast; });
+}
+
+double end_seconds(const Case& study, double length) {
+  const double begins = moves_fast(study) ? 1.0 / study.derivative.cutoff_hz : 0.0;
+  return std::min(kFlankSeconds + begins, 0.1 * length);
+}
 
 std::vector<Segment> inner_segments(const Case& study, std::size_t log) {
   std::vector<Segment> inner;
   for (const Segment& s : study.logs[log].motion.segments) {
     const double seconds = study.dt() * static_cast<double>(s.size());
-    const Index end = study.is_static() ? 0 : std::llround(end_seconds(seconds) / study.dt());
+    const Index end = study.is_static() ? 0 : std::llround(end_seconds(study, seconds) / study.dt());
     inner.push_back({s.begin + end, s.end - end});
   }
   return inner;

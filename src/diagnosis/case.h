@@ -87,8 +87,11 @@ double longest_seconds(const Case& study);
 double span_seconds(const Case& study);
 
 /// Time at either end of a stretch of so many seconds in which what is derived from a pose is poor
-/// [s]: the flank of the smoother's taper (data/spectral.cpp), a tenth of short ones.
-double end_seconds(double length);
+/// [s]: the flank of the smoother's taper (data/spectral.cpp) and, where fast motion passes it, the
+/// period of the cut-off within which that begins; a tenth of short ones.
+double end_seconds(const Case& study, double length);
+/// Motion beyond the smoother's cut-off has passed in one of the recordings.
+bool moves_fast(const Case& study);
 /// The segments of a log without these ends; of poses at rest as they are.
 std::vector<Segment> inner_segments(const Case& study, std::size_t log);
 /// Mean square of a channel of what is left there.

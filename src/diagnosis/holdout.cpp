@@ -65,7 +65,7 @@ HoldOut::HoldOut(const Case& fitted, const Case& recordings) {
   for (std::size_t k = 0; k < study_.logs.size(); ++k) {
     const Motion& motion = study_.logs[k].motion;
     std::vector<char> held(static_cast<std::size_t>(motion.samples()), own ? 1 : 0);
-    const double ends = motion.is_static() ? 0.0 : end_seconds(seconds_of(motion));
+    const double ends = motion.is_static() ? 0.0 : end_seconds(study_, seconds_of(motion));
     for (Index i = 0; i < motion.samples(); ++i) {
       const double t = motion.t(i);
       char& row = held[static_cast<std::size_t>(i)];
@@ -189,12 +189,18 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
   }
   std::optional<Excess> worst;
   for (std::size_t j = 0; j < errors.size(); ++j) {
-    double noise = std::max(search.floors()[j].whole_deviation(), floors[j].whole_deviation());
-    if (all) noise = std::max(noise, (*all)[j].deviation());
-    if (!search.floors()[j].pose_gain.empty()) {
-      const double square = mean_square(search.study(), search.left(), static_cast<Index>(j));
-      noise = std::max(noise, std::sqrt(square));
+    const double fitted_noise = search.floors()[j].whole_deviation();
+    const double left =
+        std::sqrt(mean_square(search.study(), search.left(), static_cast<Index>(j)));
+    // Of recordings of their own the noise is as loud as they say; of held-out blocks as it is
+    // beside them, for it is bounded by the error that is judged.
+    double noise = blocks_ ? fitted_noise : floors[j].whole_deviation();
+    if (all) {
+      const double most = std::min((*all)[j].deviation(), left);
+      noise = std::max(noise, most * std::min(1.0, noise / fitted_noise));
     }
+    // Of an axis the error of the motion has a spectrum of its own in the floor.
+    if (!fitted.axis && !search.floors()[j].pose_gain.empty()) noise = std::max(noise, left);
     const double ratio = errors[j] / std::max(1e-300, noise);
     if (ratio > kMost * (1.0 + chance) && (!worst || ratio > worst->ratio)) {
       worst = Excess{j, ratio};

@@ -86,13 +86,13 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors, const Si
     decorrelate_ = Eigen::MatrixXd::Identity(channels_, channels_);
     Eigen::LLT<Eigen::MatrixXd>(all).matrixL().solveInPlace(decorrelate_);
   }
-  const bool is_fast = std::any_of(study.logs.begin(), study.logs.end(),
-                                   [](const Log& log) { return log.motion.is_fast; });
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     std::vector<Index> before;  // sizes of the segments before this one
     for (const Segment& s : study.logs[k].motion.segments) {
       double end = moving ? kEnd / study.motion_hz : 0.0;
-      if (is_fast) end = std::max(end, end_seconds(dt * static_cast<double>(s.size())));
+      if (moves_fast(study)) {
+        end = std::max(end, end_seconds(study, dt * static_cast<double>(s.size())));
+      }
       const Index margin = std::llround(end / block_seconds_) * block_;
       const Index count = (s.size() - 2 * margin) / block_;
       if (count > 0) runs_.push_back({k, s.begin + margin, count, margin, before});
