@@ -1,0 +1,77 @@
+// Laws with a memory, and the parts that a law loses.
+#include <gtest/gtest.h>
+
+#include "discovery/dictionary.h"
+#include "discovery/support.h"
+
+namespace dcnn::discovery {
+namespace {
+
+constexpr double kBlockNoise = 0.01;  // N, deviation of a block's noise
+
+TEST(Discover, LiquidWhoseWeightTurnsLate) {
+  // 0.3 N of the weight follow with 0.7 s; the rest turns with the tool.
+  const auto lagged = [](const Scene& at) {
+    MatrixXd s(at.motion.samples(), 3);
+    for (Index k = 0; k < s.rows(); ++k) {
+      const Eigen::RowVector3d g = -0.3 * at.motion.R_BS[static_cast<std::size_t>(k)].row(2);
+      s.row(k) = k == 0 ? g : s.row(k - 1) + (1.0 - std::exp(-0.02 / 0.7)) * (g - s.row(k - 1));
+    }
+    return s;
+  };
+  const Scene at = scene(3, 2000), other = scene(77, 2000);
+  const auto laws =
+      discover(problem_of(at, lagged(at) + white(2000, kBlockNoise, 20), kBlockNoise));
+  ASSERT_FALSE(laws.empty());
+  const MatrixXd error = prediction(other, laws) - lagged(other);
+  EXPECT_LE(std::sqrt(error.squaredNorm() / static_cast<double>(error.size())), 0.32 * kBlockNoise)
+      << law::expression(laws[0].law);
+  EXPECT_NE(law::expression(laws[0].law).find("lag(base_z"), std::string::npos)
+      << law::expression(laws[0].law);
+}
+
+TEST(Discover, ForceBehindALag) {
+  // A polymer pad: 4 % of the load follows with 0.8 s.
+  const auto lagged = [](const Scene& at) {
+    MatrixXd s = at.load;
+    for (Index k = 1; k < s.rows(); ++k) {
+      s.row(k) = s.row(k - 1) + (1.0 - std::exp(-0.02 / 0.8)) *
+                                    (0.5 * (at.load.row(k) + at.load.row(k - 1)) - s.row(k - 1));
+    }
+    return MatrixXd(0.02 * s);
+  };
+  const Scene at = scene(3, 2000), other = scene(77, 2000);
+  const auto laws =
+      discover(problem_of(at, lagged(at) + white(2000, kBlockNoise, 14), kBlockNoise));
+  ASSERT_FALSE(laws.empty());
+  const MatrixXd error = prediction(other, laws) - lagged(other);
+  EXPECT_LE(std::sqrt(error.squaredNorm() / static_cast<double>(error.size())), 0.32 * kBlockNoise);
+  EXPECT_NE(law::expression(laws[0].law).find("lag(load"), std::string::npos);
+}
+
+// "Stronger by 10^6 % where the speed is near 0" is "where the speed is near 0": one number fewer.
+TEST(Discover, AModulatorOfWhichOnlyOneIsNoPartLosesIt) {
+  static const Scene at = scene(3, 500);
+  const Problem problem = problem_of(at, white(500, kBlockNoise, 4), kBlockNoise);
+  const Data data(problem);
+  for (const auto& [shape, coordinate] :
+       {std::pair{"falling", "v_base_x"}, {"affine", "gamma"}, {"wavy", "alpha"}}) {
+    const std::size_t c = coordinate_named(coordinate);
+    const Piece from = centred(piece(shape, c, 0.5 * data.half_range(c), 1e4), data.middle(c));
+    const VectorXd whole = data.product({from}, Sketch{});
+    double least = 1.0;  // of the form that differs least, as a share
+    for (const Piece& other : other_shapes(data, from)) {
+      EXPECT_NE(other.factor.shape, from.factor.shape);
+      const VectorXd x = data.product({other}, Sketch{});
+      const VectorXd left = whole - x * (x.dot(whole) / x.squaredNorm());
+      least = std::min(least, left.norm() / whole.norm());
+    }
+    EXPECT_LT(least, 1e-3) << shape;
+    Piece slight = from;
+    slight.extra = 0.3;
+    EXPECT_LT(other_shapes(data, slight).size(), other_shapes(data, from).size());
+  }
+}
+
+}  // namespace
+}  // namespace dcnn::discovery
