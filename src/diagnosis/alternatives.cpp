@@ -40,9 +40,7 @@ std::vector<double> noisier(const std::vector<Floor>& other, const std::vector<F
 }  // namespace
 
 std::vector<std::vector<Alternative>> Search::alternatives() const {
-  constexpr double kAkaike = 0.2;  // the same for a faint effect (Akaike 1974)
-  constexpr double kFaint = 15.0;  // prices
-  constexpr double kBend = 0.06;   // of a gain: what another bend of a law is worth
+  constexpr double kBend = 0.06;  // of a gain: what another bend of a law is worth
   const double price = setting_->price, loud = rest_loudness();
   Scale at_hand(*setting_, fit_);
   const auto brings_noise = [&](const Member& m) { return brings_position_noise(study_, m); };
@@ -56,7 +54,6 @@ std::vector<std::vector<Alternative>> Search::alternatives() const {
     if (own.fixed) continue;
     const JointFit& rest = without(m);
     const double told = net_gain_as_trial(m), own_gain = gain(m);
-    const double each = own_gain < kFaint * price ? kAkaike : kLeastOfMore;
     for (const Trial& trial : others(m)) {
       // What explains a remainder better than the member explains its own is none in its place.
       if (remains_ && trial.member.axis != own.axis) continue;
@@ -87,7 +84,7 @@ std::vector<std::vector<Alternative>> Search::alternatives() const {
       // nothing speaks for it.
       const int numbers = trial.member.parameters(), more = numbers - own.parameters();
       const double near = 0.1 * kAsLikely * price;
-      double least = more > 0 ? each * price * more * loud : price * more - near;
+      double least = more > 0 ? kLeastOfMore * price * more * loud : price * more - near;
       // A small force hides how it bends.
       if (more > 0 && same_family(trial.member, own))
         least = std::min(least, kBend * own_gain - near);

@@ -118,7 +118,7 @@ bool moves_fast(const Case& study) {
 }
 
 double end_seconds(const Case& study, double length) {
-  const double begins = moves_fast(study) ? 1.0 / study.derivative.cutoff_hz : 0.0;
+  const double begins = study.axis && moves_fast(study) ? 1.0 / study.derivative.cutoff_hz : 0.0;
   return std::min(kFlankSeconds + begins, 0.1 * length);
 }
 
@@ -126,7 +126,8 @@ std::vector<Segment> inner_segments(const Case& study, std::size_t log) {
   std::vector<Segment> inner;
   for (const Segment& s : study.logs[log].motion.segments) {
     const double seconds = study.dt() * static_cast<double>(s.size());
-    const Index end = study.is_static() ? 0 : std::llround(end_seconds(study, seconds) / study.dt());
+    const Index end =
+        study.is_static() ? 0 : std::llround(end_seconds(study, seconds) / study.dt());
     inner.push_back({s.begin + end, s.end - end});
   }
   return inner;

@@ -48,8 +48,8 @@ struct Case {
   /// a machine of usual size in rad or m and seconds.
   double axis_length = 1.0, axis_seconds = 1.0;
   std::map<std::string, double> top_speed;  ///< m/s (rad/s) along each line that friction may take
-  bool axis_moves = true;             ///< by more than the noise of its position
-  Eigen::VectorXd base_coefficients;  ///< of the base simulator's columns that are used
+  bool axis_moves = true;                   ///< by more than the noise of its position
+  Eigen::VectorXd base_coefficients;        ///< of the base simulator's columns that are used
   double lowpass_hz =
       0.0;  ///< predictions pass the zero-phase filter that the measured have passed
   double motion_hz = 20.0;                  ///< above it nothing commanded moves
@@ -87,8 +87,8 @@ double longest_seconds(const Case& study);
 double span_seconds(const Case& study);
 
 /// Time at either end of a stretch of so many seconds in which what is derived from a pose is poor
-/// [s]: the flank of the smoother's taper (data/spectral.cpp) and, where fast motion passes it, the
-/// period of the cut-off within which that begins; a tenth of short ones.
+/// [s]: the flank of the smoother's taper (data/spectral.cpp) and, where the whole motion of an
+/// axis passes it rather than a hand's tremor, a period of the cut-off; a tenth of short ones.
 double end_seconds(const Case& study, double length);
 /// Motion beyond the smoother's cut-off has passed in one of the recordings.
 bool moves_fast(const Case& study);

@@ -67,8 +67,8 @@ Json unnamed_part(const Search& search, const std::vector<BandTest>& bands, cons
   }
   Json part{{"excess_rms", excess}, {"formula", nullptr}, {"words", nullptr}};
   if (!search.remains() && refuted) {
-    part["words"] = "an error on held-out data of " + brief(refuted->ratio) +
-                    " times the noise on " + study.targets[refuted->channel];
+    part["words"] = "a held-out error of " + study.targets[refuted->channel] + " of " +
+                    brief(refuted->ratio) + " times its noise";
   }
   if (!search.remains()) return part;
   const auto most =

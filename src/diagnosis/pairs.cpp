@@ -14,10 +14,6 @@ bool is_linear(const Member& member) {
   return member.own_shapes() == 0 && member.amplitudes.size() > 0 && !member.interval_s;
 }
 
-bool is_lag(const Member& member) {
-  return member.name() == "time_delay" || member.name() == "lowpass";
-}
-
 /// The gain of fitting these columns, from the Gram matrix of all.
 double gain_of(const Eigen::MatrixXd& gram, const Eigen::VectorXd& match,
                const std::vector<Index>& columns) {
@@ -106,58 +102,6 @@ bool Search::replace_pairs() {
       if (base.chi2 - fit.chi2 - setting_->price * numbers < own + 0.2 * setting_->price) continue;
       settle(others);
       return true;
-    }
-  }
-  return false;
-}
-
-/// Takes these members in place of `split` if they earn their numbers better. A law acts along an
-/// axis once: one that is there already serves as that part.
-bool Search::exchange(std::size_t split, const std::vector<Member>& parts) {
-  const JointFit& rest = without(split);
-  std::vector<Member> members = rest.members;
-  int numbers = 0;
-  for (const Member& part : parts) {
-    if (!is_listed(study_, *part.kind)) return false;
-    const bool there = std::any_of(rest.members.begin(), rest.members.end(), [&](const Member& m) {
-      return m.kind == part.kind && m.axis == part.axis;
-    });
-    if (there) continue;
-    members.push_back(part);
-    numbers += part.parameters();
-  }
-  const JointFit fit = joint_fit(*setting_, members);
-  const double net = rest.chi2 - fit.chi2 - setting_->price * numbers;
-  if (net < net_gain(split) + 0.2 * setting_->price) return false;
-  settle(fit.members);
-  return true;
-}
-
-/// Two laws in place of one that bends to both, where neither gains alone: dry friction and one
-/// that grows with the speed instead of a Stribeck curve; a delay and a low-pass instead of one
-/// lag.
-bool Search::split() {
-  const auto made = [&](const char* effect, const std::string& axis,
-                        const Eigen::VectorXd& shapes) {
-    const EffectKind& kind = *find_effect(effect);
-    return make_member(study_, kind, kind.fits[0], axis, shapes);
-  };
-  const auto one = [](double shape) { return Eigen::VectorXd::Constant(1, shape); };
-  const auto lags = std::count_if(fit_.members.begin(), fit_.members.end(), is_lag);
-  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
-    const Member own = fit_.members[m];
-    if (own.name() == "stribeck_friction") {
-      for (const char* growing : {"viscous_friction", "quadratic_drag"}) {
-        for (const double v0 : {0.005, 0.03}) {  // of the axis' unit of speed
-          const double speed = v0 * study_.axis_length / study_.axis_seconds;
-          const Member dry = made("coulomb_friction", own.axis, one(speed));
-          if (exchange(m, {dry, made(growing, own.axis, {})})) return true;
-        }
-      }
-    }
-    if (is_lag(own) && lags == 1) {
-      const Eigen::VectorXd half = one(0.5 * own.shapes(0));
-      if (exchange(m, {made("time_delay", "", half), made("lowpass", "", half)})) return true;
     }
   }
   return false;

@@ -233,7 +233,7 @@ void Search::explore() {
     }
     if (fit_.members.empty() || fit_.members.size() == apart_.size()) return;
     say("trying other effects in place of those found");
-    if (!study_.without.exchange && (swap() || split() || replace_pairs())) continue;
+    if (!study_.without.exchange && (swap() || replace_pairs())) continue;
     if (recut || study_.is_static()) return;
     recut = true;
     const bool lag = std::any_of(fit_.members.begin(), fit_.members.end(),

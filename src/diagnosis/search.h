@@ -153,8 +153,6 @@ class Search {
   std::optional<std::size_t> cancelled() const;
   bool swap();
   bool floor_moved() const;
-  bool split();
-  bool exchange(std::size_t split, const std::vector<Member>& parts);
   bool replace_pairs();
   void explore();
   /// Leaves rows out that are outlying beside the model at hand: whether others than before.
@@ -176,7 +174,6 @@ class Search {
   bool admit_slow_noise();
   bool admit_colour();
   void judge();
-  void prefer_fewer_numbers();
   void hold_untold();
   void straighten_drifts();
   void keep_what_carries_over();

@@ -161,6 +161,27 @@ std::string consistent(const Json& report) {
                               : ".");
 }
 
+/// Where something simpler does better than all that was found, on any channel: a constant, or the
+/// simulator with its own numbers refitted.
+std::string what_does_better(const Json& report) {
+  const Json& fit = report["fit"];
+  const std::pair<const char*, const char*> rivals[] = {
+      {"holdout_rms_measured", "a constant"},
+      {"holdout_rmse_parameters", "the simulator with its own numbers refitted"}};
+  std::string text;
+  for (const auto& [key, words] : rivals) {
+    const Json errors = fit.value(key, Json());
+    for (std::size_t j = 0; j < errors.size(); ++j) {
+      const double rival = errors[j], after = fit["holdout_rmse_after"][j];
+      if (rival >= after || brief(rival) == brief(after)) continue;
+      text += " Of " + report["targets"][j].get<std::string>() + ' ' + words +
+              " leaves less: " + brief(rival) + ' ' +
+              unit_text(report["units"][j].get<std::string>()) + '.';
+    }
+  }
+  return text;
+}
+
 /// What is missing, and what it is worth.
 std::string answer(const Json& report) {
   const Json& fit = report["fit"];
@@ -175,7 +196,8 @@ std::string answer(const Json& report) {
          (missing.others.empty() ? ""
                                  : " In the fitted recordings, without effect on the held-out "
                                    "error: " +
-                                       missing.others + ".");
+                                       missing.others + ".") +
+         what_does_better(report);
 }
 
 }  // namespace

@@ -186,7 +186,6 @@ void Search::judge() {
   while (take_back_relatives()) {
   }
   drop_coincidences();
-  prefer_fewer_numbers();
   if (study_.is_static()) return;
   choose_cutoff(fit_.members);  // beside what is no more another one was best
   settle(fit_.members);
@@ -194,8 +193,7 @@ void Search::judge() {
 }
 
 /// Of a machine, where laws are never constant to the last digit: a name must help on pieces of
-/// time on which it was not fitted; and a mode must be one after its fit as before it. What stays
-/// may need fewer numbers.
+/// time on which it was not fitted; and a mode must be one after its fit as before it.
 void Search::keep_what_carries_over() {
   constexpr double kMostOfIt = 0.5;
   std::vector<Member> members = fit_.members;
@@ -214,7 +212,6 @@ void Search::keep_what_carries_over() {
     if (!least) break;
     settle(members_without(*least));
   }
-  prefer_fewer_numbers();
 }
 
 }  // namespace dcnn

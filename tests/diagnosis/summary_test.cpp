@@ -44,6 +44,18 @@ TEST(Headline, SaysThatAllItNamesIsWithoutEffectOnTheHeldOutError) {
       << headline(report);
 }
 
+TEST(Headline, SaysWhatIsBetterThanAllThatWasFound) {
+  Json report = summary_report(Json::array({finding_of("dry friction of 0.4 N", 0.9)}));
+  report["fit"]["holdout_rmse_after"] = {0.04, 0.45};
+  report["fit"]["holdout_rmse_parameters"] = {0.9, 0.42};
+  EXPECT_TRUE(headline(report).ends_with(
+      "Of fy the simulator with its own numbers refitted leaves less: 0.42 N."))
+      << headline(report);
+  report["fit"]["holdout_rms_measured"] = {2.0, 0.3};
+  EXPECT_NE(headline(report).find("Of fy a constant leaves less: 0.3 N."), std::string::npos)
+      << headline(report);
+}
+
 TEST(Headline, WhereNothingIsMissingSpeaksOfTheWorstChannel) {
   Json report = summary_report(Json::array());
   report["verdict"] = "consistent";

@@ -58,6 +58,7 @@ const EffectKind effect{
     .stream = stream,
     .fits = {{.amplitudes = 1,
               .non_negative = true,
+              .most_strength = 1.0,  // that resists all that is transmitted: nothing would move
               .shapes = {{"v0", 3e-4, 0.3, {0.003, 0.012, 0.05}, 1, -1, true}},
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
