@@ -7,6 +7,7 @@
 #include "core/elementary.h"
 #include "data/median.h"
 #include "dcnn/diagnosis/decision.h"
+#include "diagnosis/evidence/priors.h"
 
 namespace dcnn {
 namespace {
@@ -69,6 +70,7 @@ std::vector<Span> outlying(const Setting& setting, const Signals& left,
   const double deviation = kDeviationOfMedian * median(sizes);
   std::vector<Span> spans;
   double theirs = 0.0, whole = 0.0;
+  std::size_t foreign = 0;
   for (const HalfSecond& s : all) {
     const double energy = elementary::exp(s.size);
     const double tail = 0.5 * std::erfc((s.size - middle) / (deviation * std::sqrt(2.0)));
@@ -80,10 +82,12 @@ std::vector<Span> outlying(const Setting& setting, const Signals& left,
     const bool continues = !spans.empty() && spans.back().log == s.log && begin <= spans.back().end;
     if (!continues) spans.push_back({s.log, begin, end});
     spans.back().end = end;
-    theirs += energy;
+    theirs += energy, ++foreign;
   }
-  // With less than that they decide about no number.
-  return theirs >= kMachineShare * whole ? spans : std::vector<Span>{};
+  // With less of the energy they decide about no number.
+  const bool are_few = static_cast<double>(foreign) <=
+                       evidence::prior::kMostForeign * static_cast<double>(all.size());
+  return are_few && theirs >= kMachineShare * whole ? spans : std::vector<Span>{};
 }
 
 }  // namespace dcnn

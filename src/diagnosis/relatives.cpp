@@ -19,6 +19,19 @@ constexpr double kLeastDoubtBeside = 0.003;  // the same beside a law that is re
 constexpr double kSmallRest = 0.05;          // of what was missing
 constexpr double kSlowPart = 0.7;            // of what is left
 
+/// A cogging beside a spring, or a hysteresis, of its angle that does not repeat itself within the
+/// motion (a cubic less its line has one period and a half): together they are a spring that bends.
+bool bends_a_spring(const Member& cogging, const std::vector<Member>& members) {
+  constexpr double kRepeats = 2.0;  // periods; the least shape makes one
+  const bool once =
+      cogging.name() == "cogging" && cogging.shapes(0) < kRepeats * cogging.least_shapes(0);
+  const auto angle = [](const Member& m) { return m.axis.substr(0, m.axis.find(':')); };
+  return once && std::any_of(members.begin(), members.end(), [&](const Member& m) {
+           const bool bends = m.name() == "cable_spring" || m.name() == "hysteresis";
+           return bends && angle(m) == angle(cogging);
+         });
+}
+
 }  // namespace
 
 /// Where little is left, and slowly, the offset wanders as no drift does: that falls on all columns
@@ -53,6 +66,7 @@ std::vector<double> Search::doubts(double little) {
     if (tests[m].refutes() && tests[m].excess > slack) {
       apart = std::max(apart, tests[m].above(loud) / kInconstant);
     }
+    if (bends_a_spring(fit_.members[m], fit_.members)) apart = kInfinity;
     // Beside an offset that wanders a bias is its mean.
     if (loud > 1.0 && fit_.members[m].name() == "bias") apart = 0.0;
     // Motion that nobody sees rings in a mode here and there. One that leaves more where modes are,

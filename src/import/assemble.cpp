@@ -7,6 +7,7 @@
 #include "data/text.h"
 #include "dcnn/core/error.h"
 #include "import/clocks.h"
+#include "import/roles.h"
 #include "import/stream_table.h"
 
 namespace dcnn {
@@ -72,8 +73,8 @@ void put_on_regular_clock(double hz, const std::string& file, Imported* imported
 }
 
 void check_columns(const ForeignLog& log, const Recipe& recipe) {
-  require(!recipe.columns.empty(), Exit::kData, log.file,
-          ": no channel is known by its name; see --dry-run, then say --map fx=CHANNEL and so on");
+  require(!recipe.columns.empty(), Exit::kData, log.file, ": ", kHowToName,
+          "; --dry-run lists the channels");
   for (std::size_t a = 0; a < recipe.columns.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
       require(recipe.columns[a].to != recipe.columns[b].to, Exit::kData, log.file, ": column ",

@@ -13,6 +13,12 @@ namespace dcnn {
 /// "tau:elbow" (joints). Empty where the name says nothing.
 std::string role_of(const LogStream& stream, const std::string& channel);
 
+/// What to say of a log in which no channel is known by its name.
+inline constexpr const char* kHowToName =
+    "no channel is known by its name: say --map fx=CHANNEL and so on for a wrench and its pose, or "
+    "--map q:1=CHANNEL --map tau:1=CHANNEL for a joint's position and its torque or current, and "
+    "--clock CHANNEL";
+
 /// Lower-case words of a name: "Force[X] (N)" is {force, x}.
 std::vector<std::string> words_of_name(const std::string& name);
 

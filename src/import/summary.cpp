@@ -7,6 +7,7 @@
 #include "dcnn/core/error.h"
 #include "dcnn/core/excerpt.h"
 #include "import/clocks.h"
+#include "import/roles.h"
 #include "import/units.h"
 
 namespace dcnn {
@@ -124,6 +125,7 @@ std::string describe(const ForeignLog& log, const Recipe& recipe) {
   std::ostringstream out;
   out << log.file << ": " << log.format << "\n";
   for (const LogStream& stream : log.streams) describe_stream(log, stream, recipe, out);
+  if (recipe.columns.empty()) out << kHowToName << "\n";
   return out.str();
 }
 

@@ -41,6 +41,9 @@ constexpr double kElsewhere = 0.04;
 /// such names 34 of 41 acted in the proof's mixed scenarios, 9 of 15 in those of another generator.
 constexpr double kElsewhereBesideLaw = 0.4;
 
+/// Share of a machine's recordings that a collision or a hand disturbs at most: what is far off for
+/// longer is a law that was not found.
+constexpr double kMostForeign = 0.2;
 /// Of a name that fits a machine's recordings, before held-out data: even odds.
 constexpr double kFittedOnMachine = 0.5;
 
