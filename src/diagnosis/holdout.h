@@ -28,12 +28,12 @@ class HoldOut {
     std::vector<double> explained;  ///< 1 - variance of the error / variance of the measured
   };
   Worth worth(const std::vector<Member>& members, const Eigen::VectorXd& base) const;
-  /// A channel whose error exceeds 1.2 times its noise (that of the fitted recordings or of the
-  /// held-out ones, `floors`, whichever is more; with a pose that is differentiated, also
-  /// what the model leaves where it was fitted: the error of the filtered pose stands in both; or
-  /// noise_of_all() of that, if the band above the motion bears it out) by
-  /// more than chance makes of so many rows (97.5 %), of which a whitener's block counts as one:
-  /// the farthest.
+  /// A channel whose error exceeds 1.2 times its noise (`floors`, of held-out blocks that of the
+  /// fitted recordings; with a tool's pose that is differentiated also what the model leaves where
+  /// it was fitted: the error of the filtered pose stands in both; or noise_of_all() of that, if
+  /// the band above the motion bears it out, as much louder as the held-out noise is) by more than
+  /// chance makes of so many rows (97.5 %), of which a whitener's block counts as one: the
+  /// farthest.
   struct Excess {
     std::size_t channel;
     double ratio;  ///< error over noise
