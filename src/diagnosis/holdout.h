@@ -31,8 +31,8 @@ class HoldOut {
   /// A channel whose error exceeds 1.2 times its noise (`floors`, of held-out blocks that of the
   /// fitted recordings; with a tool's pose that is differentiated also what the model leaves where
   /// it was fitted: the error of the filtered pose stands in both; or noise_of_all() of that, if
-  /// the band above the motion bears it out, as much louder as the held-out noise is) by more than
-  /// chance makes of so many rows (97.5 %), of which a whitener's block counts as one: the
+  /// the band above the motion bears it out, times the ratio of held-out to fitted noise) by more
+  /// than chance makes of so many rows (97.5 %), of which a whitener's block counts as one: the
   /// farthest.
   struct Excess {
     std::size_t channel;
