@@ -16,6 +16,7 @@
 #include "diagnosis/findings.h"
 #include "diagnosis/holdout.h"
 #include "diagnosis/locate.h"
+#include "diagnosis/plain_findings.h"
 #include "diagnosis/portrait.h"
 #include "diagnosis/words.h"
 
@@ -35,17 +36,6 @@ std::vector<Member> own_parameters(const Case& study) {
     members.push_back(member);
   }
   return members;
-}
-
-/// Whether held-out channels make a finding, whatever may stand in its place, rather wrong than
-/// right.
-bool is_doubtful(const Json& finding) {
-  if (!finding.contains("against")) return false;
-  double probability = finding["confidence"];
-  for (const auto& [name, share] : finding.value("shared_with", Json::object()).items()) {
-    probability += share.get<double>();
-  }
-  return probability < 0.5;
 }
 
 const char* verdict_of(bool named, bool remains) {
@@ -210,16 +200,17 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   report["notes"] = notes_of({&study, &loaded.holdout});
   const std::vector<std::string> without = study.without.names();
   if (!without.empty()) report["without"] = without;
-  report["findings"] = findings_json(search, holdout, alternatives);
+  const std::vector<Floor> heldout_floors = holdout.floors(search);
+  // What a loose load's impacts are is not predicted.
+  std::optional<HoldOut::Excess> refuted;
+  if (!search.knocking()) refuted = holdout.excess(search, heldout_floors);
+  report["findings"] = findings_json(search, holdout, alternatives, heldout_floors,
+                                     search.remains() || refuted.has_value());
   report["refuted"] = refuted_names;
   report["search"] = {{"passes", search.passes()}, {"complete", search.is_complete()}};
   report["rivals"] = rivals_json(search, alternatives);
   report["clock_end_s"] =
       study.shared_clock && study.has_clock() ? Json(study.end_of_clock) : Json();
-  const std::vector<Floor> heldout_floors = holdout.floors(search);
-  // What a loose load's impacts are is not predicted.
-  std::optional<HoldOut::Excess> refuted;
-  if (!search.knocking()) refuted = holdout.excess(search, heldout_floors);
   const auto doubtful =
       std::count_if(report["findings"].begin(), report["findings"].end(), is_doubtful);
   report["verdict"] = verdict_of(static_cast<std::size_t>(doubtful) < report["findings"].size(),

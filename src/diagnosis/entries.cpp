@@ -191,10 +191,11 @@ void Search::leave_untold_parts() {
   const double price = setting_->price * rest_loudness();
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     if (!fit_.members[m].driver) continue;
+    const bool is_estimate = !is_at_bound(fit_.members[m], fit_.members[m].own_shapes() - 1);
     std::vector<Member> members = fit_.members;
     leave_out_lag(members[m]);
     const JointFit at_once = joint_fit(*setting_, members);
-    if (at_once.chi2 - fit_.chi2 < price) settle(at_once.members);
+    if (!is_estimate || at_once.chi2 - fit_.chi2 < price) settle(at_once.members);
   }
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     const auto levers = static_cast<double>(fit_.members[m].levers());

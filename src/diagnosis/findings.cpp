@@ -5,6 +5,7 @@
 #include "core/elementary.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/confidence.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/plain_findings.h"
 #include "diagnosis/words.h"
 
@@ -24,14 +25,17 @@ class Writer {
  public:
   Writer(const Search& search, const HoldOut& holdout) : search_(search), holdout_(holdout) {}
 
-  Json findings(const std::vector<std::vector<Alternative>>& alternatives) const {
+  Json findings(const std::vector<std::vector<Alternative>>& alternatives,
+                const std::vector<Floor>& noise, bool open) const {
     const JointFit& fit = search_.fit();
     const auto numbers = estimates(search_.setting(), fit);
     const bool held = !holdout_.empty();
     const auto likely = confidences(search_, holdout_);
     const auto against = contradicted(search_, holdout_);
-    const bool has_law = std::any_of(fit.members.begin(), fit.members.end(),
-                                     [](const Member& m) { return !m.law.is_null(); });
+    const Signals with = holdout_.prediction(fit.members, fit.base);
+    const double elsewhere = open                   ? evidence::prior::kElsewhereBesideUnknown
+                             : search_.study().axis ? evidence::prior::kElsewhereOnMachine
+                                                    : 0.0;
     const double after = held ? holdout_.mean_rmse(fit.members, fit.base) : 0.0;
     Json list = Json::array();
     for (std::size_t m = 0; m < fit.members.size(); ++m) {
@@ -49,8 +53,13 @@ class Writer {
       }
       if (!member.fixed) {
         entry["p_value"] = flip_p_value(search_.setting(), fit, m);
-        const double alone = std::min(*likely[m], against[m].probability);
-        share(has_law ? evidence::beside_a_law(alone) : alone, alternatives[m], entry);
+        double alone = std::min(*likely[m], against[m].probability);
+        if (open && held) {
+          const double part = share_explained(with, rest, noise);
+          alone *= part;
+          entry["share_of_missing"] = part;
+        }
+        share(evidence::with_elsewhere(alone, elsewhere), alternatives[m], entry);
       }
       for (const std::size_t j : against[m].channels) {
         entry["against"].push_back(search_.study().targets[j]);
@@ -116,6 +125,18 @@ class Writer {
     }
     if (!member.recording.empty()) entry["recording"] = member.recording;
     return entry;
+  }
+
+  double share_explained(const Signals& with, const JointFit& rest,
+                         const std::vector<Floor>& noise) const {
+    const Whitener& whitener = search_.setting().whitener;
+    Eigen::VectorXd variance = whitener.block_deviation().cwiseAbs2();
+    for (std::size_t j = 0; j < noise.size(); ++j) {  // as much louder as the held-out recordings
+      const double louder = noise[j].whole_deviation() / search_.floors()[j].whole_deviation();
+      variance(static_cast<Index>(j)) *= louder * louder;
+    }
+    return holdout_.share_explained(with, holdout_.prediction(rest.members, rest.base), variance,
+                                    whitener.block());
   }
 
   /// Divides a probability among a name, in any of its forms, and the effects that may stand in its
@@ -186,8 +207,9 @@ class Writer {
 }  // namespace
 
 Json findings_json(const Search& search, const HoldOut& holdout,
-                   const std::vector<std::vector<Alternative>>& alternatives) {
-  return Writer(search, holdout).findings(alternatives);
+                   const std::vector<std::vector<Alternative>>& alternatives,
+                   const std::vector<Floor>& noise, bool open) {
+  return Writer(search, holdout).findings(alternatives, noise, open);
 }
 
 Json rivals_json(const Search& search, const std::vector<std::vector<Alternative>>& alternatives) {

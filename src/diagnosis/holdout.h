@@ -55,6 +55,10 @@ class HoldOut {
   std::vector<double> support_by_channel(const Signals& with, const Signals& without,
                                          const std::vector<Floor>& floors,
                                          const std::vector<double>& gained) const;
+  /// Of what a prediction without a name leaves beyond noise, the share that the name explains
+  /// (diagnosis/evidence/support.h): of means over `block` rows, of the variances `noise`.
+  double share_explained(const Signals& with, const Signals& without, const Eigen::VectorXd& noise,
+                         Index block) const;
   std::vector<HeldOut> records(const JointFit& before, const JointFit& after) const;
   /// The same recordings without the low-pass.
   HoldOut unfiltered() const;

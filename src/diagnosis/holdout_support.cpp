@@ -61,4 +61,31 @@ std::vector<evidence::BlockChange> HoldOut::changes(const std::vector<Index>& ch
   return list;
 }
 
+double HoldOut::share_explained(const Signals& with, const Signals& without,
+                                const Eigen::VectorXd& noise, Index block) const {
+  const Index channels = study_.channel_count();
+  std::vector<evidence::MeanSquares> squares(static_cast<std::size_t>(channels));
+  double blocks = 0.0;
+  for (std::size_t k = 0; k < with.size(); ++k) {
+    const Index size = study_.logs[k].motion.is_static() ? 1 : block;
+    Eigen::RowVectorXd a = Eigen::RowVectorXd::Zero(channels), b = a;  // sums of errors
+    Index rows = 0;
+    for (Index i = 0; i < with[k].rows(); ++i) {
+      if (!held_[k][static_cast<std::size_t>(i)]) {
+        rows = 0, a.setZero(), b.setZero();
+        continue;
+      }
+      a += study_.logs[k].measured.row(i) - with[k].row(i);
+      b += study_.logs[k].measured.row(i) - without[k].row(i);
+      if (++rows < size) continue;
+      for (Index j = 0; j < channels; ++j) {
+        squares[static_cast<std::size_t>(j)].add(a(j), b(j), double(size) * std::sqrt(noise(j)));
+      }
+      blocks += 1.0;
+      rows = 0, a.setZero(), b.setZero();
+    }
+  }
+  return evidence::share_explained(squares, blocks);
+}
+
 }  // namespace dcnn

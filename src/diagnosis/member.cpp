@@ -116,11 +116,15 @@ Member make_driven(const Case& study, const EffectKind& kind, const EffectFit& f
   return make(study, kind, form, axis, shapes, driver);
 }
 
+bool is_at_bound(const Member& member, Index shape) {
+  const double most = member.most_shapes(shape), least = member.least_shapes(shape);
+  const double size = 1e-3 * std::max(std::abs(most), std::abs(least));
+  return member.shapes(shape) > most - size || (least < 0.0 && member.shapes(shape) < least + size);
+}
+
 bool is_degenerate(const Member& member) {
   for (Index i = 0; i < member.own_shapes(); ++i) {
-    const double most = member.most_shapes(i);
-    const double size = 1e-3 * std::max(std::abs(most), std::abs(member.least_shapes(i)));
-    if (member.shapes(i) > most - size) return true;
+    if (is_at_bound(member, i)) return true;
   }
   return false;
 }

@@ -59,6 +59,9 @@ struct Member {
   int parameters() const;
 };
 
+/// Whether a shape is as far as it goes, a signed one to either side: no estimate, but a bound.
+bool is_at_bound(const Member& member, Eigen::Index shape);
+
 /// A shape as far as it goes: the law bends less, or more, than any of its kind, and another that
 /// has no such shape may do.
 bool is_degenerate(const Member& member);

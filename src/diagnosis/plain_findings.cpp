@@ -153,6 +153,16 @@ Json as_constant(Json finding) {
 
 }  // namespace
 
+bool is_doubtful(const Json& finding) {
+  const Json own = finding.value("confidence", Json());
+  if (own.is_null()) return false;
+  double probability = own;
+  for (const auto& [name, share] : finding.value("shared_with", Json::object()).items()) {
+    probability += share.get<double>();
+  }
+  return probability < 0.5;
+}
+
 bool is_constant(const Json& finding) {
   if (finding["effect"] != "cable_spring" || finding.contains("driven_over")) return false;
   const Json k = numbers_of(finding, "k"), rest = numbers_of(finding, "rest");

@@ -82,22 +82,30 @@ std::string against(const Json& finding) {
 }
 
 struct Missing {
-  std::string words;   ///< findings and what has no name
-  std::string others;  ///< findings of which the held-out error does not tell
+  std::string words;     ///< findings and what has no name
+  std::string others;    ///< findings of which the held-out error does not tell
+  std::string doubtful;  ///< findings that are rather wrong than right
 };
 
 Missing what_is_missing(const Json& report) {
-  if (report.contains("arm")) return {capitalised(report["arm"]["words"].get<std::string>()), ""};
-  std::string text, others;
+  if (report.contains("arm"))
+    return {capitalised(report["arm"]["words"].get<std::string>()), "", ""};
+  std::string text, others, doubtful;
   for (const Json& finding : in_lines(report["findings"])) {
-    std::string& list = is_without_effect(finding) ? others : text;
+    std::string& list = is_doubtful(finding)         ? doubtful
+                        : is_without_effect(finding) ? others
+                                                     : text;
     list += (list.empty() ? "" : "; ") + finding["words"].get<std::string>() + against(finding);
   }
   if (!report["unnamed"]["words"].is_null()) {
     text += (text.empty() ? "" : "; and ") + report["unnamed"]["words"].get<std::string>();
   }
-  if (!text.empty() || others.empty()) return {capitalised(text), others};
-  return {capitalised(others) + ", without effect on the held-out error", ""};
+  if (text.empty() && others.empty() && !doubtful.empty()) {
+    return {"Nothing that was found is established, each rather wrong than right: " + doubtful, "",
+            ""};
+  }
+  if (!text.empty() || others.empty()) return {capitalised(text), others, doubtful};
+  return {capitalised(others) + ", without effect on the held-out error", "", doubtful};
 }
 
 /// Targets that vary above their noise, of whose variation the simulator as given explains nothing,
@@ -197,6 +205,9 @@ std::string answer(const Json& report) {
                                  : " In the fitted recordings, without effect on the held-out "
                                    "error: " +
                                        missing.others + ".") +
+         (missing.doubtful.empty()
+              ? ""
+              : " Not established, each rather wrong than right: " + missing.doubtful + ".") +
          what_does_better(report);
 }
 

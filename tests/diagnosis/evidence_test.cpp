@@ -39,8 +39,8 @@ TEST(Evidence, OfProperPriorsIsThatOfTheWholeCovariance) {
 // A flat prior is a wide one whose density at its centre is taken as one.
 // With 0.4 the law is another, which holds the name as often as not.
 TEST(Evidence, OfANameBesideALawIsNoCertainty) {
-  EXPECT_DOUBLE_EQ(beside_a_law(0.98), 0.6 * 0.98 + 0.4 * 0.5);
-  EXPECT_DOUBLE_EQ(beside_a_law(0.5), 0.5);  // decides nothing
+  EXPECT_DOUBLE_EQ(with_elsewhere(0.98, 0.4), 0.6 * 0.98 + 0.4 * 0.5);
+  EXPECT_DOUBLE_EQ(with_elsewhere(0.5, 0.4), 0.5);  // decides nothing
 }
 
 TEST(Evidence, OfAFlatPriorIsTheLimitOfWideOnes) {

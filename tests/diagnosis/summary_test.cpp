@@ -44,6 +44,26 @@ TEST(Headline, SaysThatAllItNamesIsWithoutEffectOnTheHeldOutError) {
       << headline(report);
 }
 
+// One that explains less than what has no name, or that a channel speaks against.
+TEST(Headline, SaysWhatIsNotEstablishedApart) {
+  Json hum = finding_of("a hum of 0.5 N at 0.7 Hz", 0.02),
+       friction = finding_of("dry friction of 0.4 N", 0.9);
+  hum["confidence"] = 0.2;
+  hum["shared_with"] = {{"cogging", 0.1}};
+  friction["confidence"] = 0.3;
+  friction["shared_with"] = {{"lugre_friction", 0.4}};
+  const std::string both = headline(summary_report({hum, friction}));
+  EXPECT_TRUE(both.starts_with("Dry friction of 0.4 N. The hold-out error of fx")) << both;
+  EXPECT_TRUE(
+      both.ends_with("Not established, each rather wrong than right: a hum of 0.5 N at 0.7 Hz."))
+      << both;
+  const std::string alone = headline(summary_report(Json::array({hum})));
+  EXPECT_TRUE(
+      alone.starts_with("Nothing that was found is established, each rather wrong than right: a "
+                        "hum of 0.5 N at 0.7 Hz. The hold-out"))
+      << alone;
+}
+
 TEST(Headline, SaysWhatIsBetterThanAllThatWasFound) {
   Json report = summary_report(Json::array({finding_of("dry friction of 0.4 N", 0.9)}));
   report["fit"]["holdout_rmse_after"] = {0.04, 0.45};

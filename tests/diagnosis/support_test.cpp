@@ -90,5 +90,37 @@ TEST(Support, OfAnEstimateIsThatOfTheSizeThatBothBearOut) {
   EXPECT_GE(log_support(against, 0.0), 0.0);  // nothing was known of it: nothing is refuted
 }
 
+// A force of variance a, one without a name of variance u, which the model with the name leaves,
+// and unit noise: a/(a + u), whatever the unit, in the channels in which the name acts.
+TEST(Support, TheShareOfAForceIsOfAllThatIsNoNoise) {
+  constexpr int kMany = 20000;
+  const std::pair<double, double> forces[] = {{4.0, 1.0}, {1.0, 4.0}, {1.0, 0.0}};
+  for (const auto& [a, u] : forces) {
+    for (const double unit : {1.0, 1e-3}) {
+      Rng rng({4});
+      std::vector<MeanSquares> channels(2);  // in the second the name makes no force
+      for (int i = 0; i < kMany; ++i) {
+        const double named = std::sqrt(2.0 * a) * std::sin(0.013 * i),
+                     unnamed = std::sqrt(2.0 * u) * std::sin(0.0077 * i + 1.0);
+        const double left = unnamed + rng.normal(), other = 10.0 * rng.normal();
+        channels[0].add(unit * left, unit * (left + named), unit);
+        channels[1].add(other, other, 1.0);
+      }
+      EXPECT_NEAR(share_explained(channels, kMany), a / (a + u), 0.02) << a << ' ' << u;
+    }
+  }
+}
+
+// Of a name that the held-out data do not show they say nothing.
+TEST(Support, AForceThatDoesNotActThereHasItsWholeShare) {
+  Rng rng({5});
+  std::vector<MeanSquares> channels(1);
+  for (int i = 0; i < 100; ++i) {
+    const double left = 3.0 * rng.normal();
+    channels[0].add(left, left + 1e-3, 1.0);
+  }
+  EXPECT_EQ(share_explained(channels, 100.0), 1.0);
+}
+
 }  // namespace
 }  // namespace dcnn::evidence

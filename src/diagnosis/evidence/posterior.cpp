@@ -28,8 +28,8 @@ double updated(double probability, double log_factor) {
   return std::clamp(1.0 / (1.0 + against), 0.5 * prior::kElsewhere, 1.0 - 0.5 * prior::kElsewhere);
 }
 
-double beside_a_law(double probability) {
-  return (1.0 - prior::kElsewhereBesideLaw) * probability + 0.5 * prior::kElsewhereBesideLaw;
+double with_elsewhere(double probability, double elsewhere) {
+  return (1.0 - elsewhere) * probability + 0.5 * elsewhere;
 }
 
 void Posterior::hold_a_law() {

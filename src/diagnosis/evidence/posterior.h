@@ -23,9 +23,9 @@ struct Posterior {
 /// A probability after data of likelihood ratio exp(log_factor); no nearer to 0 or 1 than half of
 /// prior::kElsewhere.
 double updated(double probability, double log_factor);
-/// A name's probability where a law without a name stands beside it: another form of the law, with
-/// prior::kElsewhereBesideLaw, holds the name as often as not.
-double beside_a_law(double probability);
+/// A name's probability where with another, `elsewhere`, the truth is none of the structures that
+/// were weighed, which then hold the name as often as not.
+double with_elsewhere(double probability, double elsewhere);
 
 /// Normalised over the structures at hand: log_named, improved by slow noise where that is
 /// likelier, against log_named and the unknown's factor; differences beside an unknown are tempered

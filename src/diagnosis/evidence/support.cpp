@@ -45,4 +45,22 @@ double log_support(const std::vector<BlockChange>& blocks, double gained) {
   return 0.5 * (all.fall + moved) * weight;
 }
 
+void MeanSquares::add(double error_with, double error_without, double deviation) {
+  const double a = error_with / deviation, b = error_without / deviation;
+  with += a * a;
+  without += b * b;
+  apart += (a - b) * (a - b);
+}
+
+double share_explained(const std::vector<MeanSquares>& channels, double blocks) {
+  double sum = 0.0, weights = 0.0;
+  for (const MeanSquares& channel : channels) {
+    const double gain = std::max(0.0, channel.without - channel.with),
+                 rest = std::max(0.0, channel.with - blocks);
+    weights += channel.apart;
+    sum += channel.apart * (rest > 0.0 ? gain / (gain + rest) : 1.0);
+  }
+  return weights < 1.0 ? 1.0 : sum / weights;
+}
+
 }  // namespace dcnn::evidence

@@ -23,4 +23,17 @@ double log_support(const std::vector<BlockChange>& blocks);
 /// hardly differs from zero says little where it is extrapolated. Never below the plain one.
 double log_support(const std::vector<BlockChange>& blocks, double gained);
 
+/// Of one channel, in units of the noise, summed over blocks: squares of the errors of a model with
+/// a name and without it, and of what the two predict apart.
+struct MeanSquares {
+  double with = 0.0, without = 0.0, apart = 0.0;
+  void add(double error_with, double error_without, double deviation);
+};
+
+/// Of what a model without a name leaves beyond noise, the share that the name explains: G/(G + E)
+/// in each channel, with G what the square of the error falls by and E what is left of it beyond
+/// noise, weighted by how far the two predict apart. 1 where that is less than the noise of one
+/// block.
+double share_explained(const std::vector<MeanSquares>& channels, double blocks);
+
 }  // namespace dcnn::evidence

@@ -53,6 +53,7 @@ const EffectKind effect{
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 1,
+              .most_strength = 1.0,  // all that passes through the mount
               .shapes = {{"freq", 1.0, 200.0, {}}, {"zeta", 2e-3, 0.9, {0.01, 0.03, 0.1}}},
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
