@@ -55,7 +55,7 @@ class Writer {
         entry["p_value"] = flip_p_value(search_.setting(), fit, m);
         double alone = std::min(*likely[m], against[m].probability);
         if (open && held) {
-          const double part = share_explained(with, rest, noise);
+          const double part = share_explained(with, without_curve(m), noise);
           alone *= part;
           entry["share_of_missing"] = part;
         }
@@ -125,6 +125,22 @@ class Writer {
     }
     if (!member.recording.empty()) entry["recording"] = member.recording;
     return entry;
+  }
+
+  /// The model without a member; of frictions along one line, which are one curve whatever its
+  /// forms are called, without all of them.
+  JointFit without_curve(std::size_t m) const {
+    const std::vector<Member>& members = search_.fit().members;
+    const auto is_of_curve = [&](const Member& other) {
+      return !other.fixed && other.kind->axis == AxisRule::kLine && same_family(other, members[m]);
+    };
+    if (std::count_if(members.begin(), members.end(), is_of_curve) < 2 ||
+        !is_of_curve(members[m])) {
+      return search_.without(m);
+    }
+    std::vector<Member> rest = members;
+    std::erase_if(rest, is_of_curve);
+    return joint_fit(search_.setting(), rest);
   }
 
   double share_explained(const Signals& with, const JointFit& rest,

@@ -109,6 +109,12 @@ std::string place_of(const Json& finding) {
   return "";
 }
 
+/// Below all numbers where there is none.
+double number_or_least(const Json& finding, const char* key) {
+  const Json value = finding.value(key, Json());
+  return value.is_null() ? -1e300 : value.get<double>();
+}
+
 /// Several findings as one, their numbers side by side.
 Json merged_friction(const Json& group) {
   Json one = group.front();
@@ -121,12 +127,13 @@ Json merged_friction(const Json& group) {
       const bool taken = one["parameters"].contains(name);
       one["parameters"][taken ? f["effect"].get<std::string>() + "." + name : name] = number;
     }
-    for (const char* key : {"confidence", "holdout_gain"}) {
-      if (!f.contains(key) || f[key].is_null() || one[key].is_null()) {
-        one[key] = nullptr;
-      } else if (f[key].get<double>() < one[key].get<double>()) {
-        one[key] = f[key];
-      }
+    // That there is friction is as probable as the most probable of its forms.
+    if (number_or_least(f, "confidence") > number_or_least(one, "confidence")) {
+      one["confidence"] = f["confidence"];
+      one["shared_with"] = f.value("shared_with", Json::object());
+    }
+    if (number_or_least(f, "holdout_gain") < number_or_least(one, "holdout_gain")) {
+      one["holdout_gain"] = f.value("holdout_gain", Json());
     }
     for (const Json& a : f["alternatives"]) {
       const Json& id = a.is_object() ? a["effect"] : a;

@@ -6,6 +6,7 @@
 
 #include "data/text.h"
 #include "import/candidates.h"
+#include "import/joint_names.h"
 #include "import/roles.h"
 
 namespace dcnn {
@@ -29,6 +30,7 @@ class JointFinder {
     }
     by_name();
     leave_lone();
+    if (found_.empty() && said_.empty()) only_joint();
     ask();
     return found_;
   }
@@ -91,6 +93,34 @@ class JointFinder {
         stream_of[role] = stream.name;
         found_.push_back({.to = role, .stream = stream.name, .channel = channel.name});
       }
+    }
+  }
+
+  /// The one joint of a log in which nothing else is known: a stream with one position and one
+  /// torque, or current, which are called so and nothing else.
+  void only_joint() {
+    for (const LogStream& stream : log_.streams) {
+      std::map<std::string, Names> channels;  // by quantity
+      for (const LogChannel& channel : stream.channels) {
+        const std::string own = channel.name.substr(channel.name.find_last_of("./") + 1);
+        const std::string quantity = lone_quantity(words_of_name(own));
+        if (!quantity.empty() && channel.finite > 0) channels[quantity].push_back(channel.name);
+      }
+      const bool torque = !channels["tau:"].empty();
+      const Names& efforts = torque ? channels["tau:"] : channels["current:"];
+      if (channels["q:"].size() != 1 || efforts.size() != 1) continue;
+      const auto add = [&](const char* quantity, const std::string& channel) {
+        found_.push_back(
+            {.to = std::string(quantity) + "1", .stream = stream.name, .channel = channel});
+      };
+      add("q:", channels["q:"][0]);
+      if (channels["qd:"].size() == 1) add("qd:", channels["qd:"][0]);
+      add("tau:", efforts[0]);
+      proposal_->notes.push_back("taken for the position and the " +
+                                 std::string(torque ? "torque" : "current") +
+                                 " of one joint: " + shown(channels["q:"][0]) + " and " +
+                                 shown(efforts[0]) + "; else say --map");
+      return;
     }
   }
 

@@ -83,6 +83,19 @@ bool names_joint(const Words& words) {
   return false;
 }
 
+std::string lone_quantity(const Words& words) {
+  std::string found;
+  for (const std::string& word : words) {
+    std::string kind = quantity_of(word);
+    const bool current = stands_in(word, {"current", "curr"});  // else a word of state
+    if (kind.empty() && current && &word == &words.back() && found.empty()) kind = "current:";
+    if (kind.empty() && says_nothing(word)) continue;
+    if (kind.empty() || !found.empty()) return "";
+    found = kind;
+  }
+  return found;
+}
+
 std::string joint_role(const Words& words, const std::string& of_file) {
   std::string kind, name;
   const auto append = [&](const std::string& part) { name += (name.empty() ? "" : "_") + part; };

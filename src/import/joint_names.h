@@ -18,4 +18,8 @@ bool names_joint(const std::vector<std::string>& words);
 /// the words are no joint's.
 std::string joint_role(const std::vector<std::string>& words, const std::string& of_file);
 
+/// "q:", "qd:" or "tau:" where the words are one quantity and nothing else, as the only joint of a
+/// log is called: {q}, {measured, torque}; "current:" of a current. Else empty.
+std::string lone_quantity(const std::vector<std::string>& words);
+
 }  // namespace dcnn

@@ -17,7 +17,7 @@ std::string role_of(const LogStream& stream, const std::string& channel);
 inline constexpr const char* kHowToName =
     "no channel is known by its name: say --map fx=CHANNEL and so on for a wrench and its pose, or "
     "--map q:1=CHANNEL --map tau:1=CHANNEL for a joint's position and its torque or current, and "
-    "--clock CHANNEL";
+    "--clock CHANNEL; or --columns with a name for each column, in their order";
 
 /// Lower-case words of a name: "Force[X] (N)" is {force, x}.
 std::vector<std::string> words_of_name(const std::string& name);

@@ -6,6 +6,7 @@
 
 #include "data/text.h"
 #include "dcnn/core/error.h"
+#include "import/roles.h"
 #include "import/text_cells.h"
 
 namespace dcnn {
@@ -174,21 +175,51 @@ bool is_row(std::string_view line, const Reading& reading, const std::vector<cha
   return numbers > 0 && 2 * texts < columns;
 }
 
-/// Names are what stands above the rows: a line without numbers, or the last such comment; a second
-/// one below it holds units.
+/// Whether a line of numbers that has another number of cells than the table stands above it: names
+/// of the table's columns come between it and the first row of that many cells.
+bool is_setting(const Lines& lines, std::size_t at, const Reading& reading,
+                const std::vector<char>& numeric) {
+  const auto cells_of = [&](const std::string& line) {
+    return row_cells(line, reading.separator, reading.cells).size();
+  };
+  if (cells_of(lines[at]) == reading.cells) return false;
+  for (std::size_t next = at + 1; next < lines.size(); ++next) {
+    if (is_aside(lines[next])) continue;
+    if (!words_of(lines[next], reading, reading.cells).empty()) return true;
+    if (cells_of(lines[next]) == reading.cells && is_row(lines[next], reading, numeric)) break;
+  }
+  return false;
+}
+
+/// How many cells are names of channels that are known.
+std::size_t known_names(const Cells& cells) {
+  return static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), [](auto cell) {
+    const std::string name(bare(cell));
+    return clock_rank(name) > 0 || !role_of({}, name).empty();
+  }));
+}
+
+/// Names are what stands above the rows: a line without numbers, of several the first of those with
+/// most known names, or the last such comment; the last one below it holds units.
 void read_heading(const Lines& lines, const Reading& reading, TextLayout* layout) {
   layout->numeric = numeric_columns(lines, reading);
 
   Cells names, below, comment;
   std::size_t at = 0;
   for (; at < lines.size(); ++at) {
-    if (!is_aside(lines[at]) && is_row(lines[at], reading, layout->numeric)) break;
+    if (!is_aside(lines[at]) && is_row(lines[at], reading, layout->numeric)) {
+      if (!is_setting(lines, at, reading, layout->numeric)) break;
+      continue;
+    }
     const Cells words = words_of(lines[at], reading, reading.cells);
     if (words.empty()) continue;
     if (is_aside(lines[at])) {
       comment = words;
+    } else if (names.empty() || known_names(words) > known_names(names)) {
+      names = words;
+      below.clear();
     } else {
-      (names.empty() ? names : below) = words;
+      below = words;
     }
   }
   layout->first_row = static_cast<Index>(at) + 1;

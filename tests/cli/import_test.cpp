@@ -104,13 +104,13 @@ TEST(ImportTool, SaysHowToNameTheChannelsOfAnAxis) {
   const test::TemporaryFolder folder;
   test::spill(folder / "log.txt", "0\t0.1\t-8\n10\t0.2\t-7\n20\t0.3\t-3\n30\t0.4\t-3\n");
   const std::string log = (folder / "log.txt").string();
-  const std::vector<std::string> named{log, "--columns", "time_ms", "position", "current"};
+  const std::vector<std::string> named{log, "--columns", "time_ms", "a", "b"};
   auto dry = named;
   dry.push_back("--dry-run");
   EXPECT_NE(run("import", dry).out.find("--map q:1=CHANNEL"), std::string::npos);
   auto said = named;
-  said.insert(said.end(), {"--clock", "time_ms", "--clock-unit", "ms", "--map", "q:1=position",
-                           "--map", "tau:1=current", "--out", (folder / "out").string()});
+  said.insert(said.end(), {"--clock", "time_ms", "--clock-unit", "ms", "--map", "q:1=a",
+                           "--map", "tau:1=b", "--out", (folder / "out").string()});
   const auto result = run("import", said);
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }

@@ -26,8 +26,10 @@ TEST(PlainFindings, TheFrictionOfAnAxisIsOneCurve) {
                             {{"fc", said(4.0, "N*m")}, {"sigma0", said(1000.0, "N*m/rad")}},
                             "friction of 4 N*m that first gives way elastically on joint2");
   lugre["alternatives"] = {"coulomb_friction", "hysteresis"};
-  const Json findings{lugre,
-                      said_finding("viscous_friction", "joint2", {{"c", said(30.0, "N*m*s/rad")}}),
+  lugre["confidence"] = 0.3;
+  Json viscous = said_finding("viscous_friction", "joint2", {{"c", said(30.0, "N*m*s/rad")}});
+  viscous["confidence"] = 0.95;
+  const Json findings{lugre, viscous,
                       said_finding("cable_spring", "joint2",
                                    {{"k", said(2.0, "N*m/rad")}, {"rest", said(0.1, "rad")}}),
                       said_finding("coulomb_friction", "joint2", {{"fc", said(8.0, "N*m")}})};
@@ -37,6 +39,7 @@ TEST(PlainFindings, TheFrictionOfAnAxisIsOneCurve) {
   EXPECT_EQ(lines[0]["words"],
             "friction: 12 N·m dry, 30 N·m·s/rad viscous, 4 mrad of presliding on joint2");
   EXPECT_EQ(lines[0]["alternatives"], Json::array({"hysteresis"}));
+  EXPECT_EQ(lines[0]["confidence"], 0.95);  // as the most probable of its forms
   EXPECT_EQ(lines[1]["effect"], "cable_spring");
 }
 

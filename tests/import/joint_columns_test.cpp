@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "dcnn/import/summary.h"
+#include "import/joint_names.h"
 #include "import/log_builder.h"
 #include "import/logs.h"
 #include "import/number_arrays.h"
@@ -113,6 +114,27 @@ TEST(JointColumns, OtherChannelsOfARecorderAreNoJoints) {
   EXPECT_EQ(axes["axes"][0]["unit"], "N");
   EXPECT_EQ(axes["axes"][0]["velocity"], "qd_1");
   EXPECT_FALSE(axes["axes"][0].contains("position"));
+}
+
+TEST(JointColumns, OfALogOfOneJointNeedNoNumber) {
+  std::string text = "t,q,dq,measured torque,desired_torque,current\n";
+  for (int k = 0; k < 20; ++k) {
+    const std::string t = std::to_string(0.01 * k);
+    text += t + ",0.5,0.25,1.5,1.6,3\n";
+  }
+  const auto recording = import_text(text);
+  EXPECT_EQ(cell(recording, "q_1", 3), 0.5);
+  EXPECT_EQ(cell(recording, "qd_1", 3), 0.25);
+  EXPECT_EQ(cell(recording, "tau_1", 3), 1.5);
+}
+
+// Two positions may be a motor's and its load's; a position beside a pose is the tool's.
+TEST(JointColumns, WhereMoreThanOneMayBeMeantAreAskedFor) {
+  EXPECT_EQ(lone_quantity({"measured", "torque"}), "tau:");
+  EXPECT_EQ(lone_quantity({"current"}), "current:");
+  EXPECT_EQ(lone_quantity({"current", "position"}), "q:");
+  EXPECT_EQ(lone_quantity({"desired", "torque"}), "");
+  EXPECT_EQ(lone_quantity({"q", "torque"}), "");
 }
 
 TEST(JointColumns, WithoutTorquesSayHowToNameThem) {

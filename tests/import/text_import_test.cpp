@@ -69,6 +69,9 @@ INSTANTIATE_TEST_SUITE_P(
         Dialect{"settings_in_every_column",
                 "Interval,0.01,Interval,0.01\nt,fx,fy,fz\n0,1.5,-0.25,1000\n"
                 "0.01,2.5,-0.25,1000\n0.02,3.5,-0.25,1000\n"},
+        Dialect{"settings_of_other_widths",
+                "Channel name,Force\nGain,2.5,3.1,4,1\nName,A,B,C\nSamples,3,3\n\nt,fx,fy,fz\n"
+                "s,N,N,N\n0,1.5,-0.25,1000\n0.01,2.5,-0.25,1000\n0.02,3.5,-0.25,1000\n"},
         Dialect{"rostopic",
                 "%time,field.header.seq,field.header.stamp,field.wrench.force.x,"
                 "field.wrench.force.y,field.wrench.force.z\n"
