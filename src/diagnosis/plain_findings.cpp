@@ -164,7 +164,8 @@ bool is_doubtful(const Json& finding) {
   const Json own = finding.value("confidence", Json());
   if (own.is_null()) return false;
   double probability = own;
-  for (const auto& [name, share] : finding.value("shared_with", Json::object()).items()) {
+  const Json shared = finding.value("shared_with", Json::object());  // lives through the loop
+  for (const auto& [name, share] : shared.items()) {
     probability += share.get<double>();
   }
   return probability < 0.5;

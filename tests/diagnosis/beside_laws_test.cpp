@@ -8,8 +8,9 @@ namespace dcnn {
 namespace {
 
 using test::Bench;
-using test::configuration;
 using test::hidden;
+
+Json slow_case(const Json& effects) { return test::at_half_rate(test::configuration(effects)); }
 
 /// A law of the speed along the tool: shape "peaked" is that of an eddy-current brake, u/(1 + u^2).
 Json drag(const char* shape, const Json& parameters) {
@@ -20,7 +21,7 @@ Json drag(const char* shape, const Json& parameters) {
 
 TEST(BesideLaws, AListedEffectKeepsItsName) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
-  const Bench bench(configuration(
+  const Bench bench(slow_case(
       {drag("peaked", {{"amplitude_n", -4.0}, {"scale_1_mps", 0.06}}),
        hidden("com", nullptr,
               {{"delta_com_x_m", 0.02}, {"delta_com_y_m", 0.0}, {"delta_com_z_m", 0.03}})}));
@@ -42,7 +43,7 @@ TEST(BesideLaws, AnEffectWithANameIsNoSecondLaw) {
   guide["law"] = {
       {"axis", "base_x"},
       {"factors", {{{"shape", "linear"}, {"of", "v_base_x"}}, {{"shape", "linear"}, {"of", "y"}}}}};
-  const Bench bench(configuration(
+  const Bench bench(slow_case(
       {guide, hidden("cable_spring", "gamma:base_y", {{"k_nprad", 1.2}, {"rest_rad", 3.2}})}));
   const Json report = bench.diagnose().report;
   EXPECT_EQ(test::names(report), std::vector<std::string>{"cable_spring"})
@@ -57,7 +58,7 @@ TEST(BesideLaws, AnEffectWithANameIsNoSecondLaw) {
 TEST(BesideLaws, ALawOfFewerNumbersTakesThePlaceOfOneName) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
   const Bench bench(
-      configuration(Json::array({drag("peaked", {{"amplitude_n", -0.7}, {"scale_1_mps", 0.05}})})));
+      slow_case(Json::array({drag("peaked", {{"amplitude_n", -0.7}, {"scale_1_mps", 0.05}})})));
   const Json report = bench.diagnose().report;
   EXPECT_EQ(report["verdict"], "unexplained") << report["findings"].dump(1);
   ASSERT_EQ(report["findings"].size(), 1u);
@@ -70,7 +71,7 @@ TEST(BesideLaws, ALawOfFewerNumbersTakesThePlaceOfOneName) {
 TEST(BesideLaws, AnEffectLeftOutOfTheCatalogueIsFoundAsAFormula) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
   const Bench bench(
-      configuration(Json::array({hidden("quadratic_drag", "tool_z", {{"c2_ns2pm2", 3.0}})})));
+      slow_case(Json::array({hidden("quadratic_drag", "tool_z", {{"c2_ns2pm2", 3.0}})})));
   DiagnosisRequest request = bench.request();
   request.without = ablation_of({"quadratic_drag"});
   const Json report = diagnose(request, nullptr).report;
@@ -86,7 +87,7 @@ TEST(BesideLaws, AnEffectLeftOutOfTheCatalogueIsFoundAsAFormula) {
 // The 1.5th power of the speed lies between a viscous friction and a drag that grows as its square.
 TEST(BesideLaws, OneLawTakesThePlaceOfTwoNamesThatImitateIt) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
-  const Bench bench(configuration(Json::array(
+  const Bench bench(slow_case(Json::array(
       {drag("power", {{"amplitude_n", -3.0}, {"scale_1_mps", 0.1}, {"power_1", 1.5}})})));
   const Json report = bench.diagnose().report;
   EXPECT_TRUE(test::names(report).empty()) << report["findings"].dump(1);
@@ -98,8 +99,8 @@ TEST(BesideLaws, OneLawTakesThePlaceOfTwoNamesThatImitateIt) {
 TEST(BesideLaws, TwoNamesThatActStayTwo) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
   const Bench bench(
-      configuration({hidden("coulomb_friction", "tool_z", {{"fc_n", 0.5}, {"v0_mps", 0.01}}),
-                     hidden("viscous_friction", "tool_z", {{"c_nspm", 6.0}})}));
+      slow_case({hidden("coulomb_friction", "tool_z", {{"fc_n", 0.5}, {"v0_mps", 0.01}}),
+                 hidden("viscous_friction", "tool_z", {{"c_nspm", 6.0}})}));
   const Json report = bench.diagnose().report;
   EXPECT_EQ(test::found(report), (std::set<std::string>{"coulomb_friction", "viscous_friction"}));
   EXPECT_EQ(report["verdict"], "explained");
@@ -122,7 +123,7 @@ TEST(BesideLaws, ADriftIsFoundBesideADragOfOneDirection) {
   Json drag = hidden("discovered", nullptr,
                      {{"amplitude_n", -2.5}, {"scale_1_mps", 0.1}, {"ratio_1", 0.0}});
   drag["law"] = {{"axis", "base_z"}, {"factors", {{{"shape", "asymmetric"}, {"of", "v_base_z"}}}}};
-  const Bench bench(configuration(
+  const Bench bench(slow_case(
       {drag, hidden("linear_drift", nullptr,
                     {{"rate_x_nps", 0.0}, {"rate_y_nps", 0.004}, {"rate_z_nps", -0.03}})}));
   const Json report = bench.diagnose().report;
@@ -143,7 +144,7 @@ TEST(BesideLaws, AScaleIsFoundBesideAnObliqueDrag) {
   drag["law"] = {{"axis", "tool_z"},
                  {"oblique", true},
                  {"factors", {{{"shape", "linear"}, {"of", "v_along"}}}}};
-  const Bench bench(configuration(
+  const Bench bench(slow_case(
       {hidden("gain", nullptr, {{"gain_x", 0.03}, {"gain_y", 0.0}, {"gain_z", 0.05}}), drag}));
   const Json report = bench.diagnose().report;
   EXPECT_EQ(test::names(report), std::vector<std::string>{"gain"}) << report["findings"].dump(1);
@@ -155,7 +156,7 @@ TEST(BesideLaws, AScaleIsFoundBesideAnObliqueDrag) {
 // The size of a law is fitted with the names beside it: a mass would else make up for it.
 TEST(BesideLaws, AScaleBesideALawComesWithoutAMass) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
-  const Bench bench(configuration(
+  const Bench bench(slow_case(
       {hidden("gain", nullptr, {{"gain_x", 0.03}, {"gain_y", 0.0}, {"gain_z", 0.05}}),
        drag("asymmetric", {{"amplitude_n", -0.8}, {"scale_1_mps", 0.1}, {"ratio_1", 0.0}})}));
   const Json report = bench.diagnose().report;
@@ -166,7 +167,7 @@ TEST(BesideLaws, AScaleBesideALawComesWithoutAMass) {
 
 // A scale of all axes and a mass make the same force: each is as likely as the other.
 TEST(SharedConfidence, IsThatOfAliases) {
-  const Bench bench(configuration(Json::array(
+  const Bench bench(slow_case(Json::array(
       {hidden("gain", nullptr, {{"gain_x", 0.03}, {"gain_y", 0.03}, {"gain_z", 0.03}})})));
   const Json report = bench.diagnose().report;
   EXPECT_EQ(report["verdict"], "explained");
@@ -179,7 +180,7 @@ TEST(SharedConfidence, IsThatOfAliases) {
 
 // Scales that differ are no mass.
 TEST(SharedConfidence, IsWholeWhereTheRecordingsDecide) {
-  const Bench bench(configuration(Json::array(
+  const Bench bench(slow_case(Json::array(
       {hidden("gain", nullptr, {{"gain_x", 0.03}, {"gain_y", -0.03}, {"gain_z", 0.02}})})));
   const Json report = bench.diagnose().report;
   ASSERT_EQ(test::names(report), std::vector<std::string>{"gain"}) << report["findings"].dump(1);
@@ -190,7 +191,7 @@ TEST(SharedConfidence, IsWholeWhereTheRecordingsDecide) {
 TEST(HeldOutData, TakeBackWhatTheyRefute) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
   const Json friction = Json::array({hidden("viscous_friction", "tool_z", {{"c_nspm", 4.0}})});
-  const Bench with(configuration(friction)), without(configuration(Json::array()));
+  const Bench with(slow_case(friction)), without(slow_case(Json::array()));
   DiagnosisRequest request = with.request();
   request.holdout = {without / "hold.csv"};
   const Json report = diagnose(request, nullptr).report;

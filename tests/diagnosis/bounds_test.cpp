@@ -33,6 +33,20 @@ JointFit friction_at(double v0, double wanted) {
   return fit;
 }
 
+// A shape of one sign vanishes at its least, one of either sign points as far as it can.
+TEST(Bounds, OfASignedShapeAreBothItsEnds) {
+  Member member = friction_at(0.1, 0.0).members[0];
+  EXPECT_TRUE(is_at_bound(member, 0));
+  EXPECT_TRUE(is_degenerate(member));
+  member.shapes(0) = 0.001;
+  EXPECT_FALSE(is_at_bound(member, 0));
+  member.least_shapes(0) = -0.1;
+  EXPECT_FALSE(is_at_bound(member, 0));
+  member.shapes(0) = -0.1;
+  EXPECT_TRUE(is_at_bound(member, 0));
+  EXPECT_TRUE(is_degenerate(member));
+}
+
 TEST(Bounds, HoldWhatWouldPassThem) {
   for (const double wanted : {0.3, 2.0, 8.0, 60.0}) {
     const JointFit fit = friction_at(0.1, wanted);

@@ -24,7 +24,7 @@ Json mode(double freq_hz, double zeta, double fraction) {
 
 /// Motion fast enough to drive modes of a few hertz.
 Json shaken(const Json& modes) {
-  Json out = configuration(modes);
+  Json out = test::at_half_rate(configuration(modes));
   for (Json& recording : out["recordings"]) {
     recording["trajectory"].update({{"hz", {0.2, 12.0}},
                                     {"tones", 20},

@@ -129,7 +129,8 @@ TEST(Entries, HaveNoAlternativesThatAreExcluded) {
           .diagnose(false)
           .report;
   for (const Json& f : report["findings"]) {
-    for (const auto& [name, share] : f.value("shared_with", Json::object()).items()) {
+    const Json shared = f.value("shared_with", Json::object());
+    for (const auto& [name, share] : shared.items()) {
       EXPECT_GT(share.get<double>(), 1e-3) << name << " in place of " << f["effect"];
     }
   }

@@ -9,6 +9,7 @@
 namespace dcnn {
 namespace {
 
+using test::at_half_rate;
 using test::Bench;
 using test::change;
 using test::configuration;
@@ -39,7 +40,7 @@ TEST(SlowRest, DryFrictionAndDragAreNoStribeckCurve) {
 // is.
 TEST(SlowRest, OfAnOffsetThatWandersTheMeanIsKept) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
-  const Bench bench(configuration(frictions_along_base()));
+  const Bench bench(at_half_rate(configuration(frictions_along_base())));
   change(bench, [](Recording& log) {
     const Eigen::ArrayXd t = log.column("t").array();
     const char* axes[] = {"fx", "fy", "fz"};
@@ -52,7 +53,7 @@ TEST(SlowRest, OfAnOffsetThatWandersTheMeanIsKept) {
   const auto after = report["fit"]["holdout_rmse_after"].get<std::vector<double>>();
   EXPECT_TRUE(found(report).count("bias") || found(report).count("thermal_drift"))
       << report["findings"].dump(1);
-  for (const double rmse : after) EXPECT_LT(rmse, 0.052) << "the noise is 0.04 N";
+  for (const double rmse : after) EXPECT_LT(rmse, 0.037) << "the noise is 0.028 N";
   for (const Json& f : report["findings"]) {
     EXPECT_NE(f["effect"], "stribeck_friction") << "what wanders does not bend a law";
   }
