@@ -144,7 +144,7 @@ TEST(BesideLaws, AScaleIsFoundBesideAnObliqueDrag) {
   drag["law"] = {{"axis", "tool_z"},
                  {"oblique", true},
                  {"factors", {{{"shape", "linear"}, {"of", "v_along"}}}}};
-  const Bench bench(slow_case(
+  const Bench bench(test::configuration(
       {hidden("gain", nullptr, {{"gain_x", 0.03}, {"gain_y", 0.0}, {"gain_z", 0.05}}), drag}));
   const Json report = bench.diagnose().report;
   EXPECT_EQ(test::names(report), std::vector<std::string>{"gain"}) << report["findings"].dump(1);
@@ -156,7 +156,7 @@ TEST(BesideLaws, AScaleIsFoundBesideAnObliqueDrag) {
 // The size of a law is fitted with the names beside it: a mass would else make up for it.
 TEST(BesideLaws, AScaleBesideALawComesWithoutAMass) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
-  const Bench bench(slow_case(
+  const Bench bench(test::configuration(
       {hidden("gain", nullptr, {{"gain_x", 0.03}, {"gain_y", 0.0}, {"gain_z", 0.05}}),
        drag("asymmetric", {{"amplitude_n", -0.8}, {"scale_1_mps", 0.1}, {"ratio_1", 0.0}})}));
   const Json report = bench.diagnose().report;

@@ -13,7 +13,6 @@
 namespace dcnn {
 namespace {
 
-using test::at_half_rate;
 using test::Bench;
 using test::change;
 using test::configuration;
@@ -65,7 +64,7 @@ TEST(Relatives, AnOffsetThatGrowsWithTheTimeIsADrift) {
 // More laws than any other search may add, and an offset that wanders as no drift does.
 TEST(Relatives, FrictionInEveryDirectionIsNamedBesideAWanderingOffset) {
   if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
-  const Bench bench(at_half_rate(configuration(frictions_along_base())));
+  const Bench bench(configuration(frictions_along_base()));
   change(bench, [](Recording& log) {
     const Eigen::ArrayXd t = log.column("t").array();
     const Eigen::ArrayXd wander = (0.9 * t).sin() + (0.37 * t + 1.0).sin() * (0.11 * t).cos();
