@@ -187,15 +187,26 @@ void Search::hold_untold() {
   if (!same_names) weigh_once();
 }
 
+void Search::leave_bounded_lags() {
+  std::vector<Member> members = fit_.members;
+  bool some = false;
+  for (Member& member : members) {
+    if (!member.driver || !is_at_bound(member, member.own_shapes() - 1)) continue;
+    leave_out_lag(member);
+    some = true;
+  }
+  if (some) settle(members);
+}
+
 void Search::leave_untold_parts() {
+  leave_bounded_lags();
   const double price = setting_->price * rest_loudness();
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     if (!fit_.members[m].driver) continue;
-    const bool is_estimate = !is_at_bound(fit_.members[m], fit_.members[m].own_shapes() - 1);
     std::vector<Member> members = fit_.members;
     leave_out_lag(members[m]);
     const JointFit at_once = joint_fit(*setting_, members);
-    if (!is_estimate || at_once.chi2 - fit_.chi2 < price) settle(at_once.members);
+    if (at_once.chi2 - fit_.chi2 < price) settle(at_once.members);
   }
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     const auto levers = static_cast<double>(fit_.members[m].levers());

@@ -79,8 +79,8 @@ class Search {
   void leave_out(const std::vector<std::size_t>& members);
   /// Takes another model, whose members were fitted, and judges what it leaves.
   void adopt(const std::vector<Member>& members);
-  /// Leaves out levers and lags that gain less than their price, and lags at their bound: forces
-  /// then act at the sensor's origin, driven laws follow their signal at once.
+  /// Leaves out levers and lags that gain less than their price, and lags at their bound, which are
+  /// no estimates: forces then act at the sensor's origin, driven laws follow their signal at once.
   void leave_untold_parts();
   /// Leaves out all but what tests of their own found.
   void begin_anew();
@@ -175,6 +175,7 @@ class Search {
   bool admit_colour();
   void judge();
   void hold_untold();
+  void leave_bounded_lags();
   void straighten_drifts();
   void keep_what_carries_over();
   double rest_loudness() const;

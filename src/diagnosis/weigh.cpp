@@ -89,6 +89,7 @@ void Search::leave_out(const std::vector<std::size_t>& members) {
 
 void Search::adopt(const std::vector<Member>& members) {
   settle(members);
+  leave_bounded_lags();  // beside fewer names a lag may go as far as it can
   weigh_once();
   if (!study_.axis) judge_rest();
 }
