@@ -32,7 +32,9 @@ class Writer {
     const bool held = !holdout_.empty();
     const auto likely = confidences(search_, holdout_);
     const auto against = contradicted(search_, holdout_);
-    const Signals with = holdout_.prediction(fit.members, fit.base);
+    const auto shares = open && held
+                            ? shares_of_missing(holdout_.prediction(fit.members, fit.base), noise)
+                            : std::vector<double>();
     const double elsewhere = open                   ? evidence::prior::kElsewhereBesideUnknown
                              : search_.study().axis ? evidence::prior::kElsewhereOnMachine
                                                     : 0.0;
@@ -54,10 +56,9 @@ class Writer {
       if (!member.fixed) {
         entry["p_value"] = flip_p_value(search_.setting(), fit, m);
         double alone = std::min(*likely[m], against[m].probability);
-        if (open && held) {
-          const double part = share_explained(with, without_curve(m), noise);
-          alone *= part;
-          entry["share_of_missing"] = part;
+        if (!shares.empty()) {
+          alone *= shares[m];
+          entry["share_of_missing"] = shares[m];
         }
         share(evidence::with_elsewhere(alone, elsewhere), alternatives[m], entry);
       }
@@ -127,32 +128,46 @@ class Writer {
     return entry;
   }
 
-  /// The model without a member; of frictions along one line, which are one curve whatever its
-  /// forms are called, without all of them.
-  JointFit without_curve(std::size_t m) const {
-    const std::vector<Member>& members = search_.fit().members;
-    const auto is_of_curve = [&](const Member& other) {
-      return !other.fixed && other.kind->axis == AxisRule::kLine && same_family(other, members[m]);
-    };
-    if (std::count_if(members.begin(), members.end(), is_of_curve) < 2 ||
-        !is_of_curve(members[m])) {
-      return search_.without(m);
-    }
-    std::vector<Member> rest = members;
-    std::erase_if(rest, is_of_curve);
-    return joint_fit(search_.setting(), rest);
+  /// Frictions along one line are one curve, whatever its forms are called.
+  static bool are_one_curve(const Member& a, const Member& b) {
+    return !a.fixed && !b.fixed && a.kind->axis == AxisRule::kLine && same_family(a, b);
   }
 
-  double share_explained(const Signals& with, const JointFit& rest,
-                         const std::vector<Floor>& noise) const {
+  /// Of what is missing on held-out data beside the other members, the share that each member
+  /// explains: HoldOut::share_explained(). The forms of one curve have the share of the curve.
+  std::vector<double> shares_of_missing(const Signals& with,
+                                        const std::vector<Floor>& noise) const {
     const Whitener& whitener = search_.setting().whitener;
     Eigen::VectorXd variance = whitener.block_deviation().cwiseAbs2();
-    for (std::size_t j = 0; j < noise.size(); ++j) {  // as much louder as the held-out recordings
-      const double louder = noise[j].whole_deviation() / search_.floors()[j].whole_deviation();
-      variance(static_cast<Index>(j)) *= louder * louder;
+    for (std::size_t j = 0; j < noise.size(); ++j) {  // of the held-out recordings
+      const double ratio = noise[j].whole_deviation() / search_.floors()[j].whole_deviation();
+      variance(static_cast<Index>(j)) *= ratio * ratio;
     }
-    return holdout_.share_explained(with, holdout_.prediction(rest.members, rest.base), variance,
-                                    whitener.block());
+    const auto share_without = [&](const JointFit& rest) {
+      return holdout_.share_explained(with, holdout_.prediction(rest.members, rest.base), variance,
+                                      whitener.block());
+    };
+    const std::vector<Member>& members = search_.fit().members;
+    std::vector<double> shares;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      const auto is_of_curve = [&](const Member& other) {
+        return are_one_curve(other, members[m]);
+      };
+      const auto first = static_cast<std::size_t>(
+          std::find_if(members.begin(), members.end(), is_of_curve) - members.begin());
+      if (first < m) {
+        shares.push_back(shares[first]);
+      } else if (members[m].fixed || !members[m].law.is_null()) {
+        shares.push_back(1.0);
+      } else if (std::count_if(members.begin(), members.end(), is_of_curve) > 1) {
+        std::vector<Member> rest = members;
+        std::erase_if(rest, is_of_curve);
+        shares.push_back(share_without(joint_fit(search_.setting(), rest)));
+      } else {
+        shares.push_back(share_without(search_.without(m)));
+      }
+    }
+    return shares;
   }
 
   /// Divides a probability among a name, in any of its forms, and the effects that may stand in its

@@ -136,14 +136,22 @@ std::string worthless_part(const std::vector<std::string>& targets) {
          " on held-out data: a constant errs no more. ";
 }
 
+/// A sentence on findings that are rather wrong than right; empty where there are none.
+std::string doubtful_part(const Missing& missing) {
+  if (missing.doubtful.empty()) return "";
+  return " Not established, each rather wrong than right: " + missing.doubtful + ".";
+}
+
 /// The headline where nothing was held out.
 std::string headline_without(const Json& report) {
-  const std::string missing = report["verdict"] == "consistent"
-                                  ? "Nothing is missing that these recordings could show"
-                                  : what_is_missing(report).words;
-  return missing +
+  const bool consistent = report["verdict"] == "consistent";
+  const Missing missing =
+      consistent ? Missing{"Nothing is missing that these recordings could show", "", ""}
+                 : what_is_missing(report);
+  return missing.words +
          ". Nothing was held out (the recordings are too short, or without time), so the error on "
-         "new data is not known.";
+         "new data is not known." +
+         doubtful_part(missing);
 }
 
 /// Where nothing is missing: the channel that is left farthest above its noise.
@@ -205,10 +213,7 @@ std::string answer(const Json& report) {
                                  : " In the fitted recordings, without effect on the held-out "
                                    "error: " +
                                        missing.others + ".") +
-         (missing.doubtful.empty()
-              ? ""
-              : " Not established, each rather wrong than right: " + missing.doubtful + ".") +
-         what_does_better(report);
+         doubtful_part(missing) + what_does_better(report);
 }
 
 }  // namespace
