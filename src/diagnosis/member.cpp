@@ -83,7 +83,11 @@ Member make(const Case& study, const EffectKind& kind, const EffectFit& form,
     member.least_shapes(i) = unit_of(study, shape) * shape.low;
     member.most_shapes(i) = unit_of(study, shape) * shape.high;
     const auto top = study.top_speed.find(axis);
-    if (shape.turns_within_motion && top != study.top_speed.end()) {
+    if (top == study.top_speed.end()) continue;
+    if (shape.speed == ShapeParameter::Speed::kFalling) {
+      member.most_shapes(i) = std::max(double(member.most_shapes(i)), top->second);
+    }
+    if (shape.speed == ShapeParameter::Speed::kTurning) {
       const double within = std::max(0.5 * top->second, member.least_shapes(i));
       member.most_shapes(i) = std::min(double(member.most_shapes(i)), within);
       member.shapes(i) = std::min(double(member.shapes(i)), double(member.most_shapes(i)));

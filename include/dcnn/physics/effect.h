@@ -94,9 +94,11 @@ struct ShapeParameter {
   /// Bounds and seeds are in rad or m and s; along an axis of a machine of another size they grow
   /// with these powers of its units of length and time.
   int length = 0, time = 0;
-  /// A speed within which friction turns: at most half of the fastest motion along the axis, beyond
-  /// which it is no dry friction but grows with speed.
-  bool turns_within_motion = false;
+  /// What the fastest motion along the axis bounds. kTurning: a speed within which friction turns,
+  /// at most half of it, beyond which it is no dry friction but grows with speed. kFalling: a speed
+  /// over which friction falls, as far as it.
+  enum class Speed { kAny, kTurning, kFalling };
+  Speed speed = Speed::kAny;
 };
 
 /// How an effect is found from data: the force is linear in its amplitudes where the shapes are

@@ -27,7 +27,8 @@ const EffectKind effect{
     .stream = resisting<law>,
     .fits = {{.amplitudes = 1,
               .non_negative = true,
-              .shapes = {{"v0", 3e-4, 0.3, {0.003, 0.012, 0.05}, 1, -1, true}},
+              .shapes =
+                  {{"v0", 3e-4, 0.3, {0.003, 0.012, 0.05}, 1, -1, ShapeParameter::Speed::kTurning}},
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
                     return Json{{"fc_n", a(0)}, {"v0_mps", s(0)}};

@@ -54,8 +54,9 @@ const EffectKind effect{
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 3,
-              .shapes = {{"order", 0.5, 200.0, {}, -1},
-                         {"v0", 3e-4, 0.3, {0.003, 0.012, 0.05}, 1, -1, true}},
+              .shapes =
+                  {{"order", 0.5, 200.0, {}, -1},
+                   {"v0", 3e-4, 0.3, {0.003, 0.012, 0.05}, 1, -1, ShapeParameter::Speed::kTurning}},
               .parameters = published}},
 };
 

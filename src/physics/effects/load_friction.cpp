@@ -59,7 +59,8 @@ const EffectKind effect{
     .fits = {{.amplitudes = 1,
               .non_negative = true,
               .most_strength = 1.0,  // that resists all that is transmitted: nothing would move
-              .shapes = {{"v0", 3e-4, 0.3, {0.003, 0.012, 0.05}, 1, -1, true}},
+              .shapes =
+                  {{"v0", 3e-4, 0.3, {0.003, 0.012, 0.05}, 1, -1, ShapeParameter::Speed::kTurning}},
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
                     return Json{{"mu", a(0)}, {"v0_mps", s(0)}};

@@ -27,18 +27,17 @@ const EffectKind effect{
     .axis = AxisRule::kLine,
     .apply = resisted<law>,
     .stream = resisting<law>,
-    .fits = {{.amplitudes = 2,
-              .non_negative = true,
-              // v0/vs: friction must have set in before it can fall.
-              .shapes = {{"vs", 1e-3, 1.0, {0.01, 0.03, 0.1}, 1, -1},
-                         {"onset", 0.01, 1.0, {0.1, 0.4}}},
-              .parameters =
-                  [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
-                    return Json{{"fc_n", a(0)},
-                                {"fs_n", a(1)},
-                                {"vs_mps", s(0)},
-                                {"v0_mps", s(0) * s(1)}};
-                  }}},
+    .fits =
+        {{.amplitudes = 2,
+          .non_negative = true,
+          // v0/vs: friction must have set in before it can fall.
+          .shapes = {{"vs", 1e-3, 1.0, {0.01, 0.03, 0.1}, 1, -1, ShapeParameter::Speed::kFalling},
+                     {"onset", 0.01, 1.0, {0.1, 0.4}}},
+          .parameters =
+              [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
+                return Json{
+                    {"fc_n", a(0)}, {"fs_n", a(1)}, {"vs_mps", s(0)}, {"v0_mps", s(0) * s(1)}};
+              }}},
 };
 
 }  // namespace dcnn::effects::stribeck_friction
