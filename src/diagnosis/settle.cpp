@@ -70,21 +70,23 @@ Surroundings Search::surroundings(const std::vector<Member>& members) const {
   }
   if (study_.axis && !noise_) bound_by_residual(study_, raw, levels, floors);
   add_rounding(study_, floors);
-  const Whitener whitener(study_, floors, levels, noise_correlation(study_, raw, levels));
+  Whitener whitener(study_, floors, levels, noise_correlation(study_, raw, levels));
   const Index blocks = whitener.rows() / study_.channel_count();
   require(blocks >= kFewestBlocks, Exit::kData, study_.logs.front().recording.name, ": ", blocks,
           " blocks of ", whitener.block_seconds(),
           " s are left of the recordings without the ends of their stretches, which cannot tell "
           "noise from faults; record for longer, without gaps");
+  std::vector<Span> masked = masked_;
+  masked.insert(masked.end(), knock_spans_.begin(), knock_spans_.end());
+  masked.insert(masked.end(), outlying_.begin(), outlying_.end());
+  const Eigen::VectorXd mask = mask_of(whitener, held_out_, masked);
+  if (study_.axis) whitener.allow_for_error(made.left, mask);
   const Index stride = whitener.coarse_stride();
   made.setting = std::make_unique<Setting>(Setting{
       study_, whitener, thinned(study_, stride), whitener.at_stride(stride), measured, {}, {}});
   Setting& setting = *made.setting;
   const Index rows = setting.whitener.rows();
-  std::vector<Span> masked = masked_;
-  masked.insert(masked.end(), knock_spans_.begin(), knock_spans_.end());
-  masked.insert(masked.end(), outlying_.begin(), outlying_.end());
-  setting.mask = mask_of(setting.whitener, held_out_, masked);
+  setting.mask = mask;
   setting.nuisance.resize(rows, 0);
   for (std::size_t k = 0; k < study_.logs.front().regressors.size(); ++k) {
     Signals column;

@@ -119,6 +119,25 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors, const Si
   }
 }
 
+void Whitener::allow_for_error(const Signals& left, const Eigen::VectorXd& mask) {
+  const Eigen::ArrayXd whitened = (*this)(left).array();
+  for (Index j = 0; j < channels_; ++j) {
+    double square = 0.0, rows = 0.0;
+    for (Index row = 0; row < rows_; ++row) {
+      if (info_[static_cast<std::size_t>(row)].channel != static_cast<std::uint32_t>(j)) continue;
+      const double unweighed = whitened(row) / inverse_level_(row);
+      square += mask(row) * unweighed * unweighed;
+      rows += mask(row);
+    }
+    const double error = rows > 0.0 ? std::max(0.0, square / rows - 1.0) : 0.0;
+    for (Index row = 0; row < rows_; ++row) {
+      if (info_[static_cast<std::size_t>(row)].channel != static_cast<std::uint32_t>(j)) continue;
+      double& inverse = inverse_level_(row);
+      inverse = std::sqrt((1.0 + error) / (1.0 / (inverse * inverse) + error));
+    }
+  }
+}
+
 Index Whitener::Run::thin_begin(Index stride) const {
   Index samples = 0;
   for (const Index size : before) samples += (size - stride / 2 + stride - 1) / stride;

@@ -15,6 +15,13 @@ class Whitener {
   Whitener(const Case& study, const std::vector<Floor>& floors, const Signals& levels,
            const Eigen::MatrixXd& correlation = {});
 
+  /// Weighs rows by noise and error of the laws: level^2 -> (level^2 + m)/(1 + m), m the mean
+  /// square of what is `left` in units of the noise's, less its own 1. The noise of a machine at
+  /// rest may be a hundredth of that in motion, and its friction there is any up to the one that
+  /// breaks loose: by their noise alone such rows would outweigh all others. Rows whose `mask` is 0
+  /// say nothing.
+  void allow_for_error(const Signals& left, const Eigen::VectorXd& mask);
+
   /// The same map for signals seen at every stride-th sample (thinned()).
   Whitener at_stride(Index stride) const;
   /// A stride at which a block still holds two samples.
