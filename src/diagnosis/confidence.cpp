@@ -5,6 +5,7 @@
 
 #include "core/elementary.h"
 #include "dcnn/diagnosis/decision.h"
+#include "diagnosis/candidates.h"
 #include "diagnosis/evidence/marginal.h"
 #include "diagnosis/evidence/posterior.h"
 #include "diagnosis/evidence/priors.h"
@@ -182,16 +183,39 @@ double together(const Search& search, const HoldOut& holdout) {
       before_held_out(before.named + before.named_and_unknown, search, support), support);
 }
 
+/// Probability of a machine's names beside the scale of its simulator in their place: names that
+/// predict what was held out no better than that are none. (A tool's simulator has thirteen
+/// numbers, which follow slow laws that begin anyhow.)
+double beside_own_numbers(const Search& search, const HoldOut& holdout) {
+  if (!search.study().axis) return 1.0;
+  const std::vector<Member> numbers = own_parameters(search.study());
+  const std::vector<Member>& members = search.fit().members;
+  const bool has_all = std::all_of(numbers.begin(), numbers.end(), [&](const Member& own) {
+    return std::any_of(members.begin(), members.end(),
+                       [&](const Member& m) { return m.kind == own.kind; });
+  });
+  if (numbers.empty() || has_all) return 1.0;
+  const JointFit own = joint_fit(search.setting(), numbers);
+  const double support =
+      holdout.log_support(holdout.prediction(members, search.fit().base),
+                          holdout.prediction(own.members, own.base), search.floors());
+  return evidence::updated(before_held_out(1.0 - evidence::prior::kElsewhere, search, support),
+                           support);
+}
+
 /// Rather wrong than right; held-out data that hardly tell refute nothing.
 bool is_refuted(double probability) {
   constexpr double kNothingSaid = 0.01;  // of even odds
   return probability < 0.5 - kNothingSaid;
 }
 
-std::optional<std::size_t> least_of(const std::vector<std::optional<double>>& probabilities) {
+/// Of the names that may go, the one that explains least of the fitted rows: beside it another may
+/// seem to be refuted that is not.
+std::optional<std::size_t> weakest(const Search& search, const std::vector<bool>& may_go) {
   std::optional<std::size_t> least;
-  for (std::size_t m = 0; m < probabilities.size(); ++m) {
-    if (probabilities[m] && (!least || *probabilities[m] < *probabilities[*least])) least = m;
+  for (std::size_t m = 0; m < may_go.size(); ++m) {
+    if (!may_go[m]) continue;
+    if (!least || search.without(m).chi2 < search.without(*least).chi2) least = m;
   }
   return least;
 }
@@ -199,7 +223,10 @@ std::optional<std::size_t> least_of(const std::vector<std::optional<double>>& pr
 }  // namespace
 
 std::optional<std::size_t> refuted_of(const std::vector<std::optional<double>>& probabilities) {
-  const auto least = least_of(probabilities);
+  std::optional<std::size_t> least;
+  for (std::size_t m = 0; m < probabilities.size(); ++m) {
+    if (probabilities[m] && (!least || *probabilities[m] < *probabilities[*least])) least = m;
+  }
   return least && is_refuted(*probabilities[*least]) ? least : std::nullopt;
 }
 
@@ -207,13 +234,22 @@ Json leave_refuted(Search& search, const HoldOut& holdout) {
   Json refuted = Json::array();
   while (true) {
     const auto likely = confidences(search, holdout);
-    auto worst = refuted_of(likely);
-    if (!worst && is_refuted(together(search, holdout))) worst = least_of(likely);
+    std::vector<bool> named, unlikely;
+    for (const auto& probability : likely) {
+      named.push_back(probability.has_value());
+      unlikely.push_back(probability && is_refuted(*probability));
+    }
+    double all = 1.0;  // probability of all of them
+    auto worst = weakest(search, unlikely);
+    if (!worst) {
+      all = std::min(together(search, holdout), beside_own_numbers(search, holdout));
+      if (is_refuted(all)) worst = weakest(search, named);
+    }
     if (!worst) return refuted;
     const Member& member = search.fit().members[*worst];
     refuted.push_back({{"effect", member.name()},
                        {"axis", member.axis.empty() ? Json() : Json(member.axis)},
-                       {"confidence", *likely[*worst]}});
+                       {"confidence", std::min(all, *likely[*worst])}});
     search.leave_out({*worst});
   }
 }

@@ -23,21 +23,6 @@
 namespace dcnn {
 namespace {
 
-/// Members that are the simulator's own numbers.
-std::vector<Member> own_parameters(const Case& study) {
-  std::vector<Member> members;
-  for (const char* name : {"mass", "com", "gravity_tilt", "bias", "gain"}) {
-    const EffectKind& kind = *find_effect(name);
-    // Of another machine's simulator its scale is all that is known; a fitted base is fitted.
-    const bool scale = std::string(name) == "gain";
-    if (scale != (study.axis != nullptr) || !is_testable(study, kind)) continue;
-    Member member = make_member(study, kind, kind.fits[0], "", Eigen::VectorXd(0));
-    member.amplitudes.setZero();
-    members.push_back(member);
-  }
-  return members;
-}
-
 const char* verdict_of(bool named, bool remains) {
   if (named) return remains ? "partly-explained" : "explained";
   return remains ? "unexplained" : "consistent";
@@ -168,6 +153,11 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   if (progress) progress("judging by what was held out");
   const HoldOut holdout(search.study(), loaded.holdout);
   Json refuted_names = leave_refuted(search, holdout);
+  // Each round leaves out a name for good.
+  for (Json more = refuted_names; !more.empty() && search.remains() && search.look_again();) {
+    more = leave_refuted(search, holdout);
+    for (const Json& name : more) refuted_names.push_back(name);
+  }
   const std::vector<BandTest> bands = search.bands();
   const double unnamed = search.posterior().unknown + search.posterior().named_and_unknown;
   const std::vector<Member> names = search.names();

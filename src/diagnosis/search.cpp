@@ -25,14 +25,13 @@ constexpr double kDegenerateError = 0.05;  // the same beside a law whose shape 
 // More only ever fed what is not in the catalogue; but friction acts in every direction.
 constexpr int kMostMembers = 5, kMostFrictions = 14;
 
-/// Which effects these are, and where.
+}  // namespace
+
 std::multiset<std::string> places_of(const std::vector<Member>& members) {
   std::multiset<std::string> places;
   for (const Member& m : members) places.insert(m.name() + " " + m.axis);
   return places;
 }
-
-}  // namespace
 
 Signals difference(const Case& study, const Signals& prediction) {
   Signals left;
@@ -97,7 +96,10 @@ double Search::explained(bool all) const {
     const bool fitted = m.fixed || all || m.parameters() > 0;
     return fitted && (m.driver || !m.kind->is_constant);
   });
-  return std::max(0.0, joint_fit(*setting_, exact).chi2 - fit_.chi2);
+  // A simulator in another unit is none of the model's merits: no more than what was measured.
+  const double most =
+      setting_->mask.cwiseProduct(setting_->whitened(setting_->measured)).squaredNorm();
+  return std::clamp(joint_fit(*setting_, exact).chi2 - fit_.chi2, 0.0, most);
 }
 
 bool Search::stays(const Member& member) const {
@@ -279,6 +281,10 @@ void Search::run() {
     }
   }
   let_ring();
+  conclude();
+}
+
+void Search::conclude() {
   judge();
   hold_untold();  // a number that is not told would weigh against its effect
   const std::size_t judged = fit_.members.size();

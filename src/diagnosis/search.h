@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -75,8 +76,12 @@ class Search {
   /// For each member, other effects that the recordings cannot exclude in its place.
   std::vector<std::vector<Alternative>> alternatives() const;
 
-  /// Takes back members that other data or another law refute, and judges what is left.
+  /// Takes back members that other data or another law refute, and judges what is left. They are
+  /// not tried again.
   void leave_out(const std::vector<std::size_t>& members);
+  /// Searches beside what is left for other names than those that were left out: whether there are
+  /// other members than before.
+  bool look_again();
   /// Takes another model, whose members were fitted, and judges what it leaves.
   void adopt(const std::vector<Member>& members);
   /// Leaves out levers and lags that gain less than their price, and lags at their bound, which are
@@ -174,10 +179,12 @@ class Search {
   bool admit_slow_noise();
   bool admit_colour();
   void judge();
+  void conclude();
   void hold_untold();
   void leave_bounded_lags();
   void straighten_drifts();
-  void keep_what_carries_over();
+  bool keep_what_carries_over();
+  void keep_what_is_confirmed();
   double rest_loudness() const;
   std::vector<double> doubts(double little);
   bool take_back_relatives();
@@ -209,6 +216,7 @@ class Search {
   std::vector<Span> held_out_, masked_, knock_spans_, outlying_;
   std::vector<Member> apart_;                  // members found by tests of their own
   std::optional<Member> rounding_, knocking_;  // named, but no part of what is fitted
+  std::vector<Member> refuted_;                // by data on which they were not fitted
   std::vector<BandTest> bands_;
   evidence::Posterior posterior_;
   std::optional<std::vector<Floor>> noise_;  // admitted in place of the floor from above the motion
@@ -226,6 +234,9 @@ class Search {
 /// Whether a drift is among the members of which the recordings tell no time constant (its 95 %
 /// interval spans two decades), or a gears' friction of which they tell no variation.
 bool has_untold_shape(const Setting& setting, const JointFit& fit);
+
+/// Which effects these are, and where.
+std::multiset<std::string> places_of(const std::vector<Member>& members);
 
 /// measured - predicted per recording, of one that was zeroed without its mean.
 Signals difference(const Case& study, const Signals& prediction);

@@ -65,4 +65,18 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
   return true;
 }
 
+std::vector<Member> own_parameters(const Case& study) {
+  std::vector<Member> members;
+  for (const char* name : {"mass", "com", "gravity_tilt", "bias", "gain"}) {
+    const EffectKind& kind = *find_effect(name);
+    // Of another machine's simulator its scale is all that is known; a fitted base is fitted.
+    const bool scale = std::string(name) == "gain";
+    if (scale != (study.axis != nullptr) || !is_testable(study, kind)) continue;
+    Member member = make_member(study, kind, kind.fits[0], "", Eigen::VectorXd(0));
+    member.amplitudes.setZero();
+    members.push_back(member);
+  }
+  return members;
+}
+
 }  // namespace dcnn

@@ -150,7 +150,7 @@ void Search::judge() {
   constexpr double kPlain = 20.0;  // times what is left, that an event explains
   drop_coincidences();
   drop_unconfirmed();
-  if (study_.axis) keep_what_carries_over();
+  if (study_.axis) keep_what_is_confirmed();
   remains_ = is_alarming_now();
   if (remains_ && admit_slow_noise()) {
     if (!in_slow_noise_) explore();
@@ -179,7 +179,7 @@ void Search::judge() {
     }
   }
   if (study_.axis) {
-    keep_what_carries_over();
+    keep_what_is_confirmed();
     bands_ = band_tests(*setting_, fit_.residual);
     return;
   }
@@ -193,14 +193,17 @@ void Search::judge() {
 }
 
 /// Of a machine, where laws are never constant to the last digit: a name must help on pieces of
-/// time on which it was not fitted; and a mode must be one after its fit as before it.
-void Search::keep_what_carries_over() {
+/// time on which it was not fitted; and a mode must be one after its fit as before it. Whether any
+/// was left out.
+bool Search::keep_what_carries_over() {
   constexpr double kMostOfIt = 0.5;
-  std::vector<Member> members = fit_.members;
+  const std::size_t refuted = refuted_.size();
+  std::vector<Member> members;
   const Scan scan(*setting_, fit_);
-  std::erase_if(members, [&](const Member& m) {
-    return m.kind->stage == Stage::kResonance && !scan.is_possible(m);
-  });
+  for (const Member& m : fit_.members) {
+    const bool possible = m.kind->stage != Stage::kResonance || scan.is_possible(m);
+    (possible ? members : refuted_).push_back(m);
+  }
   if (members.size() < fit_.members.size()) settle(members);
   while (!fit_.members.empty()) {
     const auto shares = left_out_shares(*setting_, fit_);
@@ -210,7 +213,17 @@ void Search::keep_what_carries_over() {
       if (shares[m] < kMostOfIt && (!least || gain(m) < gain(*least))) least = m;
     }
     if (!least) break;
+    refuted_.push_back(fit_.members[*least]);
     settle(members_without(*least));
+  }
+  return refuted_.size() > refuted;
+}
+
+/// Searches for others in the place of names that do not carry over, until all do.
+void Search::keep_what_is_confirmed() {
+  while (keep_what_carries_over() && !is_spent()) {
+    explore();
+    drop_coincidences();
   }
 }
 

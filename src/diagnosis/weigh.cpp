@@ -82,9 +82,18 @@ void Search::leave_out(const std::vector<std::size_t>& members) {
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     if (std::find(members.begin(), members.end(), m) == members.end()) {
       rest.push_back(fit_.members[m]);
+    } else {
+      refuted_.push_back(fit_.members[m]);
     }
   }
   adopt(rest);
+}
+
+bool Search::look_again() {
+  const auto before = places_of(fit_.members);
+  explore();
+  conclude();
+  return places_of(fit_.members) != before;
 }
 
 void Search::adopt(const std::vector<Member>& members) {
