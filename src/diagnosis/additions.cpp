@@ -6,6 +6,7 @@
 
 #include "diagnosis/candidates.h"
 #include "diagnosis/events.h"
+#include "diagnosis/position_bins.h"
 #include "diagnosis/search.h"
 
 namespace dcnn {
@@ -18,11 +19,15 @@ constexpr double kNear = 0.8;         // of the gain needed, after a second one
 constexpr double kNearRounded = 0.4;  // the same where rounding bends every tangent
 
 /// An effect acts along an axis once, a hum at a frequency that recordings so long tell from
-/// others.
+/// others, a cogging at an order that so long a motion tells from others.
 bool same_place(const Member& a, const Member& b, double seconds) {
+  constexpr double kPeriods = 2.0;  // over the whole, by which two lines differ
   if (a.kind != b.kind || a.axis != b.axis || a.interval_s || b.interval_s) return false;
   if (is_undriven(a, b)) return false;
-  return a.name() != "hum" || std::abs(a.shapes(0) - b.shapes(0)) < 2.0 / seconds;
+  const bool hums = a.name() == "hum";
+  if (!hums && a.name() != "cogging") return true;
+  const double period = hums ? 1.0 / seconds : a.least_shapes(0) / kFewestTurns;
+  return std::abs(a.shapes(0) - b.shapes(0)) < kPeriods * period;
 }
 
 /// Both act along one line; that of alpha:base_x is base_x.
@@ -98,10 +103,12 @@ std::vector<Trial> Search::additions(const JointFit& fit, bool events,
     std::vector<Trial> trials(list.size());
     for_each_piece(static_cast<Index>(list.size()), [&](Index k) {
       const Member& member = list[static_cast<std::size_t>(k)];
-      const bool taken = std::any_of(fit.members.begin(), fit.members.end(), [&](const Member& m) {
-        return same_place(m, member, seconds) ||
-               (study_.axis && both_dry(m, member) && !is_undriven(m, member));
-      });
+      const auto is_at = [&](const Member& m) { return same_place(m, member, seconds); };
+      const bool taken =
+          std::any_of(refuted_.begin(), refuted_.end(), is_at) ||
+          std::any_of(fit.members.begin(), fit.members.end(), [&](const Member& m) {
+            return is_at(m) || (study_.axis && both_dry(m, member) && !is_undriven(m, member));
+          });
       if (!taken) trials[static_cast<std::size_t>(k)] = scan.evaluate(member, Detail::kCoarse);
     });
     for (const Trial& trial : trials) {

@@ -10,6 +10,7 @@
 #include "diagnosis/motion_band.h"
 #include "diagnosis/noise_floor.h"
 #include "diagnosis/periodograms.h"
+#include "diagnosis/position_bins.h"
 #include "diagnosis/shared_base.h"
 
 namespace dcnn {
@@ -115,15 +116,21 @@ bool moves(const Case& study) {
   return square / rows > kDeviations * kDeviations * noise;
 }
 
-/// Where an axis' motion ends, 20 Hz or more; a low-pass that is declared ends it.
+/// Where an axis' motion ends, and what its position alone makes, 20 Hz or more; a low-pass that is
+/// declared ends it.
 double end_of_motion(const std::vector<Recording>& recordings, const System& system,
                      const Axis& axis) {
   if (system.lowpass_hz > 0.0) return system.lowpass_hz;
-  std::vector<Eigen::VectorXd> positions;
+  std::vector<Eigen::VectorXd> positions, forces;
   for (const Recording& recording : recordings) {
-    if (recording.has(axis.position)) positions.push_back(recording.column(axis.position));
+    if (!recording.has(axis.position)) continue;
+    positions.push_back(recording.column(axis.position));
+    forces.push_back(recording.column(axis.measured));
+    if (!axis.simulated.empty()) forces.back() -= recording.column(axis.simulated);
   }
-  return std::max(Case().motion_hz, motion_band(positions, recordings.front().dt));
+  const double dt = recordings.front().dt;
+  const double band = std::max(Case().motion_hz, motion_band(positions, dt));
+  return std::max(band, band_of_position_lines(forces, positions, dt, band));
 }
 
 /// The columns that laws of the axis may follow.

@@ -9,11 +9,15 @@
 #include "core/elementary.h"
 #include "core/linear_algebra.h"
 #include "diagnosis/gear_order.h"
+#include "diagnosis/position_bins.h"
 #include "diagnosis/spectral_lines.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {
 namespace {
+
+constexpr Index kFewestBins = 16;  // of a position, beside four numbers
+constexpr Index kEvery = 5;        // samples, which tell an order as well as all
 
 /// Every combination of the seeds of a form's shapes on an axis.
 std::vector<Eigen::VectorXd> seed_grid(const Case& study, const EffectFit& form,
@@ -34,31 +38,22 @@ std::vector<Eigen::VectorXd> seed_grid(const Case& study, const EffectFit& form,
   return grid;
 }
 
-constexpr double kAngleBin = 0.02;  // rad, of a tool
-
-struct AngleBins {
-  double low = 0.0, width = kAngleBin;
-  Eigen::VectorXd sum, count;
-};
-
 /// What is left along n, collected in bins of the angle.
-AngleBins bin_by_angle(const Case& study, const Signals& left, const std::string& axis) {
-  AngleBins bins;
+PositionBins bin_by_angle(const Case& study, const Signals& left, const std::string& axis) {
+  constexpr double kAngleBin = 0.02, kMostAngleBins = 4000.0;  // rad, of a tool
   double low = 1e300, high = -1e300;
   const AngleAxis at = angle_axis(axis);
   for (const Log& log : study.logs) {
     low = std::min(low, log.motion.euler.col(at.angle).minCoeff());
     high = std::max(high, log.motion.euler.col(at.angle).maxCoeff());
   }
-  bins.low = low;
-  bins.width =
-      study.axis ? (high - low) / kPositionBins : std::max(kAngleBin, (high - low) / 4000.0);
-  const auto size = static_cast<Index>((high - low) / bins.width) + 1;
-  bins.sum = bins.count = Eigen::VectorXd::Zero(size);
+  PositionBins bins(
+      low, high,
+      study.axis ? position_bin(study) : std::max(kAngleBin, (high - low) / kMostAngleBins));
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     const Motion& motion = study.logs[k].motion;
     const Eigen::MatrixXd n_S = direction_of(at.axis, motion);
-    for (Index i = 0; i < motion.samples(); i += 5) {
+    for (Index i = 0; i < motion.samples(); i += kEvery) {
       double along = 0.0, norm = 0.0;
       for (std::size_t j = 0; j < study.channels.size(); ++j) {
         if (study.channels[j] > 2) continue;
@@ -66,56 +61,25 @@ AngleBins bin_by_angle(const Case& study, const Signals& left, const std::string
         along += n * left[k](i, static_cast<Index>(j));
         norm += n * n;
       }
-      const auto bin = static_cast<Index>((motion.euler(i, at.angle) - low) / bins.width);
-      bins.sum(bin) += along;
-      bins.count(bin) += norm;
+      bins.add(motion.euler(i, at.angle), along, norm);
     }
   }
   return bins;
-}
-
-double least_order(const AngleBins& bins) {
-  return kFewestTurns * 2.0 * std::numbers::pi /
-         (bins.width * static_cast<double>(bins.sum.size()));
-}
-
-/// The order whose sine and cosine of the angle explain most of the bins, beside a line in it.
-double best_order(const AngleBins& bins, double highest) {
-  const Index n = bins.sum.size();
-  const double range = bins.width * static_cast<double>(n), first = 0.5 * (bins.width - range);
-  double best = 0.0, most = -1.0;
-  const double step = 0.4 / range;
-  for (double order = least_order(bins); order < highest; order += step) {
-    Eigen::Matrix4d gram = Eigen::Matrix4d::Zero();
-    Eigen::Vector4d b = Eigen::Vector4d::Zero();
-    std::complex<double> wave = elementary::polar(1.0, order * first);
-    const std::complex<double> turn =
-        elementary::polar(1.0, order * bins.width);  // from bin to bin
-    for (Index k = 0; k < n; ++k, wave *= turn) {
-      const Eigen::Vector4d row(1.0, first + bins.width * static_cast<double>(k), wave.imag(),
-                                wave.real());
-      gram += bins.count(k) * row * row.transpose();
-      b += bins.sum(k) * row;
-    }
-    gram.diagonal().array() += 1e-9 * gram.diagonal().maxCoeff();
-    const double gain = b.dot(solve_symmetric(gram, b).col(0));
-    if (gain > most) most = gain, best = order;
-  }
-  return best;
 }
 
 void add_cogging(const Scan& scan, const Signals& left, std::vector<Member>& list) {
   const Case& study = scan.setting().study;
   const EffectKind& kind = *find_effect("cogging");
   for (const auto& axis : axes_of(study, kind)) {
-    const AngleBins bins = bin_by_angle(study, left, axis);
-    if (bins.sum.size() < 16 || bins.count.maxCoeff() <= 0.0) continue;
+    const PositionBins bins = bin_by_angle(study, left, axis);
+    if (bins.size() < kFewestBins || bins.count.maxCoeff() <= 0.0) continue;
     const double highest = highest_order(study, kind.fits[0].shapes[0], bins.width);
-    const double order = best_order(bins, highest);
+    const double least = least_order(study, angle_axis(axis).angle);
+    const double order = best_order(bins, least, highest);
     if (order <= 0.0) continue;
     list.push_back(
         make_member(study, kind, kind.fits[0], axis, Eigen::VectorXd::Constant(1, order)));
-    list.back().least_shapes(0) = least_order(bins);
+    list.back().least_shapes(0) = least;
     list.back().most_shapes(0) = highest;
   }
 }

@@ -7,9 +7,6 @@
 
 namespace dcnn {
 
-/// Turns of a cogging over the angle's range, below which it is hardly told from a spring.
-constexpr double kFewestTurns = 0.7;
-
 /// Members to try next to the model of a scan: every fit of the catalogue, every axis it admits,
 /// every seed of its shapes; seeds of orders and frequencies come from what the model leaves. What
 /// needs a test of its own (events, knocks, rounding, clipping) and what the log lacks the signals
@@ -32,5 +29,8 @@ std::vector<std::string> axes_of(const Case& study, const EffectKind& kind);
 
 /// Whether the recordings hold the signals that the effect needs; if not, why, in words.
 bool is_testable(const Case& study, const EffectKind& kind, std::string* why = nullptr);
+
+/// Members that are the simulator's own numbers.
+std::vector<Member> own_parameters(const Case& study);
 
 }  // namespace dcnn

@@ -48,6 +48,9 @@ constexpr double kElsewhereOnMachine = 0.3;
 /// Share of a machine's recordings that a collision or a hand disturbs at most: what is far off for
 /// longer is a law that was not found.
 constexpr double kMostForeign = 0.2;
+/// Share that one line of the position makes at least of what varies above the motion's band, for
+/// that band to hold it: faint ones are part of the noise.
+constexpr double kLeastPositionLine = 0.1;
 /// Of a name that fits a machine's recordings, before held-out data: even odds.
 constexpr double kFittedOnMachine = 0.5;
 
