@@ -16,8 +16,8 @@
 namespace dcnn {
 namespace {
 
-constexpr Index kFewestBins = 16;  // of a position, beside four numbers
-constexpr Index kEvery = 5;        // samples, which tell an order as well as all
+constexpr Index kFewestOrderBins = 16;  // of a position, beside four numbers
+constexpr Index kOrderStride = 5;       // samples, which tell an order as well as all
 
 /// Every combination of the seeds of a form's shapes on an axis.
 std::vector<Eigen::VectorXd> seed_grid(const Case& study, const EffectFit& form,
@@ -53,7 +53,7 @@ PositionBins bin_by_angle(const Case& study, const Signals& left, const std::str
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     const Motion& motion = study.logs[k].motion;
     const Eigen::MatrixXd n_S = direction_of(at.axis, motion);
-    for (Index i = 0; i < motion.samples(); i += kEvery) {
+    for (Index i = 0; i < motion.samples(); i += kOrderStride) {
       double along = 0.0, norm = 0.0;
       for (std::size_t j = 0; j < study.channels.size(); ++j) {
         if (study.channels[j] > 2) continue;
@@ -72,7 +72,7 @@ void add_cogging(const Scan& scan, const Signals& left, std::vector<Member>& lis
   const EffectKind& kind = *find_effect("cogging");
   for (const auto& axis : axes_of(study, kind)) {
     const PositionBins bins = bin_by_angle(study, left, axis);
-    if (bins.size() < kFewestBins || bins.count.maxCoeff() <= 0.0) continue;
+    if (bins.size() < kFewestOrderBins || bins.count.maxCoeff() <= 0.0) continue;
     const double highest = highest_order(study, kind.fits[0].shapes[0], bins.width);
     const double least = least_order(study, angle_axis(axis).angle);
     const double order = best_order(bins, least, highest);

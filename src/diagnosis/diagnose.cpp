@@ -18,6 +18,7 @@
 #include "diagnosis/locate.h"
 #include "diagnosis/plain_findings.h"
 #include "diagnosis/portrait.h"
+#include "diagnosis/rest.h"
 #include "diagnosis/words.h"
 
 namespace dcnn {
@@ -188,6 +189,12 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
             {"holdout_recordings", names_of(loaded.holdout)}};
   if (!zeroed.empty()) report["zeroed"] = zeroed;
   report["notes"] = notes_of({&study, &loaded.holdout});
+  if (const double share = share_within(study, rests(study)); share > 0.0) {
+    report["notes"].push_back(study.axis->axis().name + " stands still for " +
+                              brief(100.0 * share) +
+                              " % of the time, where friction may be any force up to the one that "
+                              "breaks loose: these rows decide nothing");
+  }
   const std::vector<std::string> without = study.without.names();
   if (!without.empty()) report["without"] = without;
   const std::vector<Floor> heldout_floors = holdout.floors(search);

@@ -71,7 +71,7 @@ bool exceeds(const Floor& floor, const Periodograms& p, const Eigen::VectorXd& d
 void bound_by_residual(const Case& study, const Signals& residual, const Signals& levels,
                        std::vector<Floor>& floors) {
   if (study.is_static()) return;
-  const Signals even = evened(residual, levels);
+  const Signals even = evened(study, residual, levels);
   for (std::size_t j = 0; j < floors.size(); ++j) {
     const Periodograms p = periodograms(study, even, static_cast<Index>(j));
     if (p.power.cols() == 0) continue;

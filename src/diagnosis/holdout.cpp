@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/axis_case.h"
+#include "diagnosis/rest.h"
 
 namespace dcnn {
 namespace {
@@ -61,7 +62,7 @@ HoldOut::HoldOut(const Case& fitted, const Case& recordings) {
   blocks_ = !own;
   study_ = own ? recordings : fitted;
   if (own && !study_.is_static()) set_derivative(study_, fitted.derivative);
-  const auto blocks = held_out_blocks(study_, false);
+  const auto blocks = held_out_blocks(study_, false), resting = rests(study_);
   for (std::size_t k = 0; k < study_.logs.size(); ++k) {
     const Motion& motion = study_.logs[k].motion;
     std::vector<char> held(static_cast<std::size_t>(motion.samples()), own ? 1 : 0);
@@ -73,6 +74,13 @@ HoldOut::HoldOut(const Case& fitted, const Case& recordings) {
         if (!own && span.holds(k, t) && t < span.end) row = 1;
       }
       if (t < motion.t(0) + ends || t > motion.t(motion.samples() - 1) - ends) row = 0;
+    }
+    for (const Span& span : resting) {
+      if (span.log != k) continue;
+      const auto from = std::lower_bound(motion.t.begin(), motion.t.end(), span.begin),
+                 to = std::upper_bound(motion.t.begin(), motion.t.end(), span.end);
+      std::fill(held.begin() + (from - motion.t.begin()), held.begin() + (to - motion.t.begin()),
+                0);
     }
     held_.push_back(held);
   }

@@ -158,7 +158,7 @@ double quiet_band(const Case& study) {
 
 std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const Signals& levels) {
   if (study.is_static()) return floor_at_rest(study, residual);
-  const Signals even = evened(residual, levels);
+  const Signals even = evened(study, residual, levels);
   const double dt = study.dt(), from = quiet_band(study), to = 0.49 / dt;
   std::vector<Floor> floors;
   for (Index channel = 0; channel < study.channel_count(); ++channel) {
@@ -191,7 +191,7 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const
 
 std::vector<double> quiet_density(const Case& study, const Signals& residual,
                                   const Signals& levels) {
-  const Signals even = evened(residual, levels);
+  const Signals even = evened(study, residual, levels);
   std::vector<double> list;
   for (Index channel = 0; channel < study.channel_count(); ++channel) {
     const Periodograms p = periodograms(study, even, channel);
@@ -210,7 +210,7 @@ std::optional<std::vector<Floor>> noise_of_all(const Case& study, const Signals&
   constexpr double kIndependent = 1.0 / (1.5 * 2.08);
   constexpr double kRefuted = 8.1;   // half of the 99.9 % quantile of chi-square, 3 degrees
   constexpr double kLeastOwn = 0.1;  // of what is left, that is the sensor's: tolerance
-  const Signals even = evened(residual, levels);
+  const Signals even = evened(study, residual, levels);
   const double dt = study.dt(), from = quiet_band(study), to = 0.49 / dt;
   std::vector<Floor> floors;
   for (Index channel = 0; channel < study.channel_count(); ++channel) {

@@ -118,7 +118,8 @@ double unseen_motion(const Case& study, const std::vector<Member>& members, doub
 Eigen::MatrixXd noise_correlation(const Case& study, const Signals& residual,
                                   const Signals& levels);
 
-/// Relative level of each channel's noise over time, (T, channels) per recording, of mean square 1:
+/// Relative level of each channel's noise over time, (T, channels) per recording, of mean square 1
+/// where a machine does not rest:
 /// the logarithm of the mean absolute second difference of the residual over 0.5 s, linear in the
 /// force that is predicted beside a burst of its own, both shrunk by how well they are known (the
 /// empirical Bayes estimate of James and Stein 1961), so that noise of one level has level 1.

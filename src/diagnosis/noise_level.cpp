@@ -5,6 +5,7 @@
 
 #include "core/elementary.h"
 #include "diagnosis/noise_floor.h"
+#include "diagnosis/rest.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {
@@ -125,7 +126,7 @@ Line best_line(const Signals& force, Index channel, double* knee, std::vector<Wi
 
 /// Fills column `channel` of the levels.
 void level_of(const Case& study, const Signals& residual, const Signals& force, Index channel,
-              Signals& levels) {
+              const std::vector<Span>& resting, Signals& levels) {
   std::vector<Window> windows = windows_of(study, residual, channel);
   double knee = 1.0;
   Line line = best_line(force, channel, &knee, windows);
@@ -142,6 +143,9 @@ void level_of(const Case& study, const Signals& residual, const Signals& force, 
   constexpr double kLeast = -7.0;  // logarithm of a level, where the log repeats one value
   double power = 0.0, rows = 0.0;
   for (const Window& w : windows) {
+    const double middle = study.logs[w.log].motion.t((w.begin + w.end) / 2);
+    const bool counts = std::none_of(resting.begin(), resting.end(),
+                                     [&](const Span& span) { return span.holds(w.log, middle); });
     const double own = std::isfinite(w.level) ? w.level - line.level : kLeast;
     const double burst = share * (own - line.slope * (w.load - line.load));
     for (Index i = w.begin; i < w.end; ++i) {
@@ -151,7 +155,7 @@ void level_of(const Case& study, const Signals& residual, const Signals& force, 
       }
       const double level = elementary::exp(std::clamp(log_level, kLeast, -kLeast));
       levels[w.log](i, channel) = level;
-      power += level * level, ++rows;
+      if (counts) power += level * level, ++rows;
     }
   }
   const double scale = std::sqrt(power / std::max(1.0, rows));
@@ -168,8 +172,9 @@ Signals noise_level(const Case& study, const Signals& residual) {
   }
   // On a coarse lattice differences tell where the force is, not how noisy it is.
   if (study.is_static() || study.rounding_step > 0.0) return levels;
+  const std::vector<Span> resting = rests(study);
   for (Index j = 0; j < study.channel_count(); ++j) {
-    if (!steps_hide_noise(study, j)) level_of(study, residual, force, j, levels);
+    if (!steps_hide_noise(study, j)) level_of(study, residual, force, j, resting, levels);
   }
   return levels;
 }

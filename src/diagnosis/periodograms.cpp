@@ -7,6 +7,8 @@
 #include "core/elementary.h"
 #include "data/median.h"
 #include "dcnn/data/fourier.h"
+#include "diagnosis/noise_floor.h"
+#include "diagnosis/rest.h"
 #include "diagnosis/spectral_lines.h"
 
 namespace dcnn {
@@ -61,10 +63,40 @@ Periodograms periodograms(const Case& study, const Signals& signals, Index chann
   return result;
 }
 
-Signals evened(const Signals& residual, const Signals& levels) {
+namespace {
+
+/// Means over `half` samples to either side, within each segment.
+Eigen::MatrixXd moving_mean(const Eigen::MatrixXd& x, const std::vector<Segment>& segments,
+                            Index half) {
+  Eigen::MatrixXd mean = x;
+  for (const Segment& s : segments) {
+    Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(x.cols());
+    Index from = s.begin, to = s.begin;
+    for (Index i = s.begin; i < s.end; ++i) {
+      while (to < std::min(s.end, i + half + 1)) sum += x.row(to++);
+      while (from < i - half) sum -= x.row(from++);
+      mean.row(i) = sum / static_cast<double>(to - from);
+    }
+  }
+  return mean;
+}
+
+}  // namespace
+
+Signals evened(const Case& study, const Signals& residual, const Signals& levels) {
+  const std::vector<Span> resting = rests(study);
   Signals even;
   for (std::size_t k = 0; k < residual.size(); ++k) {
     even.push_back(residual[k].cwiseQuotient(levels[k]));
+    if (resting.empty()) continue;
+    const auto half = static_cast<Index>(std::llround(0.5 / quiet_band(study) / study.dt()));
+    const Motion& motion = study.logs[k].motion;
+    const Eigen::MatrixXd slow = moving_mean(residual[k], motion.segments, half);
+    for (Index i = 0; i < motion.samples(); ++i) {
+      const bool rests = std::any_of(resting.begin(), resting.end(),
+                                     [&](const Span& span) { return span.holds(k, motion.t(i)); });
+      if (rests) even[k].row(i) += slow.row(i) - slow.row(i).cwiseQuotient(levels[k].row(i));
+    }
   }
   return even;
 }

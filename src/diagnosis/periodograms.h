@@ -13,8 +13,9 @@ struct Periodograms {
 };
 Periodograms periodograms(const Case& study, const Signals& signals, Index channel);
 
-/// A residual divided by the relative level of its noise (noise_level()).
-Signals evened(const Signals& residual, const Signals& levels);
+/// A residual divided by the relative level of its noise (noise_level()); where a machine rests
+/// only what is faster than the motion's band: what its laws err by is no quieter there.
+Signals evened(const Case& study, const Signals& residual, const Signals& levels);
 
 /// The periodograms of whole segments below the windows' third bin, scaled alike.
 struct SlowBin {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kPositionBins = 1000.0, kMostBins = 200'000.0;  // of an axis
 constexpr double kLargestPhase = 0.5;  // rad, of an order, from one bin to the next
-constexpr double kStep = 0.4;          // rad, of the phase over the whole range, between orders
+constexpr double kOrderStep = 0.4;     // rad, of the phase over the whole range, between orders
 constexpr double kFewTurns = 8.0;  // over the range, up to which an order is no stranger to a line
 
 /// Orders of the transform of bins padded to `n`, and the place of the first of at least `order`.
@@ -102,12 +102,12 @@ double best_order(const PositionBins& bins, double least, double highest) {
     if (gain > most) most = gain, best = order;
   };
   const double few = kFewTurns * 2.0 * std::numbers::pi / bins.range();
-  for (double order = least; order < std::min(few, highest); order += kStep / bins.range()) {
+  for (double order = least; order < std::min(few, highest); order += kOrderStep / bins.range()) {
     look_at(order);
   }
   if (highest <= few) return best;
   const auto size = static_cast<double>(bins.size());
-  const Index n = fast_length(std::llround(2.0 * std::numbers::pi / kStep * size));
+  const Index n = fast_length(std::llround(2.0 * std::numbers::pi / kOrderStep * size));
   const double step = order_step(bins, n);
   Eigen::VectorXd spectrum = order_spectrum(bins, n);
   for (Index k = 0; k < spectrum.size(); ++k) {
@@ -118,7 +118,7 @@ double best_order(const PositionBins& bins, double least, double highest) {
     Index peak;
     if (!(spectrum.maxCoeff(&peak) > 0.0)) break;
     look_at(step * static_cast<double>(peak));
-    const Index near = std::llround(2.0 * std::numbers::pi / kStep);  // of the same line
+    const Index near = std::llround(2.0 * std::numbers::pi / kOrderStep);  // of the same line
     const Index from = std::max<Index>(0, peak - near);
     spectrum.segment(from, std::min(spectrum.size(), peak + near + 1) - from).setZero();
   }
@@ -183,7 +183,7 @@ double band_of_position_lines(const std::vector<Eigen::VectorXd>& forces,
     }
   }
   const auto size = static_cast<double>(bins.size());
-  const Index n = fast_length(std::llround(2.0 * std::numbers::pi / kStep * size));
+  const Index n = fast_length(std::llround(2.0 * std::numbers::pi / kOrderStep * size));
   const double step = order_step(bins, n);
   const Eigen::VectorXd spectrum = order_spectrum(bins, n);
   const auto begin = static_cast<Index>(2.0 * std::numbers::pi * band_hz / speed / step) + 1;

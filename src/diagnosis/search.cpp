@@ -10,6 +10,7 @@
 #include "diagnosis/events.h"
 #include "diagnosis/evidence/priors.h"
 #include "diagnosis/outlying.h"
+#include "diagnosis/rest.h"
 
 namespace dcnn {
 namespace {
@@ -46,6 +47,7 @@ Search::Search(Case study, std::vector<Span> held_out,
                std::function<void(const std::string&)> progress)
     : study_(std::move(study)), progress_(std::move(progress)), held_out_(std::move(held_out)) {
   for (const Log& log : study_.logs) samples_ += log.motion.samples();
+  for (const Span& span : rests(study_)) held_out_.push_back(span);
 }
 
 double Search::passes() const {

@@ -11,18 +11,9 @@
 #include "diagnosis/judgement.h"
 #include "diagnosis/scan.h"
 #include "diagnosis/slow_part.h"
+#include "diagnosis/span.h"
 
 namespace dcnn {
-
-/// Rows of one recording that must not decide about anything.
-struct Span {
-  std::size_t log;
-  double begin, end;  ///< s
-  bool operator==(const Span&) const = default;
-  bool holds(std::size_t recording, double t) const {
-    return log == recording && t >= begin && t <= end;
-  }
-};
 
 /// What a model is weighed by: what it leaves, the noise that is estimated from that, and all that
 /// fits beside it share.
@@ -213,7 +204,8 @@ class Search {
   JointFit fit_;
   mutable std::vector<Place> places_;  // one a member, of fit_
   Signals left_;
-  std::vector<Span> held_out_, masked_, knock_spans_, outlying_;
+  std::vector<Span> held_out_;  // and the rests() of a machine
+  std::vector<Span> masked_, knock_spans_, outlying_;
   std::vector<Member> apart_;                  // members found by tests of their own
   std::optional<Member> rounding_, knocking_;  // named, but no part of what is fitted
   std::vector<Member> refuted_;                // by data on which they were not fitted

@@ -1,0 +1,20 @@
+// Where a machine stands still.
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/case.h"
+#include "diagnosis/span.h"
+
+namespace dcnn {
+
+/// Stretches of at least half a second in which an axis moves by less than a hundredth of what it
+/// does at its 95th percentile of speed. Friction there is any force up to that which breaks loose,
+/// a constant of its own in each of them, and no law tells it. None where the axis moves for less
+/// than a tenth of the time, or of a tool.
+std::vector<Span> rests(const Case& study);
+
+/// The share of the rows that are in one of the spans.
+double share_within(const Case& study, const std::vector<Span>& spans);
+
+}  // namespace dcnn

@@ -1,0 +1,237 @@
+// Machines that stand still most of the time, and motors that turn fast.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/linear_algebra.h"
+#include "dcnn/core/file.h"
+#include "dcnn/core/random.h"
+#include "dcnn/diagnosis/diagnose.h"
+#include "diagnosis/axis_case.h"
+#include "diagnosis/position_bins.h"
+#include "diagnosis/rest.h"
+#include "diagnosis/search.h"
+#include "support/process.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+std::vector<std::string> effects_in(const Json& report) {
+  std::vector<std::string> names;
+  for (const Json& finding : report["findings"]) names.push_back(finding["effect"]);
+  return names;
+}
+
+/// A system of one axis, with a recording to fit and one that is held out.
+class Machine {
+ public:
+  Machine(const Json& axis, const Table& fit, const Table& hold) {
+    write_file(folder_ / "system.json",
+               Json{{"kind", "axes"}, {"axes", Json::array({axis})}}.dump());
+    write_csv(folder_ / "fit.csv", fit);
+    write_csv(folder_ / "hold.csv", hold);
+  }
+  DiagnosisRequest request() const {
+    DiagnosisRequest request;
+    request.system = folder_ / "system.json";
+    request.fit = {folder_ / "fit.csv"};
+    request.holdout = {folder_ / "hold.csv"};
+    return request;
+  }
+
+ private:
+  test::TemporaryFolder folder_;
+};
+
+/// Moves of 1 s between places, 3 s of rest after each, at 125 Hz: a current of 0.1 A per N m of
+/// the simulated torque beside dry friction, which at rest holds any force up to 0.8 A. The noise
+/// at rest is a thirtieth of that in motion.
+Table moved_and_held(std::uint64_t seed) {
+  constexpr double kRowSeconds = 0.008, kMove = 1.0, kPause = 3.0, kFriction = 0.8;
+  Rng rng({seed});
+  Table table;
+  table.columns = {"t", "q", "dq", "current", "torque"};
+  table.values.resize(std::llround(60.0 / kRowSeconds), 5);
+  double from = 0.0, to = 0.0, held = 0.0;
+  for (Index k = 0; k < table.values.rows(); ++k) {
+    const double t = static_cast<double>(k) * kRowSeconds, into = std::fmod(t, kMove + kPause);
+    if (into < 0.5 * kRowSeconds) {
+      from = to, to = rng.uniform(-1.2, 1.2), held = kFriction * rng.uniform(-1.0, 1.0);
+    }
+    const double phase = std::min(1.0, into / kMove);
+    const double q = from + (to - from) * (phase - std::sin(kTurn * phase) / kTurn);
+    const double v = into < kMove ? (to - from) * (1.0 - std::cos(kTurn * phase)) / kMove : 0.0;
+    const double known = 25.0 * std::sin(q) + 12.0;
+    const bool moves = std::abs(v) > 1e-3;
+    table.values.row(k) << t, q, v,
+        0.1 * known + (moves ? kFriction * std::tanh(v / 0.01) : held) +
+            (moves ? 0.15 : 0.005) * rng.normal(),
+        known;
+  }
+  return table;
+}
+
+TEST(RestAndTurns, FrictionIsFoundAlthoughItStandsStillMostOfTheTime) {
+  const Machine machine({{"name", "joint"},
+                         {"measured", "current"},
+                         {"unit", "A"},
+                         {"position", "q"},
+                         {"velocity", "dq"},
+                         {"simulated", "torque"}},
+                        moved_and_held(1), moved_and_held(2));
+  const Json report = diagnose(machine.request(), nullptr).report;
+  const auto names = effects_in(report);
+  const std::vector<std::string> gain_and_friction{"gain", "coulomb_friction"};
+  EXPECT_EQ(names, gain_and_friction) << report["findings"].dump(1);
+  EXPECT_NEAR(report["fit"]["noise_floor"][0].get<double>(), 0.15, 0.02);  // in motion
+}
+
+/// 20 s at 500 Hz of a motor that turns at 0.8 turns a second, give or take 3 %: a current that
+/// varies 72 and 18 times a turn.
+Table turned(double begin, std::uint64_t seed) {
+  constexpr double kRowSeconds = 0.002, kSpeed = 0.8 * kTurn;
+  Rng rng({seed});
+  Table table;
+  table.columns = {"t", "q", "dq", "current"};
+  table.values.resize(10'000, 4);
+  for (Index k = 0; k < table.values.rows(); ++k) {
+    const double t = static_cast<double>(k) * kRowSeconds, w = kTurn * 0.13, s = t + begin;
+    const double q = kSpeed * (s + 0.03 / w * std::sin(w * s)),
+                 v = kSpeed * (1.0 + 0.03 * std::cos(w * s));
+    table.values.row(k) << t, q, v,
+        0.35 + 0.2 * std::sin(72.0 * q) + 0.08 * std::cos(18.0 * q + 1.0) + 0.02 * rng.normal();
+  }
+  return table;
+}
+
+TEST(RestAndTurns, CoggingOfAMotorThatTurnsFastIsNoHum) {
+  const Machine machine({{"name", "motor"},
+                         {"measured", "current"},
+                         {"unit", "A"},
+                         {"position", "q"},
+                         {"velocity", "dq"},
+                         {"base", Json::array({"acceleration"})}},
+                        turned(0.0, 1), turned(31.0, 2));
+  const Json report = diagnose(machine.request(), nullptr).report;
+  std::vector<double> orders;
+  for (const Json& finding : report["findings"]) {
+    EXPECT_NE(finding["effect"], "hum");
+    if (finding["effect"] == "cogging") {
+      orders.push_back(finding["parameters"]["order"]["value"]);
+    }
+  }
+  ASSERT_EQ(orders.size(), 2U) << report["findings"].dump(1);
+  EXPECT_NEAR(std::max(orders[0], orders[1]), 72.0, 0.05);
+  EXPECT_NEAR(std::min(orders[0], orders[1]), 18.0, 0.05);
+}
+
+TEST(RestAndTurns, RestIsWhereTheAxisDoesNotMove) {
+  const Machine machine({{"name", "joint"},
+                         {"measured", "current"},
+                         {"unit", "A"},
+                         {"position", "q"},
+                         {"velocity", "dq"},
+                         {"base", Json::array({"acceleration"})}},
+                        moved_and_held(1), moved_and_held(2));
+  const Case study = load_axes(machine.request()).cases[0].fit;
+  const std::vector<Span> spans = rests(study);
+  ASSERT_EQ(spans.size(), 15U);  // one after each move
+  for (std::size_t k = 0; k < spans.size(); ++k) {
+    EXPECT_NEAR(spans[k].begin, 4.0 * double(k) + 1.0, 0.4);
+    EXPECT_NEAR(spans[k].end, 4.0 * double(k) + 4.0, 0.4);
+  }
+  EXPECT_NEAR(share_within(study, spans), 0.75, 0.03);
+  Case tool = study;
+  tool.axis = nullptr;
+  EXPECT_TRUE(rests(tool).empty());
+}
+
+TEST(RestAndTurns, WhatWasRefutedIsNotTriedAgain) {
+  const Machine machine({{"name", "joint"},
+                         {"measured", "current"},
+                         {"unit", "A"},
+                         {"position", "q"},
+                         {"velocity", "dq"},
+                         {"simulated", "torque"}},
+                        moved_and_held(1), moved_and_held(2));
+  Search search(load_axes(machine.request()).cases[0].fit, {}, nullptr);
+  search.run();
+  ASSERT_FALSE(search.fit().members.empty());
+  const std::string name = search.fit().members[0].name();
+  const auto is_offered = [&] {
+    const auto trials = search.additions();
+    return std::any_of(trials.begin(), trials.end(),
+                       [&](const Trial& trial) { return trial.member.name() == name; });
+  };
+  search.settle(search.members_without(0));
+  EXPECT_TRUE(is_offered());
+  search.run();
+  search.leave_out({0});
+  EXPECT_FALSE(is_offered());
+}
+
+/// Noise of unit variance beside `size`·sin(order·q) in 4,000 places from -3 to 3 rad.
+PositionBins binned(double order, double size, std::uint64_t seed) {
+  Rng rng({seed});
+  PositionBins bins(-3.0, 3.0, 0.004);
+  for (int k = 0; k < 4000; ++k) {
+    const double q = rng.uniform(-3.0, 3.0);
+    bins.add(q, 0.5 * q + size * std::sin(order * q) + rng.normal(), 1.0);
+  }
+  return bins;
+}
+
+TEST(PositionBins, TellTheOrderBesideALine) {
+  for (const double order : {3.4, 20.0, 73.3, 110.0}) {
+    EXPECT_NEAR(best_order(binned(order, 1.0, 3), 1.0, 120.0), order, 0.07) << order;
+  }
+}
+
+/// 4 s at 1 kHz at 5 rad/s, give or take a tenth.
+std::vector<Eigen::VectorXd> fast_turn(double order, double size, Rng& rng, Eigen::VectorXd* q) {
+  Eigen::VectorXd force(4'000);
+  q->resize(force.size());
+  for (Index k = 0; k < force.size(); ++k) {
+    const double t = 0.001 * static_cast<double>(k);
+    (*q)(k) = 5.0 * t + 0.5 * std::sin(t);
+    force(k) = rng.normal() + size * std::sin(order * (*q)(k));
+  }
+  return {force};
+}
+
+TEST(PositionBins, ALineOfThePositionWidensTheBand) {
+  Rng rng({11u});
+  Eigen::VectorXd q;
+  const auto forces = fast_turn(72.0, 1.0, rng, &q);
+  const double hz = band_of_position_lines(forces, {q}, 0.001, 20.0);
+  EXPECT_GT(hz, 72.0 * 5.0 / kTurn);
+  EXPECT_LT(hz, 1.5 * 72.0 * 5.0 / kTurn);
+}
+
+// Nominally one of a thousand, of which all must be a tenth of the power besides.
+TEST(PositionBins, NoiseHasNoLines) {
+  Rng rng({12u});
+  int widened = 0;
+  for (int k = 0; k < 100; ++k) {
+    Eigen::VectorXd q;
+    const auto forces = fast_turn(1.0, 0.0, rng, &q);
+    widened += band_of_position_lines(forces, {q}, 0.001, 20.0) > 0.0;
+  }
+  EXPECT_EQ(widened, 0);
+}
+
+TEST(PositionBins, OfNoMotionAreNone) {
+  Rng rng({13u});
+  Eigen::VectorXd force(3000);
+  for (double& x : force) x = rng.normal();
+  EXPECT_EQ(band_of_position_lines({force}, {Eigen::VectorXd::Constant(3000, 0.4)}, 0.001, 20.0),
+            0.0);
+  EXPECT_EQ(PositionBins(0.4, 0.4, 0.0).size(), 1);
+}
+
+}  // namespace
+}  // namespace dcnn
