@@ -77,10 +77,8 @@ HoldOut::HoldOut(const Case& fitted, const Case& recordings) {
     }
     for (const Span& span : resting) {
       if (span.log != k) continue;
-      const auto from = std::lower_bound(motion.t.begin(), motion.t.end(), span.begin),
-                 to = std::upper_bound(motion.t.begin(), motion.t.end(), span.end);
-      std::fill(held.begin() + (from - motion.t.begin()), held.begin() + (to - motion.t.begin()),
-                0);
+      const auto [from, to] = rows_of(motion, span);
+      std::fill(held.begin() + from, held.begin() + to, 0);
     }
     held_.push_back(held);
   }

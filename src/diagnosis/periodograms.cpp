@@ -92,10 +92,12 @@ Signals evened(const Case& study, const Signals& residual, const Signals& levels
     const auto half = static_cast<Index>(std::llround(0.5 / quiet_band(study) / study.dt()));
     const Motion& motion = study.logs[k].motion;
     const Eigen::MatrixXd slow = moving_mean(residual[k], motion.segments, half);
-    for (Index i = 0; i < motion.samples(); ++i) {
-      const bool rests = std::any_of(resting.begin(), resting.end(),
-                                     [&](const Span& span) { return span.holds(k, motion.t(i)); });
-      if (rests) even[k].row(i) += slow.row(i) - slow.row(i).cwiseQuotient(levels[k].row(i));
+    for (const Span& span : resting) {
+      if (span.log != k) continue;
+      const auto [from, to] = rows_of(motion, span);
+      const auto still = slow.middleRows(from, to - from);
+      even[k].middleRows(from, to - from) +=
+          still - still.cwiseQuotient(levels[k].middleRows(from, to - from));
     }
   }
   return even;

@@ -60,10 +60,17 @@ std::vector<Span> rests(const Case& study) {
   return share_within(study, spans) > 1.0 - kLeastMovingShare ? std::vector<Span>{} : spans;
 }
 
+std::pair<Index, Index> rows_of(const Motion& motion, const Span& span) {
+  const auto from = std::lower_bound(motion.t.begin(), motion.t.end(), span.begin),
+             to = std::upper_bound(motion.t.begin(), motion.t.end(), span.end);
+  return {from - motion.t.begin(), to - motion.t.begin()};
+}
+
 double share_within(const Case& study, const std::vector<Span>& spans) {
   double within = 0.0, rows = 0.0;
   for (const Span& span : spans) {
-    within += (span.end - span.begin) / study.logs[span.log].motion.dt + 1.0;
+    const auto [from, to] = rows_of(study.logs[span.log].motion, span);
+    within += static_cast<double>(to - from);
   }
   for (const Log& log : study.logs) rows += static_cast<double>(log.motion.samples());
   return rows > 0.0 ? within / rows : 0.0;

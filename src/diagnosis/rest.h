@@ -1,6 +1,7 @@
 // Where a machine stands still.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "diagnosis/case.h"
@@ -13,6 +14,9 @@ namespace dcnn {
 /// a constant of its own in each of them, and no law tells it. None where the axis moves for less
 /// than a tenth of the time, or of a tool.
 std::vector<Span> rests(const Case& study);
+
+/// The rows of a recording in a span: the first, and the first after the last.
+std::pair<Index, Index> rows_of(const Motion& motion, const Span& span);
 
 /// The share of the rows that are in one of the spans.
 double share_within(const Case& study, const std::vector<Span>& spans);
