@@ -18,9 +18,9 @@ namespace {
 constexpr double kPositionBins = 1000.0, kMostBins = 200'000.0;  // of an axis
 constexpr double kLargestPhase = 0.5;  // rad, of an order, from one bin to the next
 constexpr double kOrderStep = 0.4;     // rad, of the phase over the whole range, between orders
-constexpr double kFewTurns = 8.0;  // over the range, up to which an order is no stranger to a line
+constexpr double kFewTurns = 8.0;  // over the range, up to which a straight line resembles a wave
 
-/// Orders of the transform of bins padded to `n`, and the place of the first of at least `order`.
+/// The order from one number of the transform of bins padded to `n` to the next.
 double order_step(const PositionBins& bins, Index n) {
   return 2.0 * std::numbers::pi / (bins.width * static_cast<double>(n));
 }
@@ -157,6 +157,7 @@ double band_of_position_lines(const std::vector<Eigen::VectorXd>& forces,
                               double band_hz) {
   constexpr double kChance = 0.001;                // of the loudest of all orders of noise
   constexpr double kMargin = 1.3, kHighest = 0.2;  // of a line; of the sample rate
+  if (!(dt > 0.0)) return 0.0;
   const auto window = std::max<Index>(1, std::llround(0.5 / band_hz / dt));
   double low = 1e300, high = -1e300, square = 0.0, rows = 0.0, whole = 0.0;
   for (const Eigen::VectorXd& q : positions) {
@@ -182,6 +183,7 @@ double band_of_position_lines(const std::vector<Eigen::VectorXd>& forces,
       whole += fast * fast;
     }
   }
+  if (whole == 0.0) return 0.0;
   const auto size = static_cast<double>(bins.size());
   const Index n = fast_length(std::llround(2.0 * std::numbers::pi / kOrderStep * size));
   const double step = order_step(bins, n);
