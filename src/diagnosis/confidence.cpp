@@ -62,6 +62,15 @@ double before_held_out(double before, const Search& search, double log_support) 
   return open ? std::min(before, evidence::prior::kFittedOnMachine) : before;
 }
 
+/// A probability that was `before`, after what the held-out data say of a model that predicts
+/// `with` against another.
+double after_held_out(double before, const Search& search, const HoldOut& holdout,
+                      const Signals& with, const JointFit& other) {
+  const double support =
+      holdout.log_support(with, holdout.prediction(other.members, other.base), search.floors());
+  return evidence::updated(before_held_out(before, search, support), support);
+}
+
 /// What chi-square falls by in each channel of the fitted rows from `rest` to `fit`.
 std::vector<double> gain_by_channel(const Setting& setting, const JointFit& fit,
                                     const JointFit& rest) {
@@ -79,10 +88,7 @@ std::vector<double> gain_by_channel(const Setting& setting, const JointFit& fit,
 
 double supported(double before, const Search& search, const HoldOut& holdout, const Signals& with,
                  std::size_t member) {
-  const JointFit& rest = search.without(member);
-  const Signals without = holdout.prediction(rest.members, rest.base);
-  const double support = holdout.log_support(with, without, search.floors());
-  return evidence::updated(before_held_out(before, search, support), support);
+  return after_held_out(before, search, holdout, with, search.without(member));
 }
 
 std::vector<std::optional<double>> confidences(const Search& search, const HoldOut& holdout) {
@@ -176,11 +182,8 @@ double together(const Search& search, const HoldOut& holdout) {
   if (others.size() == fit.members.size()) return 1.0;
   const JointFit none = joint_fit(search.setting(), others);
   const evidence::Posterior& before = search.posterior();
-  const double support =
-      holdout.log_support(holdout.prediction(fit.members, fit.base),
-                          holdout.prediction(none.members, none.base), search.floors());
-  return evidence::updated(
-      before_held_out(before.named + before.named_and_unknown, search, support), support);
+  return after_held_out(before.named + before.named_and_unknown, search, holdout,
+                        holdout.prediction(fit.members, fit.base), none);
 }
 
 /// Probability of a machine's names beside the scale of its simulator in their place: names that
@@ -195,12 +198,9 @@ double beside_own_numbers(const Search& search, const HoldOut& holdout) {
                        [&](const Member& m) { return m.kind == own.kind; });
   });
   if (numbers.empty() || has_all) return 1.0;
-  const JointFit own = joint_fit(search.setting(), numbers);
-  const double support =
-      holdout.log_support(holdout.prediction(members, search.fit().base),
-                          holdout.prediction(own.members, own.base), search.floors());
-  return evidence::updated(before_held_out(1.0 - evidence::prior::kElsewhere, search, support),
-                           support);
+  return after_held_out(1.0 - evidence::prior::kElsewhere, search, holdout,
+                        holdout.prediction(members, search.fit().base),
+                        joint_fit(search.setting(), numbers));
 }
 
 /// Rather wrong than right; held-out data that hardly tell refute nothing.

@@ -63,9 +63,6 @@ Periodograms periodograms(const Case& study, const Signals& signals, Index chann
   return result;
 }
 
-namespace {
-
-/// Means over `half` samples to either side, within each segment.
 Eigen::MatrixXd moving_mean(const Eigen::MatrixXd& x, const std::vector<Segment>& segments,
                             Index half) {
   Eigen::MatrixXd mean = x;
@@ -80,8 +77,6 @@ Eigen::MatrixXd moving_mean(const Eigen::MatrixXd& x, const std::vector<Segment>
   }
   return mean;
 }
-
-}  // namespace
 
 Signals evened(const Case& study, const Signals& residual, const Signals& levels) {
   const std::vector<Span> resting = rests(study);

@@ -13,6 +13,10 @@ struct Periodograms {
 };
 Periodograms periodograms(const Case& study, const Signals& signals, Index channel);
 
+/// Means over `half` samples to either side, within each segment.
+Eigen::MatrixXd moving_mean(const Eigen::MatrixXd& x, const std::vector<Segment>& segments,
+                            Index half);
+
 /// A residual divided by the relative level of its noise (noise_level()); where a machine rests
 /// only what is faster than the motion's band: what its laws err by is no quieter there.
 Signals evened(const Case& study, const Signals& residual, const Signals& levels);

@@ -10,6 +10,7 @@
 #include "data/median.h"
 #include "dcnn/data/fourier.h"
 #include "diagnosis/evidence/priors.h"
+#include "diagnosis/periodograms.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {
@@ -19,11 +20,6 @@ constexpr double kPositionBins = 1000.0, kMostBins = 200'000.0;  // of an axis
 constexpr double kLargestPhase = 0.5;  // rad, of an order, from one bin to the next
 constexpr double kOrderStep = 0.4;     // rad, of the phase over the whole range, between orders
 constexpr double kFewTurns = 8.0;  // over the range, up to which a straight line resembles a wave
-
-/// The order from one number of the transform of bins padded to `n` to the next.
-double order_step(const PositionBins& bins, Index n) {
-  return 2.0 * std::numbers::pi / (bins.width * static_cast<double>(n));
-}
 
 Eigen::VectorXd padded(const Eigen::VectorXd& x, Index n) {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(n);
@@ -60,8 +56,14 @@ Eigen::VectorXd without_line(const PositionBins& bins) {
   return bins.sum.array() - bins.count.array() * (line(0) + line(1) * x.array());
 }
 
-/// Of orders k·order_step(): what a sine and a cosine explain of that (Lomb and Scargle).
-Eigen::VectorXd order_spectrum(const PositionBins& bins, Index n) {
+/// Of orders k·step: what a sine and a cosine explain of that (Lomb and Scargle).
+struct OrderSpectrum {
+  double step;
+  Eigen::VectorXd gain;
+};
+OrderSpectrum order_spectrum(const PositionBins& bins) {
+  const auto size = static_cast<double>(bins.size());
+  const Index n = fast_length(std::llround(2.0 * std::numbers::pi / kOrderStep * size));
   const Fourier transform(n);
   const Eigen::VectorXcd b = transform(padded(without_line(bins), n));
   const Eigen::VectorXcd weight = transform(padded(bins.count, n));
@@ -77,7 +79,7 @@ Eigen::VectorXd order_spectrum(const PositionBins& bins, Index n) {
       gain(k) = (c * c * ss - 2.0 * c * s * cs + s * s * cc) / determinant;
     }
   }
-  return gain;
+  return {2.0 * std::numbers::pi / (bins.width * static_cast<double>(n)), std::move(gain)};
 }
 
 }  // namespace
@@ -106,10 +108,7 @@ double best_order(const PositionBins& bins, double least, double highest) {
     look_at(order);
   }
   if (highest <= few) return best;
-  const auto size = static_cast<double>(bins.size());
-  const Index n = fast_length(std::llround(2.0 * std::numbers::pi / kOrderStep * size));
-  const double step = order_step(bins, n);
-  Eigen::VectorXd spectrum = order_spectrum(bins, n);
+  auto [step, spectrum] = order_spectrum(bins);
   for (Index k = 0; k < spectrum.size(); ++k) {
     const double order = step * static_cast<double>(k);
     if (order < std::max(least, few) || order >= highest) spectrum(k) = 0.0;
@@ -173,21 +172,15 @@ double band_of_position_lines(const std::vector<Eigen::VectorXd>& forces,
   PositionBins bins(low, high, range / std::clamp(top * range / kLargestPhase, 16.0, kMostBins));
   for (std::size_t k = 0; k < forces.size(); ++k) {
     // Less its mean over half a period of the band's end to either side.
-    Eigen::VectorXd sums(forces[k].size() + 1);
-    sums(0) = 0.0;
-    for (Index i = 0; i < forces[k].size(); ++i) sums(i + 1) = sums(i) + forces[k](i);
+    const Eigen::VectorXd slow = moving_mean(forces[k], {{0, forces[k].size()}}, window);
     for (Index i = window; i + window < forces[k].size(); ++i) {
-      const double mean = (sums(i + window + 1) - sums(i - window)) / double(2 * window + 1);
-      const double fast = forces[k](i) - mean;
+      const double fast = forces[k](i) - slow(i);
       bins.add(positions[k](i), fast, 1.0);
       whole += fast * fast;
     }
   }
   if (whole == 0.0) return 0.0;
-  const auto size = static_cast<double>(bins.size());
-  const Index n = fast_length(std::llround(2.0 * std::numbers::pi / kOrderStep * size));
-  const double step = order_step(bins, n);
-  const Eigen::VectorXd spectrum = order_spectrum(bins, n);
+  const auto [step, spectrum] = order_spectrum(bins);
   const auto begin = static_cast<Index>(2.0 * std::numbers::pi * band_hz / speed / step) + 1;
   const Index end = std::min(spectrum.size(), static_cast<Index>(top / step));
   if (end <= begin) return 0.0;

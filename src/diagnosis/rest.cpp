@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/periodograms.h"
+
 namespace dcnn {
 namespace {
 
@@ -13,21 +15,6 @@ constexpr double kShareAtRest = 0.01;  // of the 95th percentile of speed
 constexpr double kFastShare = 0.95;    // its place in the distribution
 constexpr double kLeastMovingShare = 0.1;  // of the time
 
-/// abs of the mean rate over kAveragedSeconds about each row, within its segment.
-Eigen::VectorXd mean_speed(const Motion& motion) {
-  Eigen::VectorXd speed = Eigen::VectorXd::Zero(motion.samples());
-  const auto half = static_cast<Index>(std::llround(0.5 * kAveragedSeconds / motion.dt));
-  for (const Segment& s : motion.segments) {
-    Eigen::VectorXd sums = Eigen::VectorXd::Zero(s.size() + 1);
-    for (Index i = 0; i < s.size(); ++i) sums(i + 1) = sums(i) + motion.v_B(s.begin + i, 0);
-    for (Index i = 0; i < s.size(); ++i) {
-      const Index from = std::max<Index>(0, i - half), to = std::min(s.size(), i + half + 1);
-      speed(s.begin + i) = std::abs(sums(to) - sums(from)) / static_cast<double>(to - from);
-    }
-  }
-  return speed;
-}
-
 }  // namespace
 
 std::vector<Span> rests(const Case& study) {
@@ -36,7 +23,9 @@ std::vector<Span> rests(const Case& study) {
   std::vector<double> all;
   for (const Log& log : study.logs) {
     if (log.motion.v_B.rows() != log.motion.samples()) return {};
-    speeds.push_back(mean_speed(log.motion));
+    const auto half = static_cast<Index>(std::llround(0.5 * kAveragedSeconds / log.motion.dt));
+    speeds.push_back(
+        moving_mean(log.motion.v_B.col(0), log.motion.segments, half).cwiseAbs().col(0));
     all.insert(all.end(), speeds.back().begin(), speeds.back().end());
   }
   if (all.empty()) return {};

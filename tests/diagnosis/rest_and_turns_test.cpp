@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/linear_algebra.h"
 #include "dcnn/core/file.h"
 #include "dcnn/core/random.h"
 #include "dcnn/diagnosis/diagnose.h"
@@ -24,6 +23,16 @@ std::vector<std::string> effects_in(const Json& report) {
   std::vector<std::string> names;
   for (const Json& finding : report["findings"]) names.push_back(finding["effect"]);
   return names;
+}
+
+Json axis_with(const Json& more) {
+  Json axis{{"name", "joint"},
+            {"measured", "current"},
+            {"unit", "A"},
+            {"position", "q"},
+            {"velocity", "dq"}};
+  axis.update(more);
+  return axis;
 }
 
 /// A system of one axis, with a recording to fit and one that is held out.
@@ -76,13 +85,7 @@ Table moved_and_held(std::uint64_t seed) {
 }
 
 TEST(RestAndTurns, FrictionIsFoundAlthoughItStandsStillMostOfTheTime) {
-  const Machine machine({{"name", "joint"},
-                         {"measured", "current"},
-                         {"unit", "A"},
-                         {"position", "q"},
-                         {"velocity", "dq"},
-                         {"simulated", "torque"}},
-                        moved_and_held(1), moved_and_held(2));
+  const Machine machine(axis_with({{"simulated", "torque"}}), moved_and_held(1), moved_and_held(2));
   const Json report = diagnose(machine.request(), nullptr).report;
   const auto names = effects_in(report);
   const std::vector<std::string> gain_and_friction{"gain", "coulomb_friction"};
@@ -109,13 +112,8 @@ Table turned(double begin, std::uint64_t seed) {
 }
 
 TEST(RestAndTurns, CoggingOfAMotorThatTurnsFastIsNoHum) {
-  const Machine machine({{"name", "motor"},
-                         {"measured", "current"},
-                         {"unit", "A"},
-                         {"position", "q"},
-                         {"velocity", "dq"},
-                         {"base", Json::array({"acceleration"})}},
-                        turned(0.0, 1), turned(31.0, 2));
+  const Machine machine(axis_with({{"base", Json::array({"acceleration"})}}), turned(0.0, 1),
+                        turned(31.0, 2));
   const Json report = diagnose(machine.request(), nullptr).report;
   std::vector<double> orders;
   for (const Json& finding : report["findings"]) {
@@ -130,13 +128,8 @@ TEST(RestAndTurns, CoggingOfAMotorThatTurnsFastIsNoHum) {
 }
 
 TEST(RestAndTurns, RestIsWhereTheAxisDoesNotMove) {
-  const Machine machine({{"name", "joint"},
-                         {"measured", "current"},
-                         {"unit", "A"},
-                         {"position", "q"},
-                         {"velocity", "dq"},
-                         {"base", Json::array({"acceleration"})}},
-                        moved_and_held(1), moved_and_held(2));
+  const Machine machine(axis_with({{"base", Json::array({"acceleration"})}}), moved_and_held(1),
+                        moved_and_held(2));
   const Case study = load_axes(machine.request()).cases[0].fit;
   const std::vector<Span> spans = rests(study);
   ASSERT_EQ(spans.size(), 15U);  // one after each move
@@ -151,13 +144,7 @@ TEST(RestAndTurns, RestIsWhereTheAxisDoesNotMove) {
 }
 
 TEST(RestAndTurns, WhatWasRefutedIsNotTriedAgain) {
-  const Machine machine({{"name", "joint"},
-                         {"measured", "current"},
-                         {"unit", "A"},
-                         {"position", "q"},
-                         {"velocity", "dq"},
-                         {"simulated", "torque"}},
-                        moved_and_held(1), moved_and_held(2));
+  const Machine machine(axis_with({{"simulated", "torque"}}), moved_and_held(1), moved_and_held(2));
   Search search(load_axes(machine.request()).cases[0].fit, {}, nullptr);
   search.run();
   ASSERT_FALSE(search.fit().members.empty());
