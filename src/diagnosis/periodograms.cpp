@@ -80,20 +80,31 @@ Eigen::MatrixXd moving_mean(const Eigen::MatrixXd& x, const std::vector<Segment>
 
 Signals evened(const Case& study, const Signals& residual, const Signals& levels) {
   const std::vector<Span> resting = rests(study);
+  const auto half = static_cast<Index>(std::llround(0.5 / quiet_band(study) / study.dt()));
+  const Index wide = window_of(study) / 4;  // two means of half a window
   Signals even;
   for (std::size_t k = 0; k < residual.size(); ++k) {
-    even.push_back(residual[k].cwiseQuotient(levels[k]));
-    if (resting.empty()) continue;
-    const auto half = static_cast<Index>(std::llround(0.5 / quiet_band(study) / study.dt()));
     const Motion& motion = study.logs[k].motion;
-    const Eigen::MatrixXd slow = moving_mean(residual[k], motion.segments, half);
+    Eigen::MatrixXd square = levels[k].cwiseAbs2();
     for (const Span& span : resting) {
       if (span.log != k) continue;
       const auto [from, to] = rows_of(motion, span);
-      const auto still = slow.middleRows(from, to - from);
-      even[k].middleRows(from, to - from) +=
-          still - still.cwiseQuotient(levels[k].middleRows(from, to - from));
+      square.middleRows(from, to - from).setOnes();
     }
+    const auto smooth = [&](const Eigen::MatrixXd& x, Index width) {
+      return moving_mean(moving_mean(x, motion.segments, width), motion.segments, width);
+    };
+    // Means weighted by 1/L^2: of a loud stretch nothing leaks into a quiet one beside it.
+    const Eigen::MatrixXd weight = levels[k].cwiseAbs2().cwiseInverse();
+    const Eigen::MatrixXd weights = smooth(weight, half);
+    const auto local_mean = [&](const Eigen::MatrixXd& x) {
+      return Eigen::MatrixXd(smooth(x.cwiseProduct(weight), half).cwiseQuotient(weights));
+    };
+    Eigen::MatrixXd slow = smooth(residual[k], half);
+    slow += smooth(residual[k] - slow, half);  // twicing (Tukey 1977): loses 1 - H as its square
+    for (int pass = 0; pass < 3; ++pass) slow += local_mean(residual[k] - slow);
+    even.push_back((residual[k] - slow).cwiseQuotient(levels[k]) +
+                   slow.cwiseQuotient(smooth(square, wide).cwiseSqrt()));
   }
   return even;
 }

@@ -17,8 +17,10 @@ Periodograms periodograms(const Case& study, const Signals& signals, Index chann
 Eigen::MatrixXd moving_mean(const Eigen::MatrixXd& x, const std::vector<Segment>& segments,
                             Index half);
 
-/// A residual divided by the relative level of its noise (noise_level()); where a machine rests
-/// only what is faster than the motion's band: what its laws err by is no quieter there.
+/// A residual over the relative level L of its noise (noise_level()). The motion's band and what is
+/// slower, s, is divided by a mean level that varies no faster than a window: (r - s)/L + s/rms(L).
+/// (What a law leaves, a constant above all, times the steps of 1/L would pass for noise of the
+/// quiet band.) Where a machine rests, s is divided by 1: what its laws err by is no quieter there.
 Signals evened(const Case& study, const Signals& residual, const Signals& levels);
 
 /// The periodograms of whole segments below the windows' third bin, scaled alike.
