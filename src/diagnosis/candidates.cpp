@@ -88,6 +88,10 @@ void add_resonances(const Scan& scan, const Signals& left, const std::vector<Flo
                     std::vector<Member>& list) {
   const Case& study = scan.setting().study;
   const EffectKind& kind = *find_effect("flexible_resonance");
+  const EffectFit& form =
+      *std::find_if(kind.fits.begin(), kind.fits.end(), [&](const EffectFit& f) {
+        return f.use == (study.axis ? EffectFit::Use::kMachines : EffectFit::Use::kTools);
+      });
   // Above half the rate of the blocks a mode shows its stiffness alone.
   const double top = std::min(0.25 / study.dt(), 0.5 / scan.setting().whitener.block_seconds());
   for (std::size_t j = 0; j < study.channels.size(); ++j) {
@@ -95,9 +99,9 @@ void add_resonances(const Scan& scan, const Signals& left, const std::vector<Flo
     auto peaks = spectral_lines(study, left, floors, 1.5, top, static_cast<Index>(j), 3);
     for (const double hz : {4.0, 8.0, 14.0}) peaks.push_back({hz, 0.0});
     for (const Peak& peak : peaks) {
-      for (const double zeta : kind.fits[0].shapes[1].seeds) {
+      for (const double zeta : form.shapes[1].seeds) {
         list.push_back(make_member(
-            study, kind, kind.fits[0],
+            study, kind, form,
             admitted_axes(AxisRule::kSensor)[static_cast<std::size_t>(study.channels[j])],
             Eigen::Vector2d(std::min(peak.hz, top), zeta)));
         list.back().most_shapes(0) = top;

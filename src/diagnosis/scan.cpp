@@ -24,8 +24,6 @@ bool is_itself(const Case& study, const Member& member) {
   const std::string name = member.name();
   // On an axis the position says which way a force resists.
   if (study.axis && name == "hysteresis") return member.amplitudes(0) > 0.0;
-  // A drive's filters are faster than a tenth of a second.
-  if (study.axis && name == "lowpass") return member.shapes(0) < 0.1;
   // A spring whose rest is turns away is a constant, which other effects are.
   if (!study.axis && name == "cable_spring" && !member.driver) {
     return std::abs(member.amplitudes(1)) <=
@@ -34,10 +32,6 @@ bool is_itself(const Case& study, const Member& member) {
   if (name == "creep") return std::abs(member.amplitudes(0)) < 1.0;  // of a solid, no fluid
   if (name == "gear_friction") {                                     // it resists in every position
     return member.amplitudes(0) > 0.0 && member.amplitudes.tail(2).norm() < member.amplitudes(0);
-  }
-  // A mode takes nothing off, and rings.
-  if (study.axis && name == "flexible_resonance") {
-    return member.amplitudes(0) >= 0.0 && member.shapes(1) < 0.5;
   }
   // No more than all of the tool rings, but for noise.
   if (!study.axis && name == "flexible_resonance" && std::abs(member.amplitudes(0)) > 1.5) {

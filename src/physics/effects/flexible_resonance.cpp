@@ -39,6 +39,10 @@ EffectStream stream(const EffectSpec& spec, Options& parameters) {
   };
 }
 
+Json numbers(const Eigen::VectorXd& amplitudes, const Eigen::VectorXd& shapes) {
+  return Json{{"freq_hz", shapes(0)}, {"zeta", shapes(1)}, {"fraction", amplitudes(0)}};
+}
+
 }  // namespace
 
 const EffectKind effect{
@@ -52,13 +56,18 @@ const EffectKind effect{
     .needs_time = TimeNeed::kMotion,
     .apply = apply,
     .stream = stream,
+    // What a mount lets through is no more than all. A machine's mode takes nothing off, and rings.
     .fits = {{.amplitudes = 1,
-              .most_strength = 1.0,  // all that passes through the mount
+              .most_strength = 1.0,
               .shapes = {{"freq", 1.0, 200.0, {}}, {"zeta", 2e-3, 0.9, {0.01, 0.03, 0.1}}},
-              .parameters =
-                  [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
-                    return Json{{"freq_hz", s(0)}, {"zeta", s(1)}, {"fraction", a(0)}};
-                  }}},
+              .parameters = numbers,
+              .use = EffectFit::Use::kTools},
+             {.amplitudes = 1,
+              .non_negative = true,
+              .most_strength = 1.0,
+              .shapes = {{"freq", 1.0, 200.0, {}}, {"zeta", 2e-3, 0.5, {0.01, 0.03, 0.1}}},
+              .parameters = numbers,
+              .use = EffectFit::Use::kMachines}},
 };
 
 }  // namespace dcnn::effects::flexible_resonance

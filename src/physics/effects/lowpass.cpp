@@ -41,6 +41,10 @@ EffectStream stream(const EffectSpec&, Options& parameters) {
   };
 }
 
+Json numbers(const Eigen::VectorXd&, const Eigen::VectorXd& shapes) {
+  return Json{{"tau_s", shapes(0)}};
+}
+
 }  // namespace
 
 const EffectKind effect{
@@ -53,11 +57,14 @@ const EffectKind effect{
     .needs_time = TimeNeed::kMotion,
     .apply = apply,
     .stream = stream,
-    .fits = {{.shapes = {{"tau", 2e-5, 1.0, {1.5e-4, 0.001, 0.004, 0.02}}},
-              .parameters =
-                  [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {
-                    return Json{{"tau_s", s(0)}};
-                  }}},
+    // A drive's filters are faster than a tenth of a second; those of a sensor's driver need not
+    // be.
+    .fits = {{.shapes = {{"tau", 2e-5, 1.0, {1.5e-4, 0.001, 0.1, 0.004, 0.02, 0.5}}},
+              .parameters = numbers,
+              .use = EffectFit::Use::kTools},
+             {.shapes = {{"tau", 2e-5, 0.1, {1.5e-4, 0.001, 0.004, 0.02}}},
+              .parameters = numbers,
+              .use = EffectFit::Use::kMachines}},
 };
 
 }  // namespace dcnn::effects::lowpass
