@@ -1,6 +1,7 @@
 #include <iostream>
 
 #include "dcnn/conceal/arm.h"
+#include "dcnn/conceal/axis.h"
 #include "dcnn/conceal/challenge.h"
 #include "dcnn/conceal/faulty.h"
 #include "dcnn/conceal/inject.h"
@@ -52,16 +53,29 @@ std::string write_faulty(const std::string& kind, const std::filesystem::path& m
   return conceal::write_seal({{"kind", kind}, {"fault", log.fault}, {"seed", seed}}, out, seal);
 }
 
-/// So many arms, or those of `ids` (with "arm+" before them).
-Exit print_arms(const Tool& tool, int arms, std::vector<std::string> ids, std::uint64_t seed,
-                const std::filesystem::path& out, const std::filesystem::path& seal) {
-  if (ids.empty()) ids = conceal::arm_plan(arms, seed);
+/// A family of machines: what begins its ids, its plan, and what writes it.
+struct Machines {
+  const char* prefix;
+  std::vector<std::string> (*plan)(int, std::uint64_t);
+  std::string (*conceal)(const std::vector<std::string>&, std::uint64_t,
+                         const std::filesystem::path&, const std::filesystem::path&,
+                         const std::function<void(int, int)>&);
+};
+constexpr Machines kArms{"arm+", conceal::arm_plan, conceal::conceal_arms};
+constexpr Machines kAxes{"axis+", conceal::axis_plan, conceal::conceal_axes};
+
+/// So many of a family, or those of `ids` (with its prefix before them).
+Exit print_machines(const Tool& tool, const Machines& family, int count,
+                    std::vector<std::string> ids, std::uint64_t seed,
+                    const std::filesystem::path& out, const std::filesystem::path& seal) {
+  if (ids.empty()) ids = family.plan(count, seed);
+  const std::string prefix = family.prefix;
   for (std::string& id : ids) {
-    if (id.starts_with("arm+")) id = id.substr(4);
+    if (id.starts_with(prefix)) id = id.substr(prefix.size());
   }
   Progress bar(tool.common().quiet);
-  const std::string digest = conceal::conceal_arms(ids, seed, out, seal, [&](int done, int total) {
-    bar.update(static_cast<double>(done) / total, std::to_string(done) + " arms");
+  const std::string digest = family.conceal(ids, seed, out, seal, [&](int done, int total) {
+    bar.update(static_cast<double>(done) / total, std::to_string(done) + " machines");
   });
   bar.clear();
   return print(tool, ids.size(), seed, digest, seal);
@@ -87,7 +101,7 @@ int main(int argc, char** argv) {
             "nothing of them, and seals the answers: their SHA-256 is printed and stored before "
             "anybody looks. --score opens the seal.",
             kExamples);
-  int scenarios = 0, rounds = 0, laws = 0, arms = 0;
+  int scenarios = 0, rounds = 0, laws = 0, arms = 0, axes = 0;
   bool score = false, list = false;
   std::vector<std::string> ids;
   std::string family = "plain";
@@ -106,6 +120,13 @@ int main(int argc, char** argv) {
       tool.option("--arms", arms,
                   "so many arms of 6 or 7 joints: payloads, effects in their joints")
           .excludes(many);
+  const Option single_axes =
+      tool.option("--axes", axes,
+                  "so many single axes (joints, motors, slides, oscillators) with the logs of "
+                  "their drives: effects of an axis, alone and together, and laws that no "
+                  "catalogue has")
+          .excludes(many)
+          .excludes(whole_arms);
   tool.option("--laws", laws,
               "so many laws that no catalogue has, in turn, at 1, 3 and 10 times the noise")
       .excludes(many);
@@ -183,11 +204,15 @@ int main(int argc, char** argv) {
       injection.read = read.options();
       return print(tool, 1, seed, conceal::inject(injection, seed, out, seal), seal);
     }
-    if (whole_arms.given() || (!ids.empty() && ids.front().starts_with("arm+"))) {
-      return print_arms(tool, arms, ids, seed, out, seal);
+    const std::string first = ids.empty() ? "" : ids.front();
+    if (whole_arms.given() || first.starts_with(kArms.prefix)) {
+      return print_machines(tool, kArms, arms, ids, seed, out, seal);
+    }
+    if (single_axes.given() || first.starts_with(kAxes.prefix)) {
+      return print_machines(tool, kAxes, axes, ids, seed, out, seal);
     }
     require(scenarios > 0 || rounds > 0 || laws > 0 || !ids.empty(), Exit::kUsage,
-            "give --scenarios, --rates, --laws, --scenario, --inject or --score");
+            "give --scenarios, --rates, --laws, --arms, --axes, --scenario, --inject or --score");
     if (laws > 0) ids = conceal::laws_plan(laws);
     if (rounds > 0) ids = conceal::rates_plan(rounds, seed);
     if (ids.empty()) ids = conceal::plan(scenarios, seed);

@@ -14,6 +14,15 @@ T one_of(Rng& rng, const std::vector<T>& all) {
 }
 double logarithmic(Rng& rng, double low, double high);
 
+/// A group's share of a challenge, and what takes turns in it.
+struct Share {
+  std::string group;
+  double part;
+  std::vector<std::string> values, effects;
+};
+/// Every group by its share, its values and effects in turn, in a drawn order.
+std::vector<std::string> plan_of(const std::vector<Share>& shares, int scenarios, Rng& rng);
+
 std::string draw_axis(const std::string& id, Rng& rng);
 std::map<std::string, double> draw_parameters(const std::string& id, const std::string& axis,
                                               Rng& rng);

@@ -34,10 +34,10 @@ VectorXd sliders(const VectorXd& x, double reach) {
   return share;
 }
 
-VectorXd travelled(const VectorXd& v) {
+VectorXd travelled(const VectorXd& v, double step) {
   VectorXd x(v.size());
   double now = 0.0;
-  for (Index i = 0; i < v.size(); ++i) x(i) = now += kStep * v(i);
+  for (Index i = 0; i < v.size(); ++i) x(i) = now += step * v(i);
   return x;
 }
 
@@ -56,10 +56,10 @@ double friction(const Hidden& h, double v) {
   return (p.at("fc_n") + (p.at("fs_n") - p.at("fc_n")) * elementary::exp(-u * u)) * sign;
 }
 
-VectorXd lugre(const Hidden& h, const VectorXd& v) {
+VectorXd lugre(const Hidden& h, const VectorXd& v, double step) {
   const Parameters& p = h.parameters;
   if (h.foreign) {
-    return p.at("fc_n") * sliders(travelled(v), p.at("fc_n") / p.at("sigma0_npm"));
+    return p.at("fc_n") * sliders(travelled(v, step), p.at("fc_n") / p.at("sigma0_npm"));
   }
   const double drift = h.effect == "drifting_lugre" ? 0.6 : 0.0;
   VectorXd force(v.size());
@@ -67,12 +67,12 @@ VectorXd lugre(const Hidden& h, const VectorXd& v) {
   for (Index i = 0; i < v.size(); ++i) {
     const double fc =
         p.at("fc_n") *
-        (1.0 + drift * elementary::sin(0.002 * kStep * 1000.0 * static_cast<double>(i)));
+        (1.0 + drift * elementary::sin(0.002 * step * 1000.0 * static_cast<double>(i)));
     const double stiff = p.at("sigma0_npm") / fc;
     force(i) = p.at("sigma0_npm") * z + p.at("sigma1_nspm") * (v(i) - std::abs(v(i)) * z * stiff);
     const double next = v(std::min(i + 1, v.size() - 1));
     for (int k = 0; k < 4; ++k) {
-      z = rk4(z, kStep / 4.0, [&](double x, double part) {
+      z = rk4(z, step / 4.0, [&](double x, double part) {
         const double now = v(i) + (next - v(i)) * (k + part) / 4.0;
         return now - std::abs(now) * x * stiff;
       });

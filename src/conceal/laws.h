@@ -20,7 +20,7 @@ std::string strength_of(const Hidden& h);
 
 /// Force against the motion: a function of the speed, or of its history (T).
 double friction(const Hidden& h, double v);
-Eigen::VectorXd lugre(const Hidden& h, const Eigen::VectorXd& v);
+Eigen::VectorXd lugre(const Hidden& h, const Eigen::VectorXd& v, double step = kStep);
 Eigen::VectorXd bouc_wen(const Hidden& h, const Eigen::VectorXd& q);
 
 /// Adds the force on the tool, if the effect is one; `field`: of felt_field(), `carried`: (T, 3)
@@ -33,7 +33,8 @@ void add_moment(const Path& path, const Hidden& h, const Eigen::MatrixXd& added,
 /// Adds a law of drawn_laws().
 void add_drawn_law(const Path& path, const Hidden& h, const Eigen::MatrixXd& field,
                    Eigen::MatrixXd& F);
-/// Resonance and what the sensor makes of the force, if the effect is one of these.
+/// Resonance and what the sensor makes of the force, if the effect is one of these. Of the path its
+/// clock alone is used.
 void change_reading(const Path& path, const Hidden& h, Eigen::MatrixXd& F);
 
 }  // namespace dcnn::conceal

@@ -10,13 +10,6 @@
 namespace dcnn::conceal {
 namespace {
 
-/// A group's share of a challenge, and what takes turns in it.
-struct Share {
-  std::string group;
-  double part;
-  std::vector<std::string> values, effects;
-};
-
 const std::vector<Share>& shares() {
   static const std::vector<std::string> foreign{"coulomb_friction", "contact", "hysteresis",
                                                 "lugre_friction"};
@@ -38,10 +31,10 @@ const std::vector<Share>& shares() {
 }
 
 /// Whole numbers in proportion to the shares (largest remainders).
-std::vector<int> counts(int scenarios) {
+std::vector<int> counts(const std::vector<Share>& shares, int scenarios) {
   std::vector<int> count;
   std::vector<std::pair<double, std::size_t>> rest;
-  for (const Share& s : shares()) {
+  for (const Share& s : shares) {
     const double wanted = s.part * scenarios;
     rest.emplace_back(std::floor(wanted) - wanted, count.size());
     count.push_back(static_cast<int>(wanted));
@@ -68,14 +61,13 @@ bool impossible(const Share& share, const std::string& effect) {
 
 }  // namespace
 
-std::vector<std::string> plan(int scenarios, std::uint64_t seed) {
+std::vector<std::string> plan_of(const std::vector<Share>& shares, int scenarios, Rng& rng) {
   require(scenarios > 0 && scenarios <= 9999, Exit::kUsage,
           "a challenge has 1 to 9999 scenarios, not ", scenarios);
-  Rng rng({seed, 2});
   std::vector<std::string> ids;
-  const std::vector<int> count = counts(scenarios);
+  const std::vector<int> count = counts(shares, scenarios);
   for (std::size_t g = 0; g < count.size(); ++g) {
-    const Share& share = shares()[g];
+    const Share& share = shares[g];
     std::vector<std::string> effects = shuffled(share.effects, rng);
     std::erase_if(effects, [&](const std::string& e) { return impossible(share, e); });
     const std::vector<std::string> values = shuffled(share.values, rng);
@@ -87,6 +79,11 @@ std::vector<std::string> plan(int scenarios, std::uint64_t seed) {
     }
   }
   return shuffled(ids, rng);
+}
+
+std::vector<std::string> plan(int scenarios, std::uint64_t seed) {
+  Rng rng({seed, 2});
+  return plan_of(shares(), scenarios, rng);
 }
 
 std::vector<std::string> rates_plan(int rounds, std::uint64_t seed) {

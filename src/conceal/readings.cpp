@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,25 +16,25 @@ Eigen::Vector3d three(const Parameters& p, const std::string& a, const std::stri
   return {p.at(a + "x" + b), p.at(a + "y" + b), p.at(a + "z" + b)};
 }
 
-VectorXd resonance(const VectorXd& u, double hz, double zeta) {
+VectorXd resonance(const VectorXd& u, double hz, double zeta, double step) {
   const double w = 2.0 * std::numbers::pi * hz;
   VectorXd y(u.size());
   double x = u(0), v = 0.0;
   for (Index i = 0; i < u.size(); ++i) {  // velocity Verlet, damping in the middle of the step
     y(i) = x;
-    v += 0.5 * kStep * w * (w * (u(i) - x) - 2.0 * zeta * v);
-    x += kStep * v;
+    v += 0.5 * step * w * (w * (u(i) - x) - 2.0 * zeta * v);
+    x += step * v;
     const double next = u(std::min(i + 1, u.size() - 1));
-    v = (v + 0.5 * kStep * w * w * (next - x)) / (1.0 + zeta * w * kStep);
+    v = (v + 0.5 * step * w * w * (next - x)) / (1.0 + zeta * w * step);
   }
   return y;
 }
 
-void lag(const Parameters& p, Eigen::MatrixXd& F) {
-  const double tau = p.at("tau_s"), keep = elementary::exp(-kStep / tau);
+void lag(const Parameters& p, double step, Eigen::MatrixXd& F) {
+  const double tau = p.at("tau_s"), keep = elementary::exp(-step / tau);
   Eigen::RowVectorXd y = F.row(0), before = F.row(0);
   for (Index i = 1; i < F.rows(); ++i) {  // exact for an input linear within the step
-    const Eigen::RowVectorXd now = F.row(i), slope = (now - before) / kStep;
+    const Eigen::RowVectorXd now = F.row(i), slope = (now - before) / step;
     y = now - slope * tau + (y - before + slope * tau) * keep;
     before = now;
     F.row(i) = y;
@@ -41,22 +42,23 @@ void lag(const Parameters& p, Eigen::MatrixXd& F) {
 }
 
 /// The spring beside a dashpot that goes on giving way: s' = (F - s)/tau by the trapezoidal rule.
-void settle(const Parameters& p, Eigen::MatrixXd& F) {
+void settle(const Parameters& p, double step, Eigen::MatrixXd& F) {
   const double twice = 2.0 * p.at("tau_s");
   Eigen::RowVectorXd s = F.row(0), before = F.row(0);
   F.row(0) += p.at("a") * s;
   for (Index i = 1; i < F.rows(); ++i) {
     const Eigen::RowVectorXd now = F.row(i);
-    s = ((twice - kStep) * s + kStep * (before + now)) / (twice + kStep);
+    s = ((twice - step) * s + step * (before + now)) / (twice + step);
     before = now;
     F.row(i) += p.at("a") * s;
   }
 }
 
-void shift(double delay, Eigen::MatrixXd& F) {
+void shift(double delay, double step, Eigen::MatrixXd& F) {
   const Eigen::MatrixXd G = F;
+  const double last = static_cast<double>(F.rows() - 1);
   for (Index i = 0; i < F.rows(); ++i) {
-    const double at = std::max(0.0, static_cast<double>(i) - delay / kStep);
+    const double at = std::clamp(static_cast<double>(i) - delay / step, 0.0, last);
     const Index k = std::min(static_cast<Index>(at), F.rows() - 2);
     F.row(i) = G.row(k) + (at - static_cast<double>(k)) * (G.row(k + 1) - G.row(k));
   }
@@ -104,8 +106,9 @@ void change_reading(const Path& path, const Hidden& h, Eigen::MatrixXd& F) {
   if (h.effect == "flexible_resonance" || h.effect == "two_modes") {
     const Index a = h.axis.back() - 'x';
     const VectorXd u = F.col(a);
-    VectorXd extra = resonance(u, p.at("freq_hz"), p.at("zeta")) - u;
-    if (h.effect == "two_modes") extra -= resonance(u, 1.7 * p.at("freq_hz"), p.at("zeta")) - u;
+    VectorXd extra = resonance(u, p.at("freq_hz"), p.at("zeta"), path.step) - u;
+    if (h.effect == "two_modes")
+      extra -= resonance(u, 1.7 * p.at("freq_hz"), p.at("zeta"), path.step) - u;
     F.col(a) += p.at("fraction") * extra;
   } else if (h.effect == "misalignment")
     for (Index first = 0; first < F.cols(); first += 3) {
@@ -117,11 +120,11 @@ void change_reading(const Path& path, const Hidden& h, Eigen::MatrixXd& F) {
   } else if (h.effect == "crosstalk")
     cross(p, F);
   else if (h.effect == "lowpass")
-    lag(p, F);
+    lag(p, path.step, F);
   else if (h.effect == "creep")
-    settle(p, F);
+    settle(p, path.step, F);
   else if (h.effect == "time_delay")
-    shift(p.at("delay_s"), F);
+    shift(p.at("delay_s"), path.step, F);
   else if (h.effect == "bias" || h.effect == "linear_drift" || h.effect == "step_bias" ||
            h.effect == "hum" || h.effect == "thermal_drift") {
     for (Index i = 0; i < F.rows(); ++i) {

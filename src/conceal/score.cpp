@@ -3,7 +3,9 @@
 #include <numbers>
 #include <regex>
 
+#include "conceal/axis_world.h"
 #include "conceal/draws.h"
+#include "conceal/tally.h"
 #include "dcnn/conceal/challenge.h"
 
 namespace dcnn::conceal {
@@ -11,6 +13,17 @@ namespace {
 
 bool holds(const Json& list, const std::string& id) {
   return std::find(list.begin(), list.end(), id) != list.end();
+}
+
+/// Whether a finding has the effect's name, or one that the answers declare to say the same.
+bool is_name_of(const Json& hidden, const Json& finding) {
+  const std::string said = finding["effect"];
+  return said == hidden["effect"] || holds(hidden.value("aliases", Json::array()), said);
+}
+
+bool is_hidden(const Json& hidden, const Json& finding) {
+  return std::any_of(hidden.begin(), hidden.end(),
+                     [&](const Json& h) { return is_name_of(h, finding); });
 }
 
 /// For every hidden effect the finding that names it (on its axis before others), or has it among
@@ -24,7 +37,8 @@ std::vector<const Json*> matched(const Json& hidden, const Json& findings) {
       const std::string id = hidden[h]["effect"];
       for (std::size_t k = 0; k < findings.size() && match[h] == nullptr; ++k) {
         const Json& f = findings[k];
-        const bool fits = by == By::kAlternative ? holds(f["alternatives"], id) : f["effect"] == id;
+        const bool fits =
+            by == By::kAlternative ? holds(f["alternatives"], id) : is_name_of(hidden[h], f);
         const bool there = by != By::kNameAndAxis || f["axis"] == hidden[h]["axis"];
         if (used[k] || !fits || !there) continue;
         match[h] = &f;
@@ -102,7 +116,7 @@ Json score_effect(const Json& hidden, const Json* finding) {
   Json one{{"effect", hidden["effect"]},
            {"amplitude", hidden["amplitude"]},
            {"listed", hidden["listed"]},
-           {"named", finding != nullptr && (*finding)["effect"] == hidden["effect"]},
+           {"named", finding != nullptr && is_name_of(hidden, *finding)},
            {"in_class", finding != nullptr},
            {"axis_right", nullptr},
            {"interval_overlap", nullptr},
@@ -112,7 +126,8 @@ Json score_effect(const Json& hidden, const Json* finding) {
     one["axis_right"] = axis_name(hidden["axis"]) == axis_name((*finding)["axis"]);
   }
   one["interval_overlap"] = overlap(hidden["interval_s"], (*finding)["interval_s"]);
-  if (!hidden["foreign"].get<bool>()) one["parameters"] = score_parameters(hidden, *finding);
+  const bool same_law = (*finding)["effect"] == hidden["effect"] && !hidden["foreign"].get<bool>();
+  if (same_law) one["parameters"] = score_parameters(hidden, *finding);
   return one;
 }
 
@@ -120,7 +135,45 @@ std::string right_verdicts(const std::string& group) {
   if (has("null faint", group)) return "consistent";
   if (group == "foreign") return "explained partly-explained";
   if (has("unlisted law", group)) return "unexplained";
+  if (group == "weak") return "explained consistent";
   return group == "mixed" ? "partly-explained" : "explained";
+}
+
+/// Findings but for those that say what the log itself does (`optional`): a delay where its
+/// velocity is filtered, rounding where its readings are. They are true, and not asked for.
+Json judged(const Json& answer, const Json& findings) {
+  const Json optional = answer.value("optional", Json::array());
+  Json kept = Json::array();
+  for (const Json& f : findings) {
+    if (!holds(optional, f["effect"])) kept.push_back(f);
+  }
+  return kept;
+}
+
+/// Of a law without a name hidden in an axis: that something unnamed remains is right, and so is a
+/// discovered law that predicts what was held out as the true one does.
+bool unnamed_is_told(const Json& scored) {
+  if (has("unexplained partly-explained", scored["verdict"])) return true;
+  const Json& h = scored["holdout"];
+  return !scored["laws"].empty() && h.contains("after") && h.contains("oracle") &&
+         h["after"].get<double>() <= kWithin * h["oracle"].get<double>();
+}
+
+/// {said, right} of each name of the catalogue that has a probability: right where it is hidden.
+Json told_confidences(const Json& hidden, const Json& findings) {
+  Json all = Json::array();
+  for (const Json& f : findings) {
+    const Json said = f.value("confidence", Json());
+    if (!said.is_number() || has("unnamed discovered", f["effect"].get<std::string>())) continue;
+    all.push_back({{"said", said}, {"right", is_hidden(hidden, f)}});
+  }
+  return all;
+}
+
+/// Whether a finding is a law of the same kind as the effect: another friction for a friction.
+bool kind_is_named(const Json& hidden, const Json& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [&](const Json& f) { return axis_class(f["effect"]) == hidden["class"]; });
 }
 
 /// Mean over channels, each in its own unit.
@@ -151,8 +204,8 @@ Json score_holdout(const Json& answer, const Json& report) {
 Json score(const Json& answer, const Json& report) {
   const Json none = Json::array();
   const Json& hidden = answer["hidden"];
-  const Json& findings =
-      report.is_object() && report.contains("findings") ? report["findings"] : none;
+  const Json& all = report.is_object() && report.contains("findings") ? report["findings"] : none;
+  const Json findings = judged(answer, all);
   Json one{{"id", answer["id"]},
            {"drawn", answer["drawn"]},
            {"group", answer["group"]},
@@ -169,6 +222,9 @@ Json score(const Json& answer, const Json& report) {
   for (std::size_t h = 0; h < hidden.size(); ++h) {
     one["hidden"].push_back(hidden[h]["effect"]);
     one["effects"].push_back(score_effect(hidden[h], match[h]));
+    if (hidden[h].contains("class")) {
+      one["effects"].back()["kind_named"] = kind_is_named(hidden[h], findings);
+    }
     wanted += hidden[h]["listed"].get<bool>() ? 1 : 0;
     in_class += match[h] != nullptr ? 1 : 0;
     by_name += one["effects"].back()["named"].get<bool>() ? 1 : 0;
@@ -179,11 +235,17 @@ Json score(const Json& answer, const Json& report) {
     if (f.contains("law")) one["laws"].push_back(f["law"]);
   }
   one["false_names"] = listed_names - in_class;
-  one["top1"] = !findings.empty() && holds(one["hidden"], findings[0]["effect"]);
+  one["top1"] = !findings.empty() && is_hidden(hidden, findings[0]);
   one["set"] = by_name == wanted && listed_names == wanted && report.is_object();
   one["class_set"] = in_class == wanted && listed_names == wanted && report.is_object();
-  one["verdict_right"] = has(right_verdicts(answer["group"]), one["verdict"]);
+  const std::string right = right_verdicts(answer["group"]);
+  const bool of_log_alone = findings.empty() && !all.empty() && one["verdict"] == "explained";
+  one["verdict_right"] = has(right, one["verdict"]) || (of_log_alone && has(right, "consistent"));
   one["holdout"] = score_holdout(answer, report);
+  one["confidences"] = told_confidences(hidden, findings);
+  if (one["family"] == "axis" && has("unlisted mixed", answer["group"])) {
+    one["verdict_right"] = unnamed_is_told(one);
+  }
   return one;
 }
 

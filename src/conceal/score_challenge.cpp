@@ -21,8 +21,8 @@ Json read_if_there(const fs::path& file) {
 /// The nominal amplitude nearest in the logarithm; effects whose size is the motion's as well.
 std::string amplitude_class(double amplitude) {
   static const std::vector<std::pair<double, std::string>> nominal{
-      {0.05, "0.05"}, {0.1, "0.1"}, {0.2, "0.2"}, {0.3, "0.3"},
-      {0.5, "0.5"},   {1.0, "1"},   {2.0, "2"}};
+      {0.05, "0.05"}, {0.1, "0.1"}, {0.2, "0.2"}, {0.3, "0.3"}, {0.5, "0.5"},
+      {1.0, "1"},     {2.0, "2"},   {5.0, "5"},   {15.0, "15"}};
   std::string best;
   double least = 1e9;
   for (const auto& [value, name] : nominal) {
@@ -95,7 +95,8 @@ Json tabulate(const Json& scenarios) {
           {"motion", rows(motion)},
           {"noise", rows(noise)},
           {"single", rows(single)},
-          {"single_effect", single_effects(scenarios)}};
+          {"single_effect", single_effects(scenarios)},
+          {"confidence", confidence_table(scenarios)}};
 }
 
 /// Every answer against FOLDER/<id>/<below>/report.json; those that are not there yet are missing.

@@ -48,8 +48,50 @@ Json Tally::summary() const {
   return out;
 }
 
+Json confidence_table(const Json& scenarios) {
+  static const std::vector<double> edges{0.0, 0.5, 0.7, 0.85, 0.95, 1.0};
+  struct Bin {
+    int n = 0, right = 0;
+    double said = 0.0;
+  };
+  std::vector<Bin> bins(edges.size() - 1);
+  Bin all;
+  double brier = 0.0;
+  for (const Json& s : scenarios) {
+    for (const Json& c : s.value("confidences", Json::array())) {
+      const double said = c["said"];
+      const bool right = c["right"];
+      std::size_t k = 0;
+      while (k + 2 < edges.size() && said >= edges[k + 1]) ++k;
+      for (Bin* bin : {&bins[k], &all}) {
+        ++bin->n, bin->right += right ? 1 : 0, bin->said += said;
+      }
+      brier += (said - right) * (said - right);
+    }
+  }
+  if (all.n == 0) return nullptr;
+  Json out{{"n", all.n},
+           {"said", all.said / all.n},
+           {"right", static_cast<double>(all.right) / all.n},
+           {"brier", brier / all.n},
+           {"bins", Json::array()}};
+  for (std::size_t k = 0; k < bins.size(); ++k) {
+    if (bins[k].n == 0) continue;
+    const Json rate = wilson(bins[k].right, bins[k].n);
+    out["bins"].push_back({{"from", edges[k]},
+                           {"to", edges[k + 1]},
+                           {"n", bins[k].n},
+                           {"said", bins[k].said / bins[k].n},
+                           {"right", rate["rate"]},
+                           {"low", rate["low"]},
+                           {"high", rate["high"]}});
+  }
+  return out;
+}
+
 void add_effect(const Json& e, Tally& tally) {
   if (!e["listed"].get<bool>()) return;
+  if (e.contains("kind_named")) tally.count("found_kind", e["kind_named"]);
   tally.count("found", e["named"]);
   tally.count("found_class", e["in_class"]);
   if (e["axis_right"].is_boolean()) tally.count("axis", e["axis_right"]);
@@ -60,7 +102,6 @@ void add_effect(const Json& e, Tally& tally) {
   }
 }
 
-constexpr double kWithin = 1.05;  // of the true law's held-out error
 constexpr double kLittle = 0.05;  // of the hidden force
 
 void add_holdout(const Json& s, Tally& tally) {

@@ -25,6 +25,13 @@ class Tally {
   std::map<std::string, std::vector<double>> values_;
 };
 
+constexpr double kWithin = 1.05;  ///< of the true law's held-out error: predicts as well as it
+
+/// How often names were right beside how often they said so: {"n", "said", "right", "brier",
+/// "bins": [{"from", "to", "n", "said", "right", "low", "high"}]}; null where no name has a
+/// probability.
+Json confidence_table(const Json& scenarios);
+
 /// Adds one scored scenario, or one effect of it.
 void add_scenario(const Json& scored, Tally& tally);
 void add_effect(const Json& effect, Tally& tally);

@@ -1,5 +1,6 @@
 #include "conceal/world.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "conceal/laws.h"
@@ -69,7 +70,8 @@ void digitise(const std::vector<Hidden>& hidden, Eigen::MatrixXd& F) {
   for (const Hidden& h : hidden) {
     if (h.effect == "quantisation") {
       const double step = h.parameters.at("step_n");
-      F.leftCols(3) = (F.leftCols(3) / step).array().round().matrix() * step;
+      auto forces = F.leftCols(std::min<Index>(3, F.cols()));
+      forces = (forces / step).array().round().matrix() * step;
     }
   }
 }

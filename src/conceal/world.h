@@ -12,7 +12,8 @@ Climate draw_climate(Rng& rng);
 
 /// A recording's motion, 4000 samples a second.
 struct Path {
-  double start = 0.0;  // s, clock of the first sample
+  double start = 0.0;   // s, clock of the first sample
+  double step = kStep;  // s
   Climate climate;
   Eigen::MatrixXd pose;                    // (T, 6)
   std::vector<Eigen::Matrix3d> rotation;   // sensor to base
@@ -21,7 +22,7 @@ struct Path {
   Eigen::MatrixXd load;   // (T, 3) N, what an axis of a machine transmits; no rows: a tool
   Eigen::MatrixXd rigid;  // (T, 3) N, reaction of an arm's rigid body; no rows: the tool's alone
   Eigen::Index samples() const { return pose.rows(); }
-  double time(Eigen::Index i) const { return start + kStep * static_cast<double>(i); }
+  double time(Eigen::Index i) const { return start + step * static_cast<double>(i); }
 };
 
 /// Velocities, accelerations and rates of a pose (T, 6) whose frames are `rotation`; the sensor is

@@ -16,6 +16,7 @@ const Columns kHeadline{{"top1", "first name is right"},
                         {"class_set", "the same, alternatives count"},
                         {"found", "effects named"},
                         {"found_class", "effects named or among the alternatives"},
+                        {"found_kind", "effects of which the kind of law is named"},
                         {"false_discovery", "false names among all names"},
                         {"null_specificity", "\"consistent\" where nothing is hidden"},
                         {"null_without_name", "no name where nothing is hidden"},
@@ -91,6 +92,19 @@ std::string singles_text(const Json& table) {
       line += std::string(14 - std::min<std::size_t>(14, said.size()), ' ') + said;
     }
     text += "\n" + line;
+  }
+  return text + "\n";
+}
+
+/// How probable names were said to be, and how often they were right.
+std::string confidence_text(const Json& table) {
+  std::string text =
+      text_of("confidence of names: said %.2f, right %.2f, ", table["said"], table["right"]) +
+      text_of("Brier score %.3f", table["brier"]) + " of " + table["n"].dump();
+  for (const Json& bin : table["bins"]) {
+    text += text_of("\n    %.2f to %.2f: said %.2f, ", bin["from"], bin["to"], bin["said"]) +
+            text_of("right %.2f [%.2f, %.2f]", bin["right"], bin["low"], bin["high"]) + " of " +
+            bin["n"].dump();
   }
   return text + "\n";
 }
@@ -181,6 +195,8 @@ std::string challenge_text(const Json& scores) {
     text += std::to_string(scores["missing"].size()) + " scenarios are not yet run\n";
   }
   text += "\n" + comparison_text(scores["tables"]["group"]);
+  const Json confidence = scores["tables"].value("confidence", Json());
+  if (!confidence.is_null()) text += "\n" + confidence_text(confidence);
   if (scores["tables"]["family"].size() > 1) {
     text += "\n" + comparison_text(scores["tables"]["family"]);
   }
