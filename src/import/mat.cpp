@@ -1,6 +1,8 @@
 #include "data/text.h"
+#include "dcnn/core/excerpt.h"
 #include "import/bytes.h"
 #include "import/confine.h"
+#include "import/mat_tags.h"
 #include "import/number_arrays.h"
 #include "import/readers.h"
 
@@ -14,6 +16,7 @@ namespace dcnn {
 namespace {
 
 constexpr int kDeepestStruct = 4;
+constexpr std::size_t kFaultWords = 100;  // characters of libmatio's message that are told
 constexpr std::uint64_t kMostMatColumns = 10000, kMostMatElements = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMostTransposed = 16;  // 3 x N is a vector over time
 
@@ -54,19 +57,42 @@ bool append_numbers(const matvar_t& v, std::uint64_t count, std::string* out) {
   }
 }
 
-/// In the child: rows, columns, length of the name, name, numbers by columns.
+/// How the numbers of a variable lie: by columns.
+struct MatShape {
+  std::uint64_t rows = 0, columns = 0;
+  std::uint64_t matrix = 0;    ///< order of the matrices that the samples are; 0: they are none
+  std::uint64_t by_pages = 0;  ///< 1: 3 x 3 x N; 0: N x 3 x 3
+};
+
+/// Nothing where the variable is no table and no list of matrices.
+MatShape shape_of(const matvar_t& v) {
+  if (v.rank == 2) return {v.dims[0], v.dims[1]};
+  if (v.rank != 3) return {};
+  const auto order = [&](std::size_t a, std::size_t b) {
+    return v.dims[a] == v.dims[b] && (v.dims[a] == 3 || v.dims[a] == 4) ? v.dims[a] : 0;
+  };
+  if (const auto n = order(0, 1); n > 0) return {n * n, v.dims[2], n, 1};
+  if (const auto n = order(1, 2); n > 0) return {v.dims[0], n * n, n, 0};
+  return {};
+}
+
+/// In the child: rows, columns, how matrices lie, length of the name, name, numbers by columns; of
+/// numbers that are no table zeros and the name.
 void send_variable(const matvar_t& v, const std::string& name,
                    const std::function<void(std::string_view)>& send) {
-  if (v.rank != 2 || v.isComplex != 0 || v.data == nullptr || v.data_size <= 0) return;
-  const std::uint64_t rows = v.dims[0], columns = v.dims[1];
-  if (rows == 0 || columns == 0 || rows > kMostMatElements / columns) return;
-  if (v.nbytes / static_cast<std::size_t>(v.data_size) < rows * columns) return;
+  if (v.data == nullptr || v.data_size <= 0 || v.class_type == MAT_C_CHAR) return;
+  MatShape shape = shape_of(v);
+  const bool fits = shape.rows > 0 && shape.columns > 0 && v.isComplex == 0 &&
+                    shape.rows <= kMostMatElements / shape.columns &&
+                    v.nbytes / static_cast<std::size_t>(v.data_size) >= shape.rows * shape.columns;
+  if (!fits) shape = {};
   std::string record;
-  for (const std::uint64_t number : {rows, columns, std::uint64_t{name.size()}}) {
+  for (const std::uint64_t number :
+       {shape.rows, shape.columns, shape.matrix, shape.by_pages, std::uint64_t{name.size()}}) {
     record.append(reinterpret_cast<const char*>(&number), sizeof(number));
   }
   record += name;
-  if (append_numbers(v, rows * columns, &record)) send(record);
+  if (append_numbers(v, shape.rows * shape.columns, &record)) send(record);
 }
 
 void walk_variable(matvar_t* v, const std::string& name, int depth,
@@ -81,12 +107,32 @@ void walk_variable(matvar_t* v, const std::string& name, int depth,
   }
 }
 
-NumberArray parse_variable(std::string_view record, const std::string& place) {
+/// What libmatio could not read, the first of its messages; it goes on with zeros.
+std::string& matio_fault() {
+  static std::string fault;
+  return fault;
+}
+
+void keep_fault(int level, char* message) {
+  const bool fault = (level & (MATIO_LOG_LEVEL_ERROR | MATIO_LOG_LEVEL_CRITICAL)) != 0 ||
+                     std::string_view(message).find("nd-of-file") != std::string_view::npos;
+  if (fault && matio_fault().empty()) matio_fault() = message;
+}
+
+NumberArray parse_variable(std::string_view record, const std::string& place,
+                           std::vector<std::string>* notes) {
   Bytes bytes(record, place);
-  auto rows = bytes.number<std::uint64_t>(), columns = bytes.number<std::uint64_t>();
+  const auto rows = bytes.number<std::uint64_t>(), columns = bytes.number<std::uint64_t>();
+  const auto matrix = bytes.number<std::uint64_t>(), by_pages = bytes.number<std::uint64_t>();
   const std::string name(bytes.take(bytes.number<std::uint64_t>()));
-  const bool transposed = columns > rows && rows <= kMostTransposed;
   NumberArray array;
+  if (rows == 0) {
+    notes->push_back(shown(name) +
+                     " is complex, empty or has more than two dimensions (lists of 3 x 3 and "
+                     "4 x 4 matrices may have three): left out");
+    return array;
+  }
+  const bool transposed = matrix > 0 ? by_pages == 1 : columns > rows && rows <= kMostTransposed;
   array.rows = static_cast<Index>(transposed ? columns : rows);
   const std::uint64_t wide = transposed ? rows : columns;
   if (wide > kMostMatColumns) return {};
@@ -97,7 +143,8 @@ NumberArray parse_variable(std::string_view record, const std::string& place) {
           bytes.number<double>());
     }
   }
-  for (std::uint64_t k = 0; k < wide; ++k) {
+  if (matrix > 0) array.channels = matrix_names(name, static_cast<Index>(matrix), true);
+  for (std::uint64_t k = 0; k < wide && matrix == 0; ++k) {
     array.channels.push_back(element_name(name, static_cast<Index>(k), static_cast<Index>(wide)));
   }
   return array;
@@ -107,19 +154,34 @@ NumberArray parse_variable(std::string_view record, const std::string& place) {
 
 void read_mat(const std::filesystem::path& path, LogBuilder& builder) {
   const std::string file = path.string();
+  const bool truncated = builder.options().accept_truncated;
+  const MatOutline outline = outline_of_mat(path);
+  require(!outline.cut || truncated, Exit::kData, file,
+          ": ends in the middle of a variable; --truncated takes those before it");
+  if (outline.cut) builder.log().notes.push_back("the last variable is cut off: left out");
   std::vector<NumberArray> arrays;
   run_confined(
       [&](const auto& seal, const auto& send) {
-        Mat_LogInitFunc("dcnn", [](int, char*) {});
+        Mat_LogInitFunc("dcnn", keep_fault);
         mat_t* mat = Mat_Open(file.c_str(), MAT_ACC_RDONLY);
         require(mat != nullptr, Exit::kData, "is no MAT file that libmatio can open");
         seal();
-        while (matvar_t* variable = Mat_VarReadNext(mat)) {
-          walk_variable(variable, variable->name != nullptr ? variable->name : "?", 0, send);
+        for (std::uint64_t k = 0; !outline.cut || k < outline.whole; ++k) {
+          matvar_t* variable = Mat_VarReadNext(mat);
+          if (variable == nullptr) break;
+          const std::string name = variable->name != nullptr ? variable->name : "?";
+          require(matio_fault().empty() || truncated, Exit::kData, file, ": ", shown(name),
+                  " is damaged (libmatio: ", excerpt(matio_fault(), kFaultWords),
+                  "); --truncated leaves it out");
+          if (matio_fault().empty()) walk_variable(variable, name, 0, send);
+          matio_fault().clear();
           Mat_VarFree(variable);
         }
       },
-      [&](std::string_view record) { arrays.push_back(parse_variable(record, file)); }, file);
+      [&](std::string_view record) {
+        arrays.push_back(parse_variable(record, file, &builder.log().notes));
+      },
+      file);
   require(!arrays.empty(), Exit::kData, file,
           ": holds no arrays of real numbers (tables and timeseries are objects: save their Data)");
   add_number_arrays(arrays, "", builder);

@@ -26,6 +26,12 @@ NumberArray parse_npy(const std::string& name, std::string_view file, const std:
   NumberArray array;
   for (const NpyField& field : header.fields) {
     const std::string stem = field.name.empty() ? name : field.name;
+    if (header.matrix > 0) {
+      for (auto& element : matrix_names(stem, header.matrix, header.fortran)) {
+        array.channels.push_back(std::move(element));
+      }
+      continue;
+    }
     for (Index column = 0; column < header.columns; ++column) {
       array.channels.push_back(element_name(stem, column, header.columns));
     }

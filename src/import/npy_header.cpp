@@ -107,6 +107,10 @@ void parse_shape(Literal* literal, NpyHeader* header) {
     literal->next(',');
   }
   while (shape.size() > 2 && shape.back() == 1) shape.pop_back();
+  if (shape.size() == 3 && shape[1] == shape[2] && (shape[1] == 3 || shape[1] == 4)) {
+    header->matrix = shape[1];
+    shape = {shape[0], shape[1] * shape[1]};
+  }
   if (shape.size() > 2) throw NotNumbers("has more than two dimensions");
   header->rows = shape.empty() ? 1 : shape[0];
   header->columns = shape.size() < 2 ? 1 : shape[1];

@@ -22,6 +22,7 @@ struct NpyHeader {
   std::vector<NpyField> fields;
   bool fortran = false;
   Index rows = 0, columns = 1;
+  Index matrix = 0;  ///< order of the 3 x 3 or 4 x 4 matrices that the rows are; 0: they are none
 
   std::uint64_t row_bytes() const;  ///< of one element
   std::uint64_t bytes() const;

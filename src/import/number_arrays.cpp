@@ -4,6 +4,8 @@
 #include <limits>
 #include <map>
 
+#include "import/units.h"
+
 namespace dcnn {
 namespace {
 
@@ -17,6 +19,7 @@ void add_stream_of(const std::vector<const NumberArray*>& arrays, const std::str
       for (const std::string& channel_name : array->channels) {
         LogChannel channel;
         channel.name = channel_name;
+        channel.unit = unit_of_name(channel_name);
         made.channels.push_back(std::move(channel));
       }
     }
@@ -41,6 +44,22 @@ void add_stream_of(const std::vector<const NumberArray*>& arrays, const std::str
 
 std::string element_name(const std::string& array, Index column, Index columns) {
   return columns == 1 ? array : array + "[" + std::to_string(column) + "]";
+}
+
+std::vector<std::string> matrix_names(const std::string& array, Index order, bool by_columns) {
+  std::vector<std::string> names;
+  for (Index k = 0; k < order * order; ++k) {
+    const Index row = by_columns ? k % order : k / order;
+    const Index column = by_columns ? k / order : k % order;
+    if (row == 3) {
+      names.push_back(array + ".last.w" + std::to_string(column));
+    } else if (column == 3) {
+      names.push_back(array + ".position." + "xyz"[row]);
+    } else {
+      names.push_back(array + ".r" + std::to_string(row + 1) + std::to_string(column + 1));
+    }
+  }
+  return names;
 }
 
 void add_number_arrays(const std::vector<NumberArray>& arrays, const std::string& name,

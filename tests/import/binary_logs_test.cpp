@@ -118,7 +118,8 @@ TEST(BinaryLogs, DamagedFilesAreErrors) {
   const test::TemporaryFolder folder;
   for (const WrittenLog& log :
        {WrittenLog{"bag", "lz4", "a.bag"}, WrittenLog{"db3", "none", "a.db3"},
-        WrittenLog{"mcap", "zstd", "a.mcap"}, WrittenLog{"npz", "deflate", "a.npz"}}) {
+        WrittenLog{"mcap", "zstd", "a.mcap"}, WrittenLog{"npz", "deflate", "a.npz"},
+        WrittenLog{"mat", "none", "a.mat"}, WrittenLog{"mat", "deflate", "b.mat"}}) {
     const auto path = folder / log.file;
     if (!write_log(log, path)) continue;
     const std::string bytes = test::slurp(path);
@@ -143,6 +144,44 @@ TEST(BinaryLogs, DamagedFilesAreErrors) {
       damaged[at] = static_cast<char>(damaged[at] ^ 0xFF);
       attempt(damaged);
     }
+  }
+}
+
+// libmatio reads what is missing as zeros.
+TEST(BinaryLogs, OfMatlabThatAreCutKeepTheirWholeVariablesOnly) {
+  const test::TemporaryFolder folder;
+  const auto path = folder / "a.mat";
+  if (!write_log({"mat", "deflate", ""}, path)) GTEST_SKIP() << "no python3-scipy";
+  const std::string bytes = test::slurp(path);
+  test::spill(path, bytes.substr(0, bytes.size() - 100));
+  const std::string words = data_error([&] { read_log({path}, {}); });
+  EXPECT_NE(words.find("--truncated"), std::string::npos) << words;
+  ReadLogOptions read;
+  read.accept_truncated = true;
+  const auto channels_of = [](const ForeignLog& log) {
+    std::size_t count = 0;
+    for (const LogStream& stream : log.streams) count += stream.channels.size();
+    return count;
+  };
+  const ForeignLog cut = read_log({path}, read);
+  test::spill(path, bytes);
+  const ForeignLog whole = read_log({path}, {});
+  EXPECT_LT(channels_of(cut), channels_of(whole));
+  EXPECT_NE(cut.notes.at(0).find("cut off"), std::string::npos);
+}
+
+// NumPy and MATLAB: N x 3 x 3, N x 4 x 4 and 4 x 4 x N.
+TEST(BinaryLogs, ListsOfMatricesAreOrientationsAndPositions) {
+  const test::TemporaryFolder folder;
+  for (const char* kind : {"matrices_npz", "matrices_mat"}) {
+    const auto path = folder / (std::string("a.") + (kind + 9));
+    if (!write_log({kind, "none", ""}, path)) GTEST_SKIP() << "no library";
+    const Imported imported = test::import_log({path});
+    EXPECT_NEAR(cell(imported, "x", 7), 7e-3, 1e-15) << kind;
+    EXPECT_NEAR(cell(imported, "z", 7), -0.25, 1e-15) << kind;
+    EXPECT_NEAR(std::abs(cell(imported, "qw", 7)), 0.8, 1e-12) << kind;
+    EXPECT_NEAR(cell(imported, "qz", 7) * cell(imported, "qw", 7), 0.48, 1e-12) << kind;
+    EXPECT_EQ(cell(imported, "fz", 7), 1007.0);
   }
 }
 

@@ -279,6 +279,33 @@ def arrays():
             "orientation": numpy.array(quaternion)}
 
 
+def matrices():
+    """Poses as homogeneous matrices, N x 4 x 4."""
+    import numpy
+    data = arrays()
+    made = numpy.zeros((ROWS, 4, 4))
+    for k in range(ROWS):
+        x, y, z, w = pose(k)[3:7]
+        made[k, :3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                           [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                           [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+        made[k, :3, 3] = pose(k)[:3]
+        made[k, 3, 3] = 1
+    return {"t": data["t"], "force": data["force"], "T_base_tool": made}
+
+
+def write_matrices_npz(path, _):
+    import numpy
+    numpy.savez(path, **matrices())
+
+
+def write_matrices_mat(path, _):
+    import scipy.io
+    data = matrices()
+    data["T_base_tool"] = data["T_base_tool"].transpose(1, 2, 0)
+    scipy.io.savemat(path, data)
+
+
 def write_npz(path, compression):
     import numpy
     data = arrays()

@@ -1,0 +1,19 @@
+// The outline of a MATLAB file of version 5: where its variables begin and end.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace dcnn {
+
+struct MatOutline {
+  std::uint64_t whole = 0;  ///< variables that end within the file
+  bool cut = false;         ///< the last one runs past its end
+};
+
+/// Reads the tag (type, size: 32 bits each, in the byte order of the header) of every variable up
+/// to the end of the file. Of a file of version 7.3 (HDF5, which checks its own length) it says
+/// nothing.
+MatOutline outline_of_mat(const std::filesystem::path& path);
+
+}  // namespace dcnn
