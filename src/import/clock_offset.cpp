@@ -2,26 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "data/spline.h"
+#include "core/elementary.h"
 #include "dcnn/core/error.h"
+#include "import/clock_signals.h"
 
 namespace dcnn {
 namespace {
 
-constexpr Index kRegressors = 7;  // vertical, acceleration of the origin, a constant
-constexpr Index kBlocks = 10;     // left out in turn
+constexpr Index kBlocks = 10;          // left out in turn
+constexpr double kStudent975 = 2.262;  // of ten estimates
+constexpr double kChi975 = 3.841;      // chi-square of one number, 95 %
+constexpr double kSure = 16.0;         // of another valley: 4 standard deviations
+constexpr double kLowestBand = 0.5, kHighestBand = 16.0;  // Hz, where arms move
+constexpr double kNearestBand = 0.044;  // of the slower rate: Gaussians of one step, BandFilter
 constexpr Index kMostRows = 4000;
-constexpr double kNormal975 = 1.959963984540054;
+constexpr Index kFewestFree = 60;  // independent numbers beyond those that are fitted
+constexpr double kRidge = 1e-9;    // of each regressor's own power: nearly equal ones stay solvable
 
 /// Sums of least squares for one shift and one block of time, force by force.
 struct Sums {
-  Eigen::Matrix<double, kRegressors, kRegressors> xx =
-      Eigen::Matrix<double, kRegressors, kRegressors>::Zero();
-  Eigen::Matrix<double, kRegressors, 3> xy = Eigen::Matrix<double, kRegressors, 3>::Zero();
+  Eigen::MatrixXd xx, xy;
   Eigen::Vector3d yy = Eigen::Vector3d::Zero();
   double rows = 0.0;
 
+  explicit Sums(Index count)
+      : xx(Eigen::MatrixXd::Zero(count, count)), xy(Eigen::MatrixXd::Zero(count, 3)) {}
   void add(const Sums& other, double sign) {
     xx += sign * other.xx;
     xy += sign * other.xy;
@@ -30,71 +37,101 @@ struct Sums {
   }
   /// What a linear combination of the regressors leaves of the forces.
   double residual() const {
-    const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(xx);
-    const Eigen::MatrixXd b = solver.solve(xy);
+    const Eigen::VectorXd scale = xx.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    Eigen::MatrixXd scaled = scale.asDiagonal() * xx * scale.asDiagonal();
+    scaled.diagonal().array() += kRidge;
+    const Eigen::MatrixXd b = scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * xy);
     double sum = 0.0;
-    for (Index k = 0; k < 3; ++k) sum += yy[k] - b.col(k).dot(xy.col(k));
-    return std::max(0.0, sum);
-  }
-};
-
-/// Splines of a pose's signals: vertical and acceleration, both in the sensor's frame.
-class PoseSignals {
- public:
-  PoseSignals(const std::vector<double>& t, const Eigen::MatrixXd& pose) : t_(t) {
-    const Eigen::VectorXd clock =
-        Eigen::Map<const Eigen::VectorXd>(t.data(), static_cast<Index>(t.size()));
-    Eigen::MatrixXd acceleration = Eigen::MatrixXd::Zero(pose.rows(), 3);
-    for (Index k = 0; k < 3; ++k) acceleration.col(k) = Spline(clock, pose.col(k)).curvature();
-    Eigen::MatrixXd signals(pose.rows(), 6);
-    for (Index row = 0; row < pose.rows(); ++row) {
-      const Eigen::Quaterniond q(pose(row, 3), pose(row, 4), pose(row, 5), pose(row, 6));
-      const Eigen::Matrix3d R_t = q.normalized().toRotationMatrix().transpose();
-      signals.row(row) << (R_t * Eigen::Vector3d::UnitZ()).transpose(),
-          (R_t * acceleration.row(row).transpose()).transpose();
+    for (Index k = 0; k < 3; ++k) {
+      sum += yy[k] - 2.0 * b.col(k).dot(xy.col(k)) + b.col(k).dot(xx * b.col(k));
     }
-    for (Index k = 0; k < 6; ++k) splines_.emplace_back(clock, signals.col(k));
+    return std::max(1e-300, sum);
   }
-
-  /// False outside of the pose's times.
-  bool at(double time, Eigen::Matrix<double, kRegressors, 1>* x) const {
-    const Index after = std::upper_bound(t_.begin(), t_.end(), time) - t_.begin();
-    if (after == 0 || after == static_cast<Index>(t_.size())) return false;
-    for (std::size_t k = 0; k < 6; ++k) {
-      (*x)[static_cast<Index>(k)] = splines_[k].value(time, after - 1);
-    }
-    (*x)[6] = 1.0;
-    return true;
-  }
-
- private:
-  const std::vector<double>& t_;
-  std::vector<Spline> splines_;
 };
 
 using BlockSums = std::vector<Sums>;
 
-/// Of one shift: the sums of each block. Rows that some shift would leave out are left out by all.
-BlockSums sums_of(const PoseSignals& pose, const ClockPair& pair, double shift, double reach) {
-  BlockSums blocks(kBlocks);
-  const double begin = std::max(pair.t.front(), pair.pose_t.front() + reach);
-  const double end = std::min(pair.t.back(), pair.pose_t.back() - reach);
-  const auto count = static_cast<Index>(pair.t.size());
-  const Index stride = std::max<Index>(1, count / kMostRows);
-  for (Index row = 0; row < count; row += stride) {
-    const double t = pair.t[static_cast<std::size_t>(row)];
-    Eigen::Matrix<double, kRegressors, 1> x;
-    if (t < begin || t > end || !pose.at(t - shift, &x)) continue;
-    const auto block = static_cast<Index>((t - begin) / (end - begin) * kBlocks);
-    Sums& sums = blocks[static_cast<std::size_t>(std::min(block, kBlocks - 1))];
-    const Eigen::Vector3d y = pair.force.row(row).transpose();
-    sums.xx += x * x.transpose();
-    sums.xy += x * y.transpose();
-    sums.yy += y.cwiseAbs2();
-    sums.rows += 1.0;
+/// Least squares at many shifts, on the same rows.
+struct Scan {
+  std::vector<double> shifts;
+  std::vector<BlockSums> sums;
+
+  /// Residuals over the shifts without one block (-1: with all).
+  std::vector<double> residuals(Index without) const {
+    std::vector<double> values;
+    for (const BlockSums& blocks : sums) {
+      Sums total = blocks[0];
+      for (std::size_t k = 1; k < blocks.size(); ++k) total.add(blocks[k], 1.0);
+      if (without >= 0) total.add(blocks[static_cast<std::size_t>(without)], -1.0);
+      values.push_back(total.residual());
+    }
+    return values;
   }
-  return blocks;
-}
+};
+
+/// Force and pose of one band of frequencies.
+class Band {
+ public:
+  Band(const ClockPair& pair, double hz, double margin)
+      : filter_(hz),
+        force_(filter_.force(pair.t, pair.force)),
+        pose_(filter_.pose(pair.pose_t, pair.pose)) {
+    const double begin = std::max(force_.begin, pose_.begin + margin);
+    const double end = std::min(last(force_), last(pose_) - margin);
+    const double stride = std::max(4.0, (end - begin) / (force_.step * double(kMostRows)));
+    Eigen::VectorXd x;
+    for (double at = 0.0; at < static_cast<double>(force_.values.rows()); at += stride) {
+      const auto row = static_cast<Index>(at);
+      const double t = time_of(row);
+      if (force_.whole[static_cast<std::size_t>(row)] == 0 || t < begin || t > end) continue;
+      if (pose_.at(t - margin, &x) && pose_.at(t + margin, &x) && pose_.at(t, &x)) {
+        rows_.push_back(row);
+      }
+    }
+    covered_ = static_cast<double>(rows_.size()) * stride * force_.step;
+  }
+
+  /// Independent numbers of the force beyond the regressors' coefficients.
+  double free() const {
+    return 3.0 * (covered_ * filter_.independent() - static_cast<double>(pose_.values.cols()) - 1);
+  }
+  double power() const { return static_cast<double>(rows_.size()) * 3.0; }
+
+  Scan scan(double centre, double reach, Index steps) const {
+    Scan scan;
+    for (Index k = -steps; k <= steps; ++k) {
+      scan.shifts.push_back(centre + reach * static_cast<double>(k) / static_cast<double>(steps));
+      scan.sums.push_back(sums_of(scan.shifts.back()));
+    }
+    return scan;
+  }
+
+ private:
+  double time_of(Index row) const { return force_.begin + force_.step * static_cast<double>(row); }
+  static double last(const EvenSignals& s) {
+    return s.begin + s.step * static_cast<double>(s.values.rows() - 1);
+  }
+
+  BlockSums sums_of(double shift) const {
+    BlockSums blocks(static_cast<std::size_t>(kBlocks), Sums(pose_.values.cols()));
+    Eigen::VectorXd x;
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      if (!pose_.at(time_of(rows_[k]) - shift, &x)) continue;
+      Sums& sums = blocks[k * static_cast<std::size_t>(kBlocks) / rows_.size()];
+      const Eigen::Vector3d y = force_.values.row(rows_[k]).transpose();
+      sums.xx.noalias() += x * x.transpose();
+      sums.xy.noalias() += x * y.transpose();
+      sums.yy += y.cwiseAbs2();
+      sums.rows += 1.0;
+    }
+    return blocks;
+  }
+
+  BandFilter filter_;
+  EvenSignals force_, pose_;
+  std::vector<Index> rows_;
+  double covered_ = 0.0;  // s
+};
 
 /// The smallest value of a parabola through the least of equally spaced values and its neighbours.
 double lowest(const std::vector<double>& shifts, const std::vector<double>& values) {
@@ -107,31 +144,59 @@ double lowest(const std::vector<double>& shifts, const std::vector<double>& valu
   return bend > 0.0 ? shifts[k] - step * slope / bend : shifts[k];
 }
 
-struct Scan {
-  std::vector<double> shifts;
-  std::vector<BlockSums> sums;
-
-  /// Residuals over the shifts without one block (-1: with all).
-  std::vector<double> residuals(Index without) const {
-    std::vector<double> values;
-    for (const BlockSums& blocks : sums) {
-      Sums total;
-      for (const Sums& block : blocks) total.add(block, 1.0);
-      if (without >= 0) total.add(blocks[static_cast<std::size_t>(without)], -1.0);
-      values.push_back(total.residual());
-    }
-    return values;
-  }
+/// What one band says.
+struct BandEstimate {
+  double hz = 0.0, seconds = 0.0, half = 0.0;
+  bool alone = false;  ///< no other shift explains the force nearly as well
+  std::vector<double> shifts, residual_rms;
 };
 
-Scan scan_shifts(const PoseSignals& pose, const ClockPair& pair, double centre, double reach,
-                 Index steps, double margin) {
-  Scan scan;
-  for (Index k = -steps; k <= steps; ++k) {
-    scan.shifts.push_back(centre + reach * static_cast<double>(k) / static_cast<double>(steps));
-    scan.sums.push_back(sums_of(pose, pair, scan.shifts.back(), margin));
+/// Half of the width within which -2 log of the likelihood rises by less than chi-square's 95 %.
+double profile_half(const Scan& scan, const std::vector<double>& values, double free) {
+  const double least = *std::min_element(values.begin(), values.end());
+  double low = 0.0, high = 0.0;
+  bool any = false;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (free * elementary::log(values[k] / least) > kChi975) continue;
+    if (!any) low = scan.shifts[k];
+    high = scan.shifts[k];
+    any = true;
   }
-  return scan;
+  return 0.5 * (high - low + 2.0 * (scan.shifts[1] - scan.shifts[0]));
+}
+
+std::optional<BandEstimate> estimate_in(const ClockPair& pair, double hz, double most) {
+  constexpr Index kCoarse = 50, kFine = 20;
+  const double step = most / static_cast<double>(kCoarse);
+  const Band band(pair, hz, most + 2.0 * step);
+  if (band.free() < static_cast<double>(kFewestFree)) return std::nullopt;
+  BandEstimate found;
+  found.hz = hz;
+  const Scan coarse = band.scan(0.0, most, kCoarse);
+  const std::vector<double> profile = coarse.residuals(-1);
+  const double first = lowest(coarse.shifts, profile);
+  const Scan fine = band.scan(first, 2.0 * step, kFine);
+  const std::vector<double> valley = fine.residuals(-1);
+  found.seconds = lowest(fine.shifts, valley);
+  double mean = 0.0, square = 0.0;
+  for (Index block = 0; block < kBlocks; ++block) {
+    const double shift = lowest(fine.shifts, fine.residuals(block)) - found.seconds;
+    mean += shift / static_cast<double>(kBlocks);
+    square += shift * shift / static_cast<double>(kBlocks);
+  }
+  const double sd =
+      std::sqrt(static_cast<double>(kBlocks - 1) * std::max(0.0, square - mean * mean));
+  const Scan near = band.scan(found.seconds, 2.0 * kStudent975 * sd + 1e-6, kFine);
+  found.half = std::max(kStudent975 * sd, profile_half(near, near.residuals(-1), band.free()));
+  found.alone = std::abs(first) < most - step;
+  const double least = *std::min_element(valley.begin(), valley.end());
+  for (std::size_t k = 0; k < profile.size(); ++k) {
+    found.residual_rms.push_back(std::sqrt(profile[k] / std::max(1.0, band.power())));
+    const bool far = std::abs(coarse.shifts[k] - found.seconds) > found.half + 1.5 * step;
+    if (far && band.free() * elementary::log(profile[k] / least) < kSure) found.alone = false;
+  }
+  found.shifts = coarse.shifts;
+  return found;
 }
 
 }  // namespace
@@ -144,32 +209,21 @@ ClockOffset estimate_clock_offset(const ClockPair& pair, double most) {
       std::min(pair.t.back(), pair.pose_t.back()) - std::max(pair.t.front(), pair.pose_t.front());
   most = std::min(most, 0.25 * common);
   if (most <= 0.0) return result;
-  const PoseSignals pose(pair.pose_t, pair.pose);
-  constexpr Index kCoarse = 50, kFine = 20;
-  const Scan coarse = scan_shifts(pose, pair, 0.0, most, kCoarse, most);
-  const std::vector<double> profile = coarse.residuals(-1);
-  const double first = lowest(coarse.shifts, profile);
-  const double step = most / static_cast<double>(kCoarse);
-  // The estimates without a block scatter over the width of the valley, not over the scan.
-  const Scan fine = scan_shifts(pose, pair, first, 4.0 * step, kFine, most + 4.0 * step);
-  result.seconds = lowest(fine.shifts, fine.residuals(-1));
-  double mean = 0.0, square = 0.0;
-  for (Index block = 0; block < kBlocks; ++block) {
-    const double shift = lowest(fine.shifts, fine.residuals(block));
-    mean += shift / static_cast<double>(kBlocks);
-    square += shift * shift / static_cast<double>(kBlocks);
+  const double highest = kNearestBand / pair.step;
+  std::optional<BandEstimate> best, below;
+  for (double hz = kLowestBand; hz <= std::min(kHighestBand, highest); hz *= 2.0) {
+    auto here = estimate_in(pair, hz, most);
+    if (!here) continue;
+    if (below) here->half = std::max(here->half, std::abs(here->seconds - below->seconds));
+    below = here;
+    if (!best || here->half < best->half) best = here;
   }
-  const double spread = std::max(0.0, square - mean * mean);
-  result.sd = std::sqrt(static_cast<double>(kBlocks - 1) * spread);  // jackknife
-  result.shifts = coarse.shifts;
-  double rows = 0.0;
-  for (const Sums& block : coarse.sums[kCoarse]) rows += 3.0 * block.rows;
-  for (const double value : profile) {
-    result.residual_rms.push_back(std::sqrt(value / std::max(1.0, rows)));
-  }
-  const bool inside = std::abs(first) < most - step;
-  const bool valley = std::abs(result.seconds - first) < 3.0 * step;
-  result.certain = inside && valley && kNormal975 * result.sd < pair.step;
+  if (!best) return result;
+  result.seconds = best->seconds;
+  result.half = best->half;
+  result.shifts = best->shifts;
+  result.residual_rms = best->residual_rms;
+  result.certain = best->alone && best->half < pair.step;
   return result;
 }
 

@@ -12,8 +12,8 @@
 namespace dcnn {
 namespace {
 
-constexpr double kInterval95 = 1.959963984540054;
-constexpr Index kMostOffsetRows = 100'000;  // of the force that are compared: a limit of computation
+constexpr Index kMostOffsetRows =
+    100'000;  // of the force that are compared: a limit of computation
 
 Eigen::MatrixXd columns_of(const StreamTable& table, const std::vector<std::string>& names) {
   Eigen::MatrixXd out =
@@ -62,11 +62,12 @@ StreamOffset estimate_offset(const ForeignLog& log, const Recipe& recipe, double
   StreamTable force, pose;
   std::vector<std::string> notes;
   for (const ClockRule& clock : recipe.clocks) {
-    StreamTable table = make_stream_table(log, recipe, clock, &notes);
-    convert_orientation(recipe, &table, log.file);
-    add_quaternion(&table);
-    if (table.has("fx")) force = table;
-    if (table.has("qw")) pose = std::move(table);
+    std::vector<StreamTable> tables = make_stream_tables(log, recipe, clock, &notes);
+    if (tables.size() > 1) continue;  // of one clock
+    convert_orientation(recipe, &tables[0], log.file);
+    add_quaternion(&tables[0]);
+    if (tables[0].has("fx")) force = tables[0];
+    if (tables[0].has("qw")) pose = std::move(tables[0]);
   }
   if (force.stream.empty() || pose.stream.empty() || force.stream == pose.stream) return result;
   if (force.t.empty() || pose.t.empty() || !force.has("fy") || !force.has("fz")) return result;
@@ -92,10 +93,15 @@ std::string words_of(const StreamOffset& estimate) {
   if (offset.shifts.empty()) {
     return "offset between the clocks: too little in common to estimate it";
   }
-  const double half = kInterval95 * offset.sd;
+  const double half = offset.half;
+  const std::string interval = "(95 %: " + milliseconds(offset.seconds - half) + " to " +
+                               milliseconds(offset.seconds + half) + ")";
+  if (offset.certain && std::abs(offset.seconds) < half) {
+    return "the clock of " + excerpt(estimate.stream, 80) + " is that of the force: offset " +
+           milliseconds(offset.seconds) + " " + interval;
+  }
   return "offset of the clock of " + excerpt(estimate.stream, 80) + ": " +
-         milliseconds(offset.seconds) + " to add (95 %: " + milliseconds(offset.seconds - half) +
-         " to " + milliseconds(offset.seconds + half) + ")" +
+         milliseconds(offset.seconds) + " to add " + interval +
          (offset.certain
               ? "; not applied: say --clock-offset " + excerpt(estimate.stream, 80) + "=auto"
               : "; too uncertain to be applied");
@@ -122,7 +128,7 @@ std::string picture_of(const StreamOffset& estimate) {
     svg << frame.x(offset.shifts[k]) << "," << frame.y(offset.residual_rms[k]) << " ";
   }
   svg << "\"/>\n";
-  const double half = kInterval95 * offset.sd;
+  const double half = offset.half;
   svg << "<rect x=\"" << frame.x(std::max(frame.x0, offset.seconds - half)) << "\" y=\""
       << frame.top << "\" width=\""
       << std::max(1.0, frame.width * 2.0 * half / (frame.x1 - frame.x0)) << "\" height=\""
