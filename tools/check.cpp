@@ -1,6 +1,7 @@
 #include <iostream>
 
 #include "dcnn/experiment/check_report.h"
+#include "dcnn/import/assemble.h"
 #include "support/doctor.h"
 #include "support/tool.h"
 
@@ -64,8 +65,13 @@ int main(int argc, char** argv) {
     for (const auto& log : request.logs) {
       require(log != "-", Exit::kUsage,
               "a log is read twice: write standard input to a file first");
-      require(std::filesystem::is_regular_file(log), Exit::kData, log.string(),
-              ": is no file; give a recording (CSV)");
+      // By a recipe a log may be several files, a.txt+b.txt, or the folder of a bag.
+      for (const auto& part : split_paths(log)) {
+        const bool there =
+            read.recipe() ? std::filesystem::exists(part) : std::filesystem::is_regular_file(part);
+        require(there, Exit::kData, part.string(),
+                ": is no file; give a recording (CSV), or a log with --recipe");
+      }
     }
     const auto reports = check_logs(request);
     if (folder.given()) {

@@ -5,6 +5,7 @@
 #include "dcnn/core/file.h"
 #include "dcnn/identification/arm.h"
 #include "dcnn/identification/payload.h"
+#include "dcnn/import/summary.h"
 #include "dcnn/physics/simulator.h"
 #include "support/apart.h"
 #include "support/doctor.h"
@@ -40,7 +41,7 @@ struct Command {
   ArmRequest arm;
   std::vector<double> mounting;
   Path from, out, report, export_to;
-  std::vector<std::string> formats;
+  std::vector<std::string> formats, reading;  ///< reading: the options of ReadFlags
 };
 
 void export_payload(const Command& command, const ToolModel& model, const Tool& tool) {
@@ -52,19 +53,12 @@ void export_payload(const Command& command, const ToolModel& model, const Tool& 
   }
 }
 
-/// What a shell takes as one word.
-std::string quoted(const std::string& word) {
-  if (word.find_first_of(" '\"$\\`*?&;()<>|") == std::string::npos) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
-/// The command that goes on from what was found.
-std::string diagnosis_of(const std::string& option, const Path& found,
+/// The command that goes on from what was found; the logs are read as they were here.
+std::string diagnosis_of(const Command& command, const std::string& option, const Path& found,
                          const std::vector<Path>& logs) {
-  std::string text = "dcnn-diagnose " + option + " " + quoted(found.string()) + " --fit";
-  for (const Path& log : logs) text += " " + quoted(log.string());
+  std::string text = "dcnn-diagnose " + option + " " + quoted_argument(found.string()) + " --fit";
+  for (const Path& log : logs) text += " " + quoted_argument(log.string());
+  for (const std::string& word : command.reading) text += " " + quoted_argument(word);
   return text + " --out report";
 }
 
@@ -96,7 +90,7 @@ Exit identify(Command& command, const Doctor& doctor, const Tool& tool) {
   write_report(command, result);
   if (!command.formats.empty()) export_payload(command, result.model, tool);
   for (const auto& note : result.notes) tool.note(note);
-  const std::string next = diagnosis_of("--sim", command.out, command.request.logs);
+  const std::string next = diagnosis_of(command, "--sim", command.out, command.request.logs);
   if (tool.common().json) {
     Json json = to_json(result);
     json["next"] = next;
@@ -122,7 +116,7 @@ Exit identify_joints(Command& command, const Doctor& doctor, const Tool& tool) {
   const auto& judged = command.arm.loaded.empty() ? command.arm.logs : command.arm.loaded;
   // A diagnosis of joints needs their motion.
   const bool moving = result.lowpass_hz > 0.0;
-  const std::string next = moving ? diagnosis_of("--system", command.out, judged) : "";
+  const std::string next = moving ? diagnosis_of(command, "--system", command.out, judged) : "";
   if (tool.common().json) {
     Json json = to_json(result);
     json["next"] = moving ? Json(next) : Json();
@@ -209,8 +203,12 @@ int main(int argc, char** argv) {
     }
     require(logs.given() && out.given(), Exit::kUsage,
             "give recordings and --out sim.json; see dcnn-identify --help");
-    if (system.given()) return identify_joints(command, doctor, tool);
     command.request.read = read.options();
+    command.reading = read.words();
+    if (read.recipe()) {
+      command.reading.insert(command.reading.end(), {"--recipe", read.recipe()->string()});
+    }
+    if (system.given()) return identify_joints(command, doctor, tool);
     command.request.laws = !rigid_alone;
     return identify(command, doctor, tool);
   });

@@ -8,6 +8,7 @@
 #include "dcnn/models/model.h"
 #include "dcnn/physics/effect_words.h"
 #include "support/apart.h"
+#include "support/recipe_option.h"
 #include "support/tool.h"
 
 namespace {
@@ -61,10 +62,13 @@ int main(int argc, char** argv) {
               {"stlsq*", "lasso*", "omp*", "greedy*"})
       .required();
 
+  std::optional<std::filesystem::path> recipe;
+  add_recipe_option(tool, recipe);
   tool.check([&] { expect_apart(request.fit, request.holdout); });
   tool.shares_work();
 
   return tool.run(argc, argv, [&] {
+    if (recipe) read_by_recipe(*recipe);
     Json reports = rivals::run(request);
     for (const std::string& network : networks) {
       reports[network] = learn_remainder(

@@ -7,6 +7,7 @@
 #include "dcnn/runtime/realtime.h"
 #include "dcnn/runtime/serve.h"
 #include "support/interrupt.h"
+#include "support/recipe_option.h"
 #include "support/tool.h"
 
 namespace {
@@ -85,6 +86,8 @@ int main(int argc, char** argv) {
                                      "play a recording to itself as "
                                      "fast as it goes; times, states, memory")
                              .holds({FileKind::kRecording});
+  std::optional<std::filesystem::path> recipe;
+  add_recipe_option(tool, recipe).needs(rehearse_option);
   tool.option("--hours", hours, "simulated hours of the rehearsal")
       .positive(10000)
       .needs(rehearse_option)
@@ -123,6 +126,7 @@ int main(int argc, char** argv) {
       return Exit::kDone;
     }
     Json report;
+    if (recipe) read_by_recipe(*recipe);
     if (rehearsal.empty()) {
       catch_interrupts();
       serve.stop = interrupted;

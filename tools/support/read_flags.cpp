@@ -3,7 +3,7 @@
 
 #include "dcnn/data/table_reader.h"
 #include "dcnn/import/assemble.h"
-#include "support/tool.h"
+#include "support/recipe_option.h"
 
 namespace dcnn {
 
@@ -31,15 +31,16 @@ ReadFlags::ReadFlags(Tool& tool) {
           .value_optional()
           .between(0, 1000000)
           .group(kReading);
-  tool.option("--recipe", recipe_,
-              "import.json of dcnn-import: recordings are logs of any format that it reads")
-      .holds({FileKind::kRecipe})
-      .group(kReading);
+  add_recipe_option(tool, recipe_).group(kReading);
 }
 
-namespace {
+Option add_recipe_option(Tool& tool, std::optional<std::filesystem::path>& recipe) {
+  return tool
+      .option("--recipe", recipe,
+              "import.json of dcnn-import: recordings are logs of any format that it reads")
+      .holds({FileKind::kRecipe});
+}
 
-/// Every recording of this process is a log that the recipe turns into one.
 void read_by_recipe(const std::filesystem::path& file) {
   set_table_reader([recipe = read_recipe(file)](const std::filesystem::path& log) {
     Imported imported = import_recording(log, recipe, {});
@@ -47,8 +48,6 @@ void read_by_recipe(const std::filesystem::path& file) {
     return SourceTable{std::move(imported.table), std::move(imported.notes), recipe.wrench.zeroed};
   });
 }
-
-}  // namespace
 
 Payload payload_of(const std::vector<double>& numbers) {
   if (numbers.empty()) return {};
