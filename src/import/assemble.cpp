@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "data/clock.h"
 #include "data/text.h"
@@ -73,7 +74,7 @@ void put_on_regular_clock(double hz, const std::string& file, Imported* imported
 }
 
 void check_columns(const ForeignLog& log, const Recipe& recipe) {
-  require(!recipe.columns.empty(), Exit::kData, log.file, ": ", kHowToName,
+  require(!recipe.columns.empty(), Exit::kData, log.file, ": ", how_to_name(log),
           "; --dry-run lists the channels");
   for (std::size_t a = 0; a < recipe.columns.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
@@ -90,10 +91,11 @@ Imported assemble(const ForeignLog& log, const Recipe& recipe) {
   Imported imported;
   std::vector<StreamTable> tables;
   for (const ClockRule& clock : recipe.clocks) {
-    StreamTable table = make_stream_table(log, recipe, clock, &imported.notes);
-    convert_orientation(recipe, &table, log.file);
-    tables.push_back(std::move(table));
-    if (clock.stream == recipe.clock) std::swap(tables.front(), tables.back());
+    std::vector<StreamTable> parts = make_stream_tables(log, recipe, clock, &imported.notes);
+    for (StreamTable& part : parts) convert_orientation(recipe, &part, log.file);
+    const auto place = clock.stream == recipe.clock ? tables.begin() : tables.end();
+    tables.insert(place, std::make_move_iterator(parts.begin()),
+                  std::make_move_iterator(parts.end()));
   }
   StreamTable joined = join_streams(std::move(tables), &imported.notes);
   turn_wrench(recipe.wrench, &joined, log.file);

@@ -98,9 +98,11 @@ void join_one(const StreamTable& from, StreamTable* to, std::vector<std::string>
     if (knots[k] >= 0) rows.push_back(static_cast<Index>(k));
   }
   const ClockFigures a = clock_figures(to->t), b = clock_figures(from.t);
-  require(!rows.empty(), Exit::kData, shown(to->stream), " (", a.begin, " to ", a.end, " s) and ",
-          shown(from.stream), " (", b.begin, " to ", b.end,
-          " s) have no time in common; see --clock-offset, --stamps and --clock-unit");
+  const bool later = b.begin > a.end;
+  require(!rows.empty(), Exit::kData, shown(to->stream), " and ", shown(from.stream),
+          " have no time in common: the second one ", later ? "begins " : "ends ",
+          later ? b.begin - a.end : a.begin - b.end, later ? " s after" : " s before",
+          " the first; see --clock-offset, --stamps and --clock-unit");
   to->add(from.columns);
   for (std::size_t c = 0; c < from.columns.size(); ++c) {
     to->set(from.columns[c], interpolate_column(from, static_cast<Index>(c), to->t, knots));

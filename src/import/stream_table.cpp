@@ -106,6 +106,56 @@ std::vector<std::size_t> usable_rows(const ForeignLog& log, const LogStream& str
   return rows;
 }
 
+struct NamedColumns {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> values;
+};
+
+StreamTable table_of(const ForeignLog& log, const LogStream& stream, const NamedColumns& columns,
+                     const std::vector<double>& times, std::vector<std::string>* notes) {
+  StreamTable table;
+  table.stream = stream.name;
+  table.columns = columns.names;
+  const auto rows = usable_rows(log, stream, times, columns.values, notes);
+  table.values.resize(static_cast<Index>(rows.size()), static_cast<Index>(columns.names.size()));
+  for (std::size_t c = 0; c < columns.names.size(); ++c) {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      table.values(static_cast<Index>(k), static_cast<Index>(c)) = columns.values[c][rows[k]];
+    }
+  }
+  for (const std::size_t row : rows) {
+    if (!times.empty()) table.t.push_back(times[row]);
+  }
+  return table;
+}
+
+/// Columns with numbers in the same rows: those of which half of the rows with a number are rows
+/// with a number of the group's first.
+std::vector<std::vector<std::size_t>> sampled_together(
+    const std::vector<std::vector<double>>& columns) {
+  std::vector<std::vector<std::size_t>> groups;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    bool placed = false;
+    for (auto& group : groups) {
+      const auto& first = columns[group[0]];
+      std::size_t both = 0, own = 0, others = 0;
+      for (std::size_t row = 0; row < first.size(); ++row) {
+        const bool a = std::isfinite(first[row]), b = std::isfinite(columns[k][row]);
+        both += a && b;
+        own += b;
+        others += a;
+      }
+      if (2 * both < std::min(own, others)) continue;
+      group.push_back(k);
+      placed = true;
+      break;
+    }
+    if (!placed) groups.push_back({k});
+  }
+  if (groups.empty()) groups.emplace_back();
+  return groups;
+}
+
 }  // namespace
 
 Index StreamTable::find(const std::string& column) const {
@@ -144,29 +194,45 @@ void StreamTable::set(const std::string& column, const Eigen::VectorXd& numbers)
   values.col(at) = numbers;
 }
 
-StreamTable make_stream_table(const ForeignLog& log, const Recipe& recipe, const ClockRule& clock,
-                              std::vector<std::string>* notes) {
+std::vector<StreamTable> make_stream_tables(const ForeignLog& log, const Recipe& recipe,
+                                            const ClockRule& clock,
+                                            std::vector<std::string>* notes) {
   const LogStream& stream = stream_of(log, clock.stream);
-  StreamTable table;
-  table.stream = stream.name;
+  std::vector<std::string> names;
   std::vector<std::vector<double>> columns;
   for (const ColumnRule& rule : recipe.columns) {
     if (rule.stream != stream.name) continue;
-    table.columns.push_back(rule.to);
+    names.push_back(rule.to);
     columns.push_back(column_values(log, stream, rule));
   }
   const std::vector<double> times = clock_times(stream, clock, log.file);
-  const auto rows = usable_rows(log, stream, times, columns, notes);
-  table.values.resize(static_cast<Index>(rows.size()), static_cast<Index>(columns.size()));
-  for (std::size_t c = 0; c < columns.size(); ++c) {
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      table.values(static_cast<Index>(k), static_cast<Index>(c)) = columns[c][rows[k]];
+  const auto groups = sampled_together(columns);
+  if (groups.size() == 1 || times.empty()) {
+    return {table_of(log, stream, {std::move(names), std::move(columns)}, times, notes)};
+  }
+  std::vector<StreamTable> tables;
+  for (const auto& group : groups) {
+    NamedColumns part;
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < times.size(); ++row) {
+      if (std::isfinite(columns[group[0]][row])) rows.push_back(row);
     }
+    const auto rows_of = [&](const std::vector<double>& from) {
+      std::vector<double> values;
+      for (const std::size_t row : rows) values.push_back(from[row]);
+      return values;
+    };
+    for (const std::size_t column : group) {
+      part.names.push_back(names[column]);
+      part.values.push_back(rows_of(columns[column]));
+    }
+    LogStream own;
+    own.name = stream.name + " (" + part.names[0] + ", …)";
+    own.rows = static_cast<Index>(rows.size());
+    own.received = stream.received.empty() ? std::vector<double>() : rows_of(stream.received);
+    tables.push_back(table_of(log, own, part, rows_of(times), notes));
   }
-  for (const std::size_t row : rows) {
-    if (!times.empty()) table.t.push_back(times[row]);
-  }
-  return table;
+  return tables;
 }
 
 }  // namespace dcnn

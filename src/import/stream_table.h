@@ -24,8 +24,11 @@ struct StreamTable {
 
 /// The rows in which every used channel is a number, in the order of their times. Messages that
 /// share a stamp keep the first; a text whose clock stands still or goes back is an Error(kData).
-StreamTable make_stream_table(const ForeignLog& log, const Recipe& recipe, const ClockRule& clock,
-                              std::vector<std::string>* notes);
+/// One table; of a file that writes the rows of several sensors below each other, each in columns
+/// of its own, one for each of them.
+std::vector<StreamTable> make_stream_tables(const ForeignLog& log, const Recipe& recipe,
+                                            const ClockRule& clock,
+                                            std::vector<std::string>* notes);
 
 /// Matrix, rotation vector, angles in another order, joint angles: all become qw,qx,qy,qz (angles
 /// about z, y', x'' stay as they are). Quaternions are normalised and their signs made continuous.

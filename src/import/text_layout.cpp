@@ -53,11 +53,16 @@ std::vector<std::string_view> judged(const Lines& lines) {
 
 Reading read_as(const std::vector<std::string_view>& rows, char separator, char decimal) {
   Reading reading{separator, decimal};
+  // Behind a last separator an empty cell is none, unless other rows have a number there.
+  std::size_t widest = 0;
+  for (const std::string_view row : rows) {
+    widest = std::max(widest, row_cells(row, separator).size());
+  }
   std::map<std::size_t, std::size_t> counts;
   double score = 0.0;
   std::size_t texts = 0;
   for (const std::string_view row : rows) {
-    const Cells cells = row_cells(row, separator);
+    const Cells cells = row_cells(row, separator, widest);
     ++counts[cells.size()];
     for (const std::string_view cell : cells) {
       double value = 0.0;
