@@ -90,6 +90,7 @@ class Importer {
       for (const auto& recording : recordings) write(recording);
       write_file(*request_.out / "import.json", to_json(proposal_.recipe).dump(2) + "\n");
       if (!picture_.empty()) write_file(*request_.out / "clock-offset.svg", picture_);
+      tool_.note("Next: " + next_);
     } else if (request_.recipe) {
       std::cout << describe(read_log(recordings[0], flags_.read()), proposal_.recipe);
     }
@@ -116,13 +117,28 @@ class Importer {
     if (!wishes.arm.urdf.empty() && proposal_.recipe.orientation.kind != "joints") {
       tool_.note("  note: --urdf is not used: the log has an orientation of its own");
     }
-    if (!request_.dry_run) {
-      demand_answers(proposal_, request_.assume, log.file);
-      return show_offset(log);
+    if (request_.logs.size() > 1 && !request_.join && proposal_.recipe.columns.empty()) {
+      proposal_.questions.push_back(
+          "of several logs each is a recording: say --join where they are parts of one");
     }
+    if (!request_.dry_run) demand_answers(proposal_, request_.assume, log.file);
+    const bool open = !proposal_.questions.empty() || !proposal_.guesses.empty();
+    if (!open || !request_.dry_run) keep_what_is_named(paths);
+    if (!request_.dry_run) return show_offset(log);
     for (const auto& ask : proposal_.questions) tool_.note("  to be said: " + ask);
     for (const auto& ask : proposal_.guesses) tool_.note("  guessed: " + ask);
     if (proposal_.questions.empty() && proposal_.guesses.empty()) show_offset(log);
+  }
+
+  /// Columns that were found by counting on from a said one may not have been kept: then the log is
+  /// read again.
+  void keep_what_is_named(const std::vector<Path>& paths) {
+    if (holds(*first_, proposal_.recipe)) return;
+    ReadLogOptions read = flags_.read();
+    read.wanted = [this](const LogStream& stream, const std::string& channel) {
+      return proposal_.recipe.names(stream, channel);
+    };
+    first_.emplace(read_log(paths, read));
   }
 
   /// Two streams, two clocks: says by how much they are off, applies it where that is asked for.
@@ -133,7 +149,7 @@ class Importer {
     picture_ = picture_of(found);
     json_["clock_offset"] = {{"stream", found.stream},
                              {"seconds", found.offset.seconds},
-                             {"sd_s", found.offset.sd},
+                             {"half_of_95_percent_s", found.offset.half},
                              {"certain", found.offset.certain}};
     const auto asked = flags_.estimated_offsets();
     if (std::find(asked.begin(), asked.end(), found.stream) == asked.end()) {
@@ -145,7 +161,7 @@ class Importer {
       if (rule.stream == found.stream) rule.offset += found.offset.seconds;
     }
     tool_.note("  clock of " + found.stream + " moved by " + std::to_string(found.offset.seconds) +
-               " s, sd " + std::to_string(found.offset.sd) + " s");
+               " s, within " + std::to_string(found.offset.half) + " s (95 %)");
   }
 
   void write(const std::vector<Path>& paths) {
@@ -171,6 +187,14 @@ class Importer {
     }
     check_written(tool_, file, std::move(imported.table),
                   axes.is_null() ? System() : parse_system(axes, "system.json"));
+    const std::string name = quoted_argument(file.string());
+    next_ = axes.is_null()
+                ? "dcnn-check " + name + ", then dcnn-identify " + name +
+                      " --out sim.json (or, with a simulator, dcnn-diagnose --sim sim.json --fit " +
+                      name + " --out report)"
+                : "dcnn-diagnose --system " +
+                      quoted_argument((*request_.out / "system.json").string()) + " --fit " + name +
+                      " --out report";
   }
 
   /// The first log was read already where its recipe was found.
@@ -188,7 +212,7 @@ class Importer {
   Proposal proposal_;
   std::optional<ForeignLog> first_;  // until it is written
   Json json_ = Json::object();
-  std::string picture_;
+  std::string picture_, next_;
   std::vector<Path> written_;
 };
 

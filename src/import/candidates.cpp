@@ -1,6 +1,7 @@
 #include "import/candidates.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include "data/text.h"
 #include "import/roles.h"
@@ -15,14 +16,34 @@ std::size_t common_beginning(const std::string& a, const std::string& b) {
   return static_cast<std::size_t>(ends.first - a.begin());
 }
 
-/// The element of the stream's array that is `steps` after `channel`; empty where that is no
-/// element of an array, or there is no such one.
-std::string element_after(const LogStream& stream, const std::string& channel, Index steps) {
+bool holds_numbers(const LogStream& stream, const std::string& channel) {
+  const Index at = stream.find(channel);
+  return at >= 0 && stream.channels[static_cast<std::size_t>(at)].finite > 0;
+}
+
+/// The channel that is called like `channel` but for a letter or the last number, `steps` further
+/// on: y after x, b after a, 4 after 3; of four components w, x, y, z. Empty where there is none.
+std::string channel_after(const LogStream& stream, const std::string& channel, Index steps,
+                          std::size_t components) {
   const auto from = counted(channel);
-  if (!from || !from->before.ends_with('[') || from->after != "]") return "";
-  const std::string name = from->before + std::to_string(from->number + steps) + from->after;
-  const Index at = stream.find(name);
-  return at >= 0 && stream.channels[static_cast<std::size_t>(at)].finite > 0 ? name : "";
+  if (from) {
+    const std::string name = from->before + std::to_string(from->number + steps) + from->after;
+    if (from->number + steps >= 0 && holds_numbers(stream, name)) return name;
+  }
+  for (const std::string letters : {components == 4 ? "wxyz" : "xyz", "abc"}) {
+    for (std::size_t k = channel.size(); k-- > 0;) {
+      const char c = channel[k], small = static_cast<char>(std::tolower(c));
+      const std::size_t at = letters.find(small);
+      if (at == std::string::npos) continue;
+      const Index to = static_cast<Index>(at) + steps;
+      if (to < 0 || to >= std::ssize(letters)) continue;
+      std::string name = channel;
+      const char letter = letters[static_cast<std::size_t>(to)];
+      name[k] = c == small ? letter : static_cast<char>(std::toupper(letter));
+      if (holds_numbers(stream, name)) return name;
+    }
+  }
+  return "";
 }
 
 }  // namespace
@@ -62,12 +83,22 @@ std::optional<ColumnRule> in_said_array(const LogStream& stream,
   for (const ColumnRule& rule : said) {
     const auto from = place(rule.to);
     if (rule.stream != stream.name || from == std::ssize(columns)) continue;
-    const std::string element = element_after(stream, rule.channel, place(column) - from);
+    const std::string element =
+        channel_after(stream, rule.channel, place(column) - from, columns.size());
     const auto taken = [&](const ColumnRule& other) { return other.channel == element; };
     if (element.empty() || std::any_of(said.begin(), said.end(), taken)) continue;
     return ColumnRule{.to = column, .stream = stream.name, .channel = element};
   }
   return std::nullopt;
+}
+
+bool may_follow(const std::string& said, const std::string& channel) {
+  const auto a = counted(said), b = counted(channel);
+  if (a && b && a->before == b->before && a->after == b->after) return true;
+  if (said.size() != channel.size()) return false;
+  std::size_t other = 0;
+  for (std::size_t k = 0; k < said.size(); ++k) other += said[k] != channel[k] ? 1 : 0;
+  return other == 1;
 }
 
 std::string question_between(const std::string& column, const std::string& stream,

@@ -21,12 +21,15 @@ struct Counted {
 };
 std::optional<Counted> counted(const std::string& name);
 
-/// The channel of `column` where an element of an array was said for another one of the vector's
-/// `columns`: FT_Sensor[1] is fy beside fx=FT_Sensor[0].
+/// The channel of `column` where one was said for another of the vector's `columns`: fy_raw beside
+/// fx=fx_raw, FT_Sensor[1] beside fx=FT_Sensor[0], Q2 beside qw=Q1.
 std::optional<ColumnRule> in_said_array(const LogStream& stream,
                                         const std::vector<std::string>& columns,
                                         const std::string& column,
                                         const std::vector<ColumnRule>& said);
+
+/// Whether a channel may be one that follows a said one: other by a letter or the last number.
+bool may_follow(const std::string& said, const std::string& channel);
 
 /// What to ask where several may be `column` and nothing said tells which.
 std::string question_between(const std::string& column, const std::string& stream,

@@ -46,15 +46,31 @@ std::vector<double> numbers_in(std::vector<double> values) {
   return values;
 }
 
+const struct {
+  const char* unit;
+  double factor;
+} kTimeUnits[] = {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
+
+/// A field of a message whose values are seconds since 1970.
+bool is_date(const LogChannel& channel) {
+  const double middle = median_of(numbers_in(channel.values));
+  return middle > kYear1990 && middle < kYear2100;
+}
+
+/// The channel of --clock that this stream has; empty where there is none.
+std::string said_clock(const LogStream& stream, const ImportWishes& wishes) {
+  for (const std::string& said : wishes.clock) {
+    if (stream.find(said) >= 0) return said;
+    if (said.starts_with(stream.name + ":")) return said.substr(stream.name.size() + 1);
+  }
+  return "";
+}
+
 /// The unit of a clock that states none, by its size, or by what rates in the log say.
 void guess_unit(const LogStream& stream, const LogChannel& channel, ClockRule* rule) {
   constexpr double kFits = 1.5;  // of a rate's scale, where units are a thousand apart
-  const struct {
-    const char* unit;
-    double factor;
-  } kChoices[] = {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
   const double middle = median_of(numbers_in(channel.values));
-  for (const auto& choice : kChoices) {
+  for (const auto& choice : kTimeUnits) {
     const double seconds = middle * choice.factor;
     if (seconds < kYear1990 || seconds > kYear2100) continue;
     rule->unit = choice.unit;
@@ -64,7 +80,7 @@ void guess_unit(const LogStream& stream, const LogChannel& channel, ClockRule* r
   const double step = median_of(steps_of(channel.values));
   std::ostringstream words;
   if (const auto seconds = seconds_by_rates(stream, channel.values)) {
-    for (const auto& choice : kChoices) {
+    for (const auto& choice : kTimeUnits) {
       if (*seconds > kFits * choice.factor || choice.factor > kFits * *seconds) continue;
       rule->unit = choice.unit;
       words << "the logged rates, and steps of " << step;
@@ -127,12 +143,20 @@ bool usable_stamps(const LogStream& stream) {
 
 void take_column(const LogStream& stream, const std::string& name, const ImportWishes& wishes,
                  ClockRule* rule) {
-  const LogChannel& channel = stream.channels[static_cast<std::size_t>(stream.find(name))];
+  const Index at = stream.find(name);
+  require(at >= 0, Exit::kUsage, "--clock ", stream.name, ":", name, ": has no such channel");
+  const LogChannel& channel = stream.channels[static_cast<std::size_t>(at)];
   rule->kind = "column";
   rule->channel = name;
   const std::string stated = channel.unit;
-  if (!wishes.clock_unit.empty()) {
-    rule->unit = wishes.clock_unit;
+  std::string said = wishes.clock_unit;
+  for (const std::string& key : {std::string("t"), name}) {
+    if (const auto found = wishes.units.find(key); found != wishes.units.end() && said.empty()) {
+      said = found->second;
+    }
+  }
+  if (!said.empty()) {
+    rule->unit = said;
     rule->why = "as said";
   } else if (const auto unit = find_unit(stated); unit && unit->quantity == "time") {
     rule->unit = stated;
@@ -160,8 +184,10 @@ ClockRule propose_clock(const LogStream& stream, const ImportWishes& wishes,
       offset != wishes.clock_offsets.end()) {
     rule.offset = offset->second;
   }
-  if (!wishes.clock.empty() && stream.find(wishes.clock) >= 0) {
-    take_column(stream, wishes.clock, wishes, &rule);
+  const std::string said = said_clock(stream, wishes);
+  const LogChannel* stamp = stream.received.empty() ? nullptr : best_clock(stream);
+  if (!said.empty()) {
+    take_column(stream, said, wishes, &rule);
   } else if (wishes.rate_hz > 0.0) {
     rule.kind = "rate";
     rule.hz = wishes.rate_hz;
@@ -169,6 +195,8 @@ ClockRule propose_clock(const LogStream& stream, const ImportWishes& wishes,
   } else if (usable_stamps(stream) && (wishes.stamps == "header" || stream.received.empty())) {
     rule.kind = "header";
     rule.why = "stamps of the messages";
+  } else if (wishes.stamps == "header" && stamp != nullptr && is_date(*stamp)) {
+    take_column(stream, stamp->name, wishes, &rule);
   } else if (!stream.received.empty()) {
     rule.kind = "receive";
     rule.why = wishes.stamps == "header" ? "no stamps in the messages" : "as said";

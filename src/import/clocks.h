@@ -21,6 +21,12 @@ std::optional<ClockRule> lone_clock(const ForeignLog& log, const std::vector<Clo
 /// of its rows, to three digits, where logged rates tell it.
 void propose_unnamed(const LogStream& stream, ClockRule* rule, std::vector<std::string>* guesses);
 
+/// Where rows without a clock are a motion, not a list of poses: a guess that asks for one.
+void ask_for_clock(const ForeignLog& log, Proposal* proposal);
+/// Where the stamps of two streams have no time in common, and their times of receipt have: a
+/// question.
+void ask_for_stamps(const ForeignLog& log, const ImportWishes& wishes, Proposal* proposal);
+
 /// s; empty for kind none. Rows without a time are NaN.
 std::vector<double> clock_times(const LogStream& stream, const ClockRule& rule,
                                 const std::string& file);

@@ -30,8 +30,46 @@ Source source_of(const ForeignLog& log, const ColumnRule& rule) {
   fail(Exit::kData, log.file, ": has no channel ", shown(rule.stream + ":" + rule.channel));
 }
 
-void take_number(const std::map<std::string, double>& from, const std::string& to, double* value) {
-  if (const auto found = from.find(to); found != from.end()) *value = found->second;
+/// Whether an option's key names this column: fx, q:1 or q_1, or the channel that it is made of.
+bool is_key_of(const std::string& key, const ColumnRule& rule) {
+  if (key == rule.to || key == rule.channel || key == rule.stream + ":" + rule.channel) return true;
+  std::string plain = rule.to;
+  std::replace(plain.begin(), plain.end(), ':', '_');
+  return key == plain;
+}
+
+template <class Value>
+const Value* said_for(const std::map<std::string, Value>& from, const ColumnRule& rule) {
+  for (const auto& [key, value] : from) {
+    if (is_key_of(key, rule)) return &value;
+  }
+  return nullptr;
+}
+
+void take_number(const std::map<std::string, double>& from, const ColumnRule& rule, double* value) {
+  if (const double* said = said_for(from, rule)) *value = *said;
+}
+
+/// Every key of an option names a column, or a clock.
+template <class Value>
+void demand_keys(const char* option, const std::map<std::string, Value>& said,
+                 const Recipe& recipe) {
+  for (const auto& [key, value] : said) {
+    const auto column = [&, name = key](const ColumnRule& rule) { return is_key_of(name, rule); };
+    const auto clock = [&, name = key](const ClockRule& rule) {
+      return name == "t" || name == rule.channel;
+    };
+    if (std::any_of(recipe.columns.begin(), recipe.columns.end(), column)) continue;
+    if (std::string_view(option) == "--unit" &&
+        std::any_of(recipe.clocks.begin(), recipe.clocks.end(), clock)) {
+      continue;
+    }
+    std::string all;
+    for (const ColumnRule& rule : recipe.columns) all += (all.empty() ? "" : ", ") + rule.to;
+    fail(Exit::kUsage, option, " ", key,
+         "=…: no column of the recording is called so or made of such a channel; there ",
+         all.empty() ? "are none" : "are " + all, "; see --map and --also");
+  }
 }
 
 /// What cannot be the quantity in SI is of another unit; which one is a guess.
@@ -58,17 +96,30 @@ bool is_of_sliding_axis(const std::string& to, const std::string& quantity) {
          (to.starts_with("qd:") && quantity == "velocity");
 }
 
+/// A unit that is one of geometry or mechanics: what a converter gives may be gained to anything.
+bool has_dimension(const std::string& quantity) {
+  return quantity != "counts" && quantity != "number" && quantity != "voltage" &&
+         quantity != "current";
+}
+
 void propose_unit(const ForeignLog& log, const ImportWishes& wishes, ColumnRule* rule) {
   const Source source = source_of(log, *rule);
   const std::string quantity = quantity_of_column(rule->to);
-  take_number(wishes.gains, rule->to, &rule->gain);
-  take_number(wishes.offsets, rule->to, &rule->offset);
-  take_number(wishes.wraps, rule->to, &rule->wrap);
-  if (const auto said = wishes.units.find(rule->to); said != wishes.units.end()) {
-    rule->unit = said->second;
+  take_number(wishes.gains, *rule, &rule->gain);
+  take_number(wishes.offsets, *rule, &rule->offset);
+  take_number(wishes.wraps, *rule, &rule->wrap);
+  if (const std::string* said = said_for(wishes.units, *rule)) {
+    rule->unit = *said;
     rule->why = "as said";
-    require(find_unit(rule->unit).has_value(), Exit::kUsage, "--unit ", rule->to, "=", rule->unit,
-            ": is no unit that is known here");
+    const auto unit = find_unit(rule->unit);
+    require(unit.has_value(), Exit::kUsage, "--unit ", rule->to, "=", rule->unit,
+            ": is no unit that is known here", quantity.empty() ? "" : " of " + quantity,
+            "; there are ", units_of(quantity));
+    const bool other = !quantity.empty() && has_dimension(unit->quantity) &&
+                       unit->quantity != quantity && rule->gain == 1.0 &&
+                       !is_of_sliding_axis(rule->to, unit->quantity);
+    require(!other, Exit::kUsage, "--unit ", rule->to, "=", rule->unit, ": is a unit of ",
+            unit->quantity, ", and ", rule->to, " is one of ", quantity, ": ", units_of(quantity));
     return;
   }
   const auto stated = find_unit(source.channel->unit);
@@ -115,7 +166,7 @@ std::string quantity_of_column(const std::string& to) {
 }
 
 void propose_units(const ForeignLog& log, const ImportWishes& wishes, Proposal* proposal) {
-  std::map<std::string, std::string> guessed;
+  std::map<std::pair<std::string, std::string>, std::string> guessed;  // by unit and quantity
   for (ColumnRule& rule : proposal->recipe.columns) {
     propose_unit(log, wishes, &rule);
     if (!rule.assumed) continue;
@@ -123,7 +174,8 @@ void propose_units(const ForeignLog& log, const ImportWishes& wishes, Proposal* 
         !unit.empty() && rule.unit.empty()) {
       proposal->guesses.push_back(shown(unit) + " behind the name of " + rule.to +
                                   " is no unit that is known here: say --unit " + rule.to +
-                                  "=N, or what it is");
+                                  "=UNIT, one of " + units_of(quantity_of_column(rule.to)) +
+                                  ", or --gain " + rule.to + "=NUMBER, what one of it is in SI");
       continue;
     }
     if (rule.why.find("no unit of") != std::string::npos) {
@@ -132,13 +184,21 @@ void propose_units(const ForeignLog& log, const ImportWishes& wishes, Proposal* 
                                   "=NUMBER, what one " + rule.unit + " is in SI");
       continue;
     }
-    std::string& list = guessed[rule.unit];
+    std::string& list = guessed[{rule.unit, quantity_of_column(rule.to)}];
     list += (list.empty() ? "" : ",") + rule.to;
   }
-  for (const auto& [unit, columns] : guessed) {
+  if (proposal->questions.empty()) {
+    demand_keys("--unit", wishes.units, proposal->recipe);
+    demand_keys("--gain", wishes.gains, proposal->recipe);
+    demand_keys("--offset", wishes.offsets, proposal->recipe);
+    demand_keys("--wrap", wishes.wraps, proposal->recipe);
+  }
+  for (const auto& [kind, columns] : guessed) {
+    const auto& [unit, quantity] = kind;
     const std::string ask = unit == "counts"
                                 ? columns + " look like counts (large whole numbers): say --gain " +
-                                      columns + "=NEWTONS_PER_COUNT, or --unit " + columns + "=mN"
+                                      columns + "=SI_PER_COUNT, or --unit " + columns + "=" +
+                                      (quantity == "torque" ? "mNm" : "mN")
                                 : columns + " look like " + unit + " by their size: say --unit " +
                                       columns + "=" + unit +
                                       (columns.starts_with("q:")

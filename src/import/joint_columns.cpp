@@ -29,6 +29,7 @@ class JointFinder {
       if (is_joint(rule.to)) count_on(rule);
     }
     by_name();
+    take_currents();
     leave_lone();
     if (found_.empty() && said_.empty()) only_joint();
     ask();
@@ -77,10 +78,47 @@ class JointFinder {
     }
   }
 
+  bool has_joints(const LogStream& stream) const {
+    return std::any_of(stream.channels.begin(), stream.channels.end(), [&](const auto& channel) {
+      return channel.finite > 0 && is_joint(role_of(stream, channel.name));
+    });
+  }
+
+  /// Streams of --use where one of them has joints; else all.
+  std::vector<const LogStream*> usable() const {
+    std::vector<const LogStream*> all, used;
+    for (const LogStream& stream : log_.streams) {
+      all.push_back(&stream);
+      const bool named = std::find(use_.begin(), use_.end(), stream.name) != use_.end();
+      if (named && has_joints(stream)) used.push_back(&stream);
+    }
+    return used.empty() ? all : used;
+  }
+
+  /// The currents of joints without torques stand in their place.
+  void take_currents() {
+    std::string first;
+    for (const LogStream* stream : usable()) {
+      for (const LogChannel& channel : stream->channels) {
+        const std::string role = role_of(*stream, channel.name);
+        if (!role.starts_with("current:") || channel.finite == 0) continue;
+        const std::string joint = role.substr(role.find(':'));
+        if (has("tau" + joint) || (!has("q" + joint) && !has("qd" + joint))) continue;
+        if (is_used(stream->name, channel.name)) continue;
+        found_.push_back({.to = "tau" + joint, .stream = stream->name, .channel = channel.name});
+        if (first.empty()) first = channel.name;
+      }
+    }
+    if (!first.empty()) {
+      proposal_->notes.push_back("currents stand for torques, from " + shown(first) +
+                                 " on; else say --map tau:…=CHANNEL");
+    }
+  }
+
   void by_name() {
     std::map<std::string, std::string> stream_of;
-    for (const LogStream& stream : log_.streams) {
-      if (!use_.empty() && std::find(use_.begin(), use_.end(), stream.name) == use_.end()) continue;
+    for (const LogStream* usable_stream : usable()) {
+      const LogStream& stream = *usable_stream;
       for (const LogChannel& channel : stream.channels) {
         const std::string role = role_of(stream, channel.name);
         if (!is_joint(role) || channel.finite == 0) continue;

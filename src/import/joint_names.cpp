@@ -25,10 +25,18 @@ std::string stem_of(const std::string& word) {
 std::string quantity_of(const std::string& stem) {
   if (stands_in(stem, {"q", "pos", "position", "positions", "angle", "angles", "theta"}))
     return "q:";
-  if (stands_in(stem, {"qd", "dq", "qdot", "vel", "velocity", "velocities", "speed", "speeds"}))
+  if (stem == "aipos") return "q:";  // KUKA RSI: actual positions of the axes
+  if (stands_in(stem,
+                {"qd", "dq", "qdot", "vel", "velocity", "velocities", "speed", "speeds", "omega"}))
     return "qd:";
-  if (stands_in(stem, {"tau", "torque", "torques", "effort", "efforts", "eff"})) return "tau:";
+  if (stands_in(stem, {"tau", "torque", "torques", "effort", "efforts", "eff", "trq"}))
+    return "tau:";
   return "";
+}
+
+/// A motor's current; "current" may also say that a position is the present one.
+bool is_current(const std::string& stem) {
+  return stands_in(stem, {"current", "currents", "curr", "cur", "iq", "macur"});
 }
 
 bool is_joint_word(const std::string& stem) {
@@ -45,7 +53,9 @@ bool is_foreign(const std::string& stem) {
 }
 
 bool says_nothing(const std::string& word) {
-  return stands_in(word, {"actual", "measured", "meas", "msr", "state", "states", "current"});
+  return stands_in(
+      word, {"actual", "measured", "meas", "msr", "state", "states", "current", "field", "motor",
+             "feedback", "fb", "data", "disturb", "disturbance", "value"});
 }
 
 /// "joint_3" and "joint3" are joint 3; "panda_joint3" is a name of its own.
@@ -53,6 +63,7 @@ std::string plain_joint(std::string name) {
   const std::size_t digit = name.find_first_of("0123456789");
   if (digit == std::string::npos || !is_number(name.substr(digit))) return name;
   std::string stem = name.substr(0, digit);
+  if (stem == "a" || stem.ends_with("_a")) stem.pop_back();  // axes A1 to A6
   if (stem.ends_with('_')) stem.pop_back();
   return stem.empty() || is_joint_word(stem) ? name.substr(digit) : name;
 }
@@ -87,7 +98,7 @@ std::string lone_quantity(const Words& words) {
   std::string found;
   for (const std::string& word : words) {
     std::string kind = quantity_of(word);
-    const bool current = stands_in(word, {"current", "curr"});  // else a word of state
+    const bool current = is_current(word);  // else "current" is a word of state
     if (kind.empty() && current && &word == &words.back() && found.empty()) kind = "current:";
     if (kind.empty() && says_nothing(word)) continue;
     if (kind.empty() || !found.empty()) return "";
@@ -98,18 +109,28 @@ std::string lone_quantity(const Words& words) {
 
 std::string joint_role(const Words& words, const std::string& of_file) {
   std::string kind, name;
+  bool current = false;
   const auto append = [&](const std::string& part) { name += (name.empty() ? "" : "_") + part; };
-  for (const std::string& word : words) {
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    const std::string& word = words[k];
     const std::string stem = stem_of(word), quantity = quantity_of(stem);
     if (is_foreign(stem)) return "";
+    // /joint_states/elbow_joint/position: a topic's words are no part of a name.
+    const bool topic = k + 1 < words.size() && stands_in(word, {"joint", "joints"}) &&
+                       stands_in(words[k + 1], {"state", "states"});
+    if (topic) continue;
+    current = current || is_current(stem);
     if (!quantity.empty()) {
       if (!kind.empty()) return "";
       kind = quantity;
       if (word.size() > stem.size()) append(word.substr(stem.size()));
-    } else if (!says_nothing(word)) {
+    } else if (says_nothing(stem) || is_current(stem)) {
+      if (word.size() > stem.size()) append(word.substr(stem.size()));
+    } else {
       append(word);
     }
   }
+  if (kind.empty() && current) kind = "current:";
   const bool marked = names_joint(words);
   if (kind.empty() && marked) kind = of_file;
   name = plain_joint(name);

@@ -14,8 +14,8 @@ std::string joint_quantity_of_file(const std::vector<std::string>& words);
 bool names_joint(const std::vector<std::string>& words);
 
 /// "q:NAME", "qd:NAME", "tau:NAME" by words in any order: {pos, panda, joint1}, {actual, q, 0},
-/// {arm, 2, joint, effort}. A name without a quantity has that of its file, `of_file`. Empty where
-/// the words are no joint's.
+/// {arm, 2, joint, effort}; "current:NAME" of a motor's current. A name without a quantity has that
+/// of its file, `of_file`. Empty where the words are no joint's.
 std::string joint_role(const std::vector<std::string>& words, const std::string& of_file);
 
 /// "q:", "qd:" or "tau:" where the words are one quantity and nothing else, as the only joint of a

@@ -3,44 +3,16 @@
 
 #include "data/text.h"
 #include "dcnn/core/error.h"
-#include "dcnn/core/options.h"
-#include "import/candidates.h"
 #include "import/clocks.h"
 #include "import/column_units.h"
 #include "import/joint_columns.h"
 #include "import/roles.h"
+#include "import/vector_columns.h"
 
 namespace dcnn {
 namespace {
 
 using Names = std::vector<std::string>;
-
-/// Columns that stand or fall together, in the order in which they are looked for.
-struct VectorRole {
-  const char* words;
-  Names columns;
-};
-
-const std::vector<VectorRole>& vector_roles() {
-  static const std::vector<VectorRole> kRoles = {
-      {"force", {"fx", "fy", "fz"}},
-      {"torque", {"tx", "ty", "tz"}},
-      {"position", {"x", "y", "z"}},
-      {"quaternion", {"qw", "qx", "qy", "qz"}},
-      {"quaternion by index", {"quat0", "quat1", "quat2", "quat3"}},
-      {"rotation matrix", {"r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"}},
-      {"angles", {"alpha", "beta", "gamma"}},
-      {"angles by index", {"rot1", "rot2", "rot3"}},
-      {"rotation vector", {"rvx", "rvy", "rvz"}},
-      {"velocity", {"vx", "vy", "vz"}},
-      {"angular velocity", {"wx", "wy", "wz"}},
-      {"acceleration", {"ax", "ay", "az"}},
-      {"angular acceleration", {"dwx", "dwy", "dwz"}},
-      {"simulated force", {"fx_sim", "fy_sim", "fz_sim"}},
-      {"simulated torque", {"tx_sim", "ty_sim", "tz_sim"}},
-      {"temperature", {"temperature"}}};
-  return kRoles;
-}
 
 class Proposer {
  public:
@@ -48,15 +20,20 @@ class Proposer {
 
   Proposal run() {
     take_mapped();
-    for (const VectorRole& role : vector_roles()) take_vector(role);
+    demand_clocks();
+    if (!of_arm()) find_vectors(log_, wishes_, &proposal_);
+    take_quaternion();
     take_joints();
     for (const std::string& name : wishes_.also) take_also(name);
     set_orientation();
     recipe().wrench = wishes_.wrench;
     recipe().arm = wishes_.arm;
     note_frames();
+    note_what_is_missing();
     set_clocks();
     propose_units(log_, wishes_, &proposal_);
+    ask_for_clock(log_, &proposal_);
+    ask_for_stamps(log_, wishes_, &proposal_);
     return std::move(proposal_);
   }
 
@@ -71,153 +48,132 @@ class Proposer {
     return std::any_of(columns.begin(), columns.end(), [&](const auto& to) { return has(to); });
   }
 
-  /// "STREAM:CHANNEL", or a channel's name that one stream alone has.
-  ColumnRule find_channel(const std::string& spec) const {
-    Names streams, all;
-    for (const LogStream& stream : log_.streams) {
-      for (const LogChannel& channel : stream.channels) {
-        if (spec == stream.name + ":" + channel.name) {
-          return {.to = "", .stream = stream.name, .channel = channel.name};
-        }
-        if (spec == channel.name) streams.push_back(stream.name);
-        all.push_back(channel.name);
-      }
-    }
-    const std::string near = nearest_word(spec, all);
-    require(!streams.empty(), Exit::kUsage, log_.file, ": there is no channel ", shown(spec),
-            near.empty() ? "; see --dry-run" : "; did you mean " + shown(near) + "?");
-    require(streams.size() == 1, Exit::kUsage, log_.file, ": ", streams.size(),
-            " streams have a channel ", shown(spec), "; name one: ", streams[0], ":", spec);
-    return {.to = "", .stream = streams[0], .channel = spec};
-  }
-
   void take(const std::string& to, ColumnRule rule) {
     rule.to = to;
     recipe().columns.push_back(std::move(rule));
   }
 
   void take_mapped() {
-    for (const auto& [to, spec] : wishes_.map) take(to, find_channel(spec));
+    for (const auto& [to, spec] : wishes_.map) take(to, find_channel(log_, spec));
   }
 
   void take_also(const std::string& spec) {
-    const ColumnRule rule = find_channel(spec);
+    const ColumnRule rule = find_channel(log_, spec);
     std::string to;
     for (const std::string& word : words_of_name(rule.channel))
       to += (to.empty() ? "" : "_") + word;
     take(to, rule);
   }
 
-  bool may_use(const LogStream& stream) const {
-    return wishes_.use.empty() ||
-           std::find(wishes_.use.begin(), wishes_.use.end(), stream.name) != wishes_.use.end();
-  }
-
-  /// The channels of a stream that are the columns of a vector, but for those that were said; empty
-  /// where one is missing.
-  std::vector<ColumnRule> find_vector(const LogStream& stream, const VectorRole& role,
-                                      bool as_translation) {
-    std::vector<ColumnRule> rules;
-    std::string open;
-    for (const std::string& column : role.columns) {
-      if (has(column)) continue;
-      if (auto rule = in_said_array(stream, role.columns, column, recipe().columns)) {
-        rules.push_back(std::move(*rule));
+  /// The streams of --use have joints and nothing else.
+  bool uses_joints_alone() const {
+    bool joints = false;
+    for (const LogStream& stream : log_.streams) {
+      if (std::find(wishes_.use.begin(), wishes_.use.end(), stream.name) == wishes_.use.end()) {
         continue;
       }
-      Names candidates;
       for (const LogChannel& channel : stream.channels) {
-        std::string found = role_of(stream, channel.name);
-        if (as_translation && found.size() == 2 && found[0] == 't') found.erase(0, 1);
-        if (found == column && channel.finite > 0) candidates.push_back(channel.name);
+        const std::string role = role_of(stream, channel.name);
+        if (!role.empty() && role.find(':') == std::string::npos) return false;
+        joints = joints || !role.empty();
       }
-      if (candidates.empty()) return {};
-      const auto nearest = nearest_to_said(candidates, said_of(stream));
-      if (candidates.size() > 1 && !nearest && open.empty()) {
-        open = question_between(column, stream.name, candidates);
-      }
-      rules.push_back(
-          {.to = column, .stream = stream.name, .channel = candidates[nearest.value_or(0)]});
     }
-    if (!open.empty()) proposal_.questions.push_back(open);
-    return rules;
+    return joints;
   }
 
-  /// Channels of a stream that --map names.
-  Names said_of(const LogStream& stream) const {
-    Names said;
+  /// Joints are said, and no part of a wrench or pose: a recording of the arm alone.
+  bool of_arm() const {
+    if (uses_joints_alone() && wishes_.map.empty()) return wishes_.arm.urdf.empty();
+    bool joints = false;
     for (const auto& [to, spec] : wishes_.map) {
-      const ColumnRule rule = find_channel(spec);
-      if (rule.stream == stream.name) said.push_back(rule.channel);
+      if (to.find(':') == std::string::npos) return false;
+      joints = true;
     }
-    return said;
+    return joints && wishes_.arm.urdf.empty();
   }
 
-  void take_vector(const VectorRole& role) {
-    const bool oriented = has_any({"qw", "quat0", "r11", "alpha", "rot1"});
-    const std::string first = role.columns[0];
-    if (std::all_of(role.columns.begin(), role.columns.end(),
-                    [&](const std::string& column) { return has(column); })) {
-      return;
-    }
-    if (oriented && !has(first) &&
-        (first == "quat0" || first == "r11" || first == "alpha" || first == "rot1" ||
-         first == "rvx")) {
-      return;
-    }
-    std::string said;  // the stream of what --map says of this vector
-    for (const ColumnRule& rule : recipe().columns) {
-      const bool part =
-          std::find(role.columns.begin(), role.columns.end(), rule.to) != role.columns.end();
-      if (part && said.empty()) said = rule.stream;
-    }
-    std::vector<std::vector<ColumnRule>> found;
-    for (const LogStream& stream : log_.streams) {
-      if (!may_use(stream) || (!said.empty() && stream.name != said)) continue;
-      const bool trajectory = is_trajectory(stream);
-      if (trajectory && first == "tx") continue;
-      auto rules = find_vector(stream, role, trajectory && first == "x");
-      if (rules.empty()) continue;
-      if (trajectory && first == "x") {
-        proposal_.notes.push_back("tx, ty, tz without a force beside them are a translation");
-      }
-      found.push_back(std::move(rules));
-    }
-    prefer_sister(role, &found);
-    if (found.size() > 1) ask_stream(role, found);
-    if (found.size() != 1) return;
-    for (ColumnRule& rule : found[0]) take(rule.to, rule);
-  }
-
-  /// A torque is that of the force, an orientation that of the position.
-  void prefer_sister(const VectorRole& role, std::vector<std::vector<ColumnRule>>* found) {
-    const bool wrench = role.columns[0] == "tx";
-    for (const ColumnRule& taken : recipe().columns) {
-      if (taken.to != (wrench ? "fx" : "x")) continue;
-      for (const auto& rules : *found) {
-        if (rules[0].stream != taken.stream) continue;
-        const std::vector<ColumnRule> sister = rules;
-        *found = {sister};
-        return;
-      }
+  /// A --clock that no stream has as numbers.
+  void demand_clocks() const {
+    for (const std::string& said : wishes_.clock) {
+      const auto has_it = [&](const LogStream& stream) {
+        return stream.find(said) >= 0 || said.starts_with(stream.name + ":");
+      };
+      if (std::any_of(log_.streams.begin(), log_.streams.end(), has_it)) continue;
+      const bool text = std::any_of(log_.notes.begin(), log_.notes.end(), [&](const auto& note) {
+        return note.find(shown(said) + " holds text") != std::string::npos;
+      });
+      fail(text ? Exit::kData : Exit::kUsage, log_.file, ": --clock ", said,
+           text ? " holds text that is neither a number, a date nor a time of day; say --rate"
+                : ": there is no channel of this name; see --dry-run");
     }
   }
 
-  void ask_stream(const VectorRole& role, const std::vector<std::vector<ColumnRule>>& found) {
-    std::string words = std::string("several streams have a ") + role.words + ": say --use ";
-    for (const auto& rules : found) words += (&rules == &found[0] ? "" : " or ") + rules[0].stream;
-    proposal_.questions.push_back(words);
+  /// Four channels of unit length beside a wrench: q0 to q3 are a joint's without one.
+  void take_quaternion() {
+    if (!has("fx") || has_any({"qw", "quat0", "r11", "alpha", "rot1", "rvx", "rx"})) return;
+    for (const ColumnRule& rule : find_unit_quaternion(log_)) take(rule.to, rule);
   }
 
   /// Joint angles, rates and torques: of an arm, or for a pose by --urdf.
   void take_joints() {
-    if (has("fx") && has_any({"qw", "quat0", "r11", "alpha", "rot1", "rvx"})) return;
+    const bool posed = has_any({"qw", "quat0", "r11", "alpha", "rot1", "rvx", "rx"});
+    if (has("fx") && posed && !of_arm()) return note_joints();
     for (const ColumnRule& rule : find_joints(log_, recipe().columns, wishes_.use, &proposal_)) {
       take(rule.to, rule);
     }
   }
 
+  /// What else is in a log from which a wrench and a pose are taken.
+  void note_joints() {
+    Proposal other;
+    const auto joints = find_joints(log_, {}, {}, &other);
+    const auto first = [&](const char* kind) {
+      const auto found = std::find_if(joints.begin(), joints.end(), [&](const ColumnRule& rule) {
+        return rule.to.starts_with(kind);
+      });
+      return found == joints.end() ? "" : " --map " + found->to + "=" + found->channel;
+    };
+    if (const std::string q = first("q:"), tau = first("tau:"); !q.empty() && !tau.empty()) {
+      proposal_.notes.push_back("joints are there, too; for a recording of the arm instead say" +
+                                q + tau + " (those counted on from them follow)");
+    }
+  }
+
+  /// A recording without a force says nothing of what acts.
+  void note_what_is_missing() {
+    const auto is_effort = [](const ColumnRule& rule) {
+      return rule.to == "fx" || rule.to == "tx" || rule.to.starts_with("tau:") ||
+             rule.to.starts_with("q:");
+    };
+    const auto& columns = recipe().columns;
+    if (columns.empty() || std::any_of(columns.begin(), columns.end(), is_effort)) return;
+    proposal_.notes.push_back(
+        "no force is known by its name: the recording has a motion alone; say --map fx=CHANNEL "
+        "(fy and fz follow where they are called alike)");
+  }
+
+  /// rx, ry, rz: what they are must be said.
+  void name_rotation() {
+    if (!has("rx")) return;
+    if (wishes_.euler_order.empty()) {
+      const auto first = std::find_if(recipe().columns.begin(), recipe().columns.end(),
+                                      [](const ColumnRule& rule) { return rule.to == "rx"; });
+      proposal_.questions.push_back(
+          shown(first->channel) +
+          " and its neighbours may be three angles or a rotation vector: say --euler-order xyz "
+          "(roll, pitch, yaw about fixed axes; ZYX and others about moving ones) or --map rvx=" +
+          first->channel + " (rotation vector, as of UR)");
+      return;
+    }
+    for (ColumnRule& rule : recipe().columns) {
+      if (rule.to == "rx") rule.to = "rot1";
+      if (rule.to == "ry") rule.to = "rot2";
+      if (rule.to == "rz") rule.to = "rot3";
+    }
+  }
+
   void set_orientation() {
+    name_rotation();
     OrientationRule& rule = recipe().orientation = wishes_.orientation;
     if (has("quat0")) {
       rename_quaternion();

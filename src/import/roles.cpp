@@ -5,6 +5,7 @@
 #include <cctype>
 #include <utility>
 
+#include "import/frame_names.h"
 #include "import/joint_names.h"
 #include "import/units.h"
 
@@ -33,10 +34,10 @@ std::string with_axis(const char* stem, int axis) { return stem + std::string(1,
 
 /// Names that are a column in one word.
 std::string single_word(const std::string& word) {
-  constexpr std::array kColumns = {"x",  "y",  "z",  "alpha", "beta", "gamma", "qw",
-                                   "qx", "qy", "qz", "fx",    "fy",   "fz",    "tx",
-                                   "ty", "tz", "vx", "vy",    "vz",   "wx",    "wy",
-                                   "wz", "ax", "ay", "az",    "dwx",  "dwy",   "dwz"};
+  constexpr std::array kColumns = {"x",  "y",   "z",   "alpha", "beta", "gamma", "qw", "qx",
+                                   "qy", "qz",  "fx",  "fy",    "fz",   "tx",    "ty", "tz",
+                                   "vx", "vy",  "vz",  "wx",    "wy",   "wz",    "ax", "ay",
+                                   "az", "dwx", "dwy", "dwz",   "rx",   "ry",    "rz"};
   if (std::find(kColumns.begin(), kColumns.end(), word) != kColumns.end()) return word;
   if (word.size() == 2 && word[0] == 'm' && axis_of(word.substr(1)) >= 0)
     return "t" + word.substr(1);
@@ -90,9 +91,9 @@ std::string matrix_element(const Words& words, int index) {
 
 /// What a controller wants, what was simulated or a statistic is no measurement.
 bool is_no_measurement(const Words& words) {
-  return has_word(words,
-                  {"covariance", "target", "desired", "des", "goal", "setpoint", "reference", "ref",
-                   "cmd", "command", "commanded", "bias", "std", "raw_counts", "gravity", "sim"});
+  return has_word(words, {"covariance", "target", "desired", "des", "goal", "setpoint", "reference",
+                          "ref", "cmd", "command", "commanded", "bias", "std", "raw_counts",
+                          "gravity", "sim", "soll", "rsol", "aspos"});
 }
 
 /// Whose unit says what the axis in its name is of: "Sensor X (N)".
@@ -106,7 +107,7 @@ std::string by_unit(const std::string& name, const std::string& axis) {
 }
 
 /// Quantity and component in several words: {wrench, force, x}, {actual, tcp, force, 3}.
-std::string by_words(const Words& words) {
+std::string by_words(const LogStream& stream, const std::string& name, const Words& words) {
   const std::string& last = words.back();
   const bool number = !last.empty() && last.find_first_not_of("0123456789") == std::string::npos;
   const int index = number && last.size() < 3 ? std::stoi(last) : -1;
@@ -119,6 +120,10 @@ std::string by_words(const Words& words) {
       index < 6) {
     return with_axis(index < 3 ? "f" : "t", index % 3);
   }
+  const int elements = index >= 0 ? elements_beside(stream, name) : 0;
+  if (elements == 6 && has_word(words, {"ft", "fts", "wrench"}) && index < 6) {
+    return with_axis(index < 3 ? "f" : "t", index % 3);
+  }
   if (index >= 0) {
     if (const std::string element = matrix_element(words, index); !element.empty()) return element;
   }
@@ -128,7 +133,12 @@ std::string by_words(const Words& words) {
     return "quat" + std::to_string(index);
   }
   if (has_word(words, {"rpy", "euler"}) && axis >= 0) return "rot" + std::to_string(axis + 1);
-  if (axis < 0) return "";
+  if (has_word(words, {"rot"}) && (last == "w" || axis >= 0) && !number) {
+    const std::string w = name.substr(0, name.size() - 1);
+    const bool four = stream.find(w + "w") >= 0 || stream.find(w + "W") >= 0;
+    return (four ? "q" : "r") + last;
+  }
+  if (axis < 0 || elements > 3) return "";  // an array of more than three is no vector
   if (has_word(words, {"force", "forces", "f"})) return with_axis("f", axis);
   if (has_word(words, {"torque", "torques", "moment", "moments"})) return with_axis("t", axis);
   if (has_word(words, {"twist", "linear", "angular", "velocity", "acceleration"})) return "";
@@ -145,24 +155,6 @@ std::string joint_state(const std::string& channel) {
   if (field == "position") return "q:" + joint;
   if (field == "velocity") return "qd:" + joint;
   return field == "effort" ? "tau:" + joint : "";
-}
-
-/// KUKA's frames are {X, Y, Z, A, B, C}: A, B and C turn about z, y' and x''.
-std::string kuka_angle(const std::string& word) {
-  return word == "a" ? "alpha" : word == "b" ? "beta" : word == "c" ? "gamma" : "";
-}
-
-bool is_frame_of_kuka(const LogStream& stream) {
-  std::size_t found = 0;
-  for (const char* part : {"x", "y", "z", "a", "b", "c"}) {
-    found += std::any_of(stream.channels.begin(), stream.channels.end(),
-                         [&](const LogChannel& channel) {
-                           return words_of_name(channel.name) == Words{part};
-                         })
-                 ? 1
-                 : 0;
-  }
-  return found == 6;
 }
 
 }  // namespace
@@ -208,7 +200,8 @@ std::string role_of(const LogStream& stream, const std::string& full_name) {
     if (const std::string role = by_unit(channel, words[0]); !role.empty()) return role;
     const std::string column = single_word(words[0]);
     if (!column.empty()) return column;
-    if (is_frame_of_kuka(stream)) return kuka_angle(words[0]);
+    if (const std::string role = matrix_word(stream, channel); !role.empty()) return role;
+    if (const std::string role = kuka_word(stream, words); !role.empty()) return role;
     const std::string of_file = joint_quantity_of_file(words_of_name(stream.source));
     const std::string role = of_file.empty() ? "" : joint_role(words, of_file);
     if (!role.empty()) return role;
@@ -218,7 +211,7 @@ std::string role_of(const LogStream& stream, const std::string& full_name) {
   const std::string of_file = joint_quantity_of_file(words_of_name(stream.source));
   const bool joint = names_joint(words) && !is_no_measurement(words);
   if (const std::string role = joint ? joint_role(words, of_file) : ""; !role.empty()) return role;
-  if (const std::string role = by_words(words); !role.empty()) {
+  if (const std::string role = by_words(stream, channel, words); !role.empty()) {
     return joint && role.size() == 1 ? "" : role;  // no position of a tool
   }
   const bool indexed =
@@ -228,9 +221,12 @@ std::string role_of(const LogStream& stream, const std::string& full_name) {
     return word.empty() ? joint_beside_torque(stream, words) : word;
   }
   if (is_no_measurement(words)) return "";
+  if (const std::string role = kuka_word(stream, words); !role.empty()) return role;
   if (const std::string role = joint_role(words, ""); !role.empty()) return role;
   // "sensor.fx", "/ft/Fx", "tool_roll": the last word alone, where it is one of a vector's names.
-  return words.back().size() > 1 ? single_word(words.back()) : by_unit(channel, words.back());
+  if (words.back().size() == 1) return by_unit(channel, words.back());
+  const std::string last = single_word(words.back());
+  return last.empty() ? matrix_word(stream, channel) : last;
 }
 
 int clock_rank(const std::string& channel) {
@@ -239,9 +235,13 @@ int clock_rank(const std::string& channel) {
   if (has_word(words, {"header"}) && words.back() == "stamp") return 3;
   // "data.timeStamp": what it is called in the structure that holds it.
   const Words own = words_of_name(channel.substr(channel.find_last_of('.') + 1));
-  if (own.size() > 1) words = own;
-  if (words.size() <= 2 && is_one_of(words.back(), {"time", "timestamp", "stamp", "clock"}))
+  if (own.empty()) return 0;
+  words = own;
+  if (words.size() <= 2 && is_one_of(words.back(), {"time", "timestamp", "timestamps", "stamp",
+                                                    "clock", "tout", "datetime", "duration"})) {
     return 2;
+  }
+  if (words.size() == 1 && is_one_of(words[0], {"zeit", "datum", "date", "ipoc"})) return 2;
   if (words.size() == 2 && words[0] == "time") return 2;  // time_ms
   if (words.size() == 2 && words[0] == "t" && words[1].size() > 1 && axis_of(words[1]) < 0)
     return 1;

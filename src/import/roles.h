@@ -9,15 +9,12 @@
 namespace dcnn {
 
 /// The column that a channel becomes: "fx", "x", "qw", "alpha"; "r11" … "r33" (rotation matrix),
-/// "rvx" … (rotation vector), "rot1" … (angles in an order to be said), "q:elbow", "qd:elbow",
-/// "tau:elbow" (joints). Empty where the name says nothing.
+/// "rvx" … (rotation vector), "rot1" … (angles in an order to be said), "rx" … (either of the two),
+/// "q:elbow", "qd:elbow", "tau:elbow", "current:elbow" (joints). Empty where the name says nothing.
 std::string role_of(const LogStream& stream, const std::string& channel);
 
-/// What to say of a log in which no channel is known by its name.
-inline constexpr const char* kHowToName =
-    "no channel is known by its name: say --map fx=CHANNEL and so on for a wrench and its pose, or "
-    "--map q:1=CHANNEL --map tau:1=CHANNEL for a joint's position and its torque or current, and "
-    "--clock CHANNEL; or --columns with a name for each column, in their order";
+/// What to say of a log in which no channel is known by its name, with a command for this log.
+std::string how_to_name(const ForeignLog& log);
 
 /// Lower-case words of a name: "Force[X] (N)" is {force, x}.
 std::vector<std::string> words_of_name(const std::string& name);

@@ -125,7 +125,7 @@ std::string describe(const ForeignLog& log, const Recipe& recipe) {
   std::ostringstream out;
   out << log.file << ": " << log.format << "\n";
   for (const LogStream& stream : log.streams) describe_stream(log, stream, recipe, out);
-  if (recipe.columns.empty()) out << kHowToName << "\n";
+  if (recipe.columns.empty()) out << how_to_name(log) << "\n";
   return out.str();
 }
 

@@ -74,6 +74,26 @@ bool take(std::string_view* text, char c) {
   return true;
 }
 
+/// Days since 1970 of "2023-04-01", "2023/04/01", "01.04.2023" or "01/04/2023" (the day before the
+/// month where both may be) and the mark behind, which it loses.
+std::optional<double> take_date(std::string_view* text) {
+  constexpr std::size_t kDate = 10;  // characters
+  if (text->size() < kDate + 6) return std::nullopt;
+  const bool year_first = std::string_view("-/.").find((*text)[4]) != std::string_view::npos;
+  const char mark = (*text)[year_first ? 4 : 2];
+  if (std::string_view("-/.").find(mark) == std::string_view::npos) return std::nullopt;
+  const int first = take_digits(text, year_first ? 4 : 2);
+  const int second = take(text, mark) ? take_digits(text, 2) : -1;
+  const int third = take(text, mark) ? take_digits(text, year_first ? 2 : 4) : -1;
+  if (!take(text, 'T') && !take(text, ' ')) return std::nullopt;
+  int year = year_first ? first : third, day = year_first ? third : first, month = second;
+  if (!year_first && month > 12) std::swap(day, month);
+  if (year < 1 || month < 1 || day < 1) return std::nullopt;
+  const auto date = std::chrono::year(year) / month / day;
+  if (!date.ok()) return std::nullopt;
+  return static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
+}
+
 /// Seconds east of UTC of "Z", "+02:00", "+0200" or nothing.
 std::optional<int> zone_seconds(std::string_view text) {
   if (text.empty() || text == "Z" || text == "z" || text == " UTC") return 0;
@@ -114,15 +134,16 @@ std::string_view bare(std::string_view cell) {
   return cell;
 }
 
-std::optional<double> iso_seconds(std::string_view text) {
-  if (text.size() < 16 || text[4] != '-') return std::nullopt;
-  const int year = take_digits(&text, 4);
-  const int month = take(&text, '-') ? take_digits(&text, 2) : -1;
-  const int day = take(&text, '-') ? take_digits(&text, 2) : -1;
-  if (!take(&text, 'T') && !take(&text, ' ')) return std::nullopt;
-  const int hour = take_digits(&text, 2);
+std::optional<double> clock_seconds(std::string_view text) {
+  std::optional<double> days = 0.0;  // since 1970
+  if (text.size() < 3) return std::nullopt;
+  if (text[2] != ':' && text[1] != ':') days = take_date(&text);
+  if (!days) return std::nullopt;
+  const int hour = take_digits(&text, text.size() > 1 && text[1] == ':' ? 1 : 2);
   const int minute = take(&text, ':') ? take_digits(&text, 2) : -1;
   double seconds = 0.0;
+  // "10:30" alone may be a ratio.
+  if (*days == 0.0 && (text.empty() || text.front() != ':')) return std::nullopt;
   if (take(&text, ':')) {
     const std::size_t size = std::min(text.find_first_not_of("0123456789.,"), text.size());
     if (!comma_number(text.substr(0, size), &seconds) &&
@@ -132,13 +153,10 @@ std::optional<double> iso_seconds(std::string_view text) {
     text.remove_prefix(size);
   }
   const auto zone = zone_seconds(text);
-  const auto date = std::chrono::year(year) / month / day;
-  if (year < 0 || month < 1 || day < 1 || hour < 0 || hour > 23 || minute < 0 || minute > 59 ||
-      !(seconds < 61.0) || !zone || !date.ok()) {
+  if (hour < 0 || hour > 23 || minute < 0 || minute > 59 || !(seconds < 61.0) || !zone) {
     return std::nullopt;
   }
-  const double days = static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
-  return days * 86400.0 + hour * 3600.0 + minute * 60.0 + seconds - *zone;
+  return *days * 86400.0 + hour * 3600.0 + minute * 60.0 + seconds - *zone;
 }
 
 CellKind read_cell(std::string_view cell, char decimal, double* value) {
@@ -150,7 +168,7 @@ CellKind read_cell(std::string_view cell, char decimal, double* value) {
   if (is_missing_word(text)) return CellKind::kMissing;
   const std::string_view digits = text.substr(!text.empty() && (text[0] == '-' || text[0] == '+'));
   if (digits == "inf" || digits == "Inf" || digits == "INF") return CellKind::kMissing;
-  if (const auto seconds = iso_seconds(text)) {
+  if (const auto seconds = clock_seconds(text)) {
     *value = *seconds;
     return CellKind::kNumber;
   }

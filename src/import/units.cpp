@@ -185,6 +185,15 @@ std::optional<LogUnit> find_unit(std::string_view unit) {
   return std::nullopt;
 }
 
+std::string units_of(const std::string& quantity) {
+  std::string list;
+  for (const UnitRow& row : kUnits) {
+    if (!quantity.empty() && quantity != row.quantity) continue;
+    list += (list.empty() ? "" : ", ") + std::string(row.unit);
+  }
+  return list;
+}
+
 std::string unit_of_name(std::string_view name) { return std::string(parts_of(name).unit); }
 
 std::string unknown_unit_of_name(std::string_view name) {

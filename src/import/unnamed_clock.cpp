@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "data/text.h"
 #include "import/clocks.h"
@@ -28,7 +29,79 @@ bool grows_evenly(const LogStream& stream, const LogChannel& channel) {
   return true;
 }
 
+/// Whether the steps from row to row go on as they were, as those of a curve do and those between
+/// poses that were taken up in turn do not: second differences are smaller than first ones.
+bool is_curve(const std::vector<double>& x, std::size_t stride) {
+  constexpr std::size_t kFewestSteps = 50;
+  constexpr double kSmooth = 0.5;  // 2 of independent steps, 3 of independent values
+  if (x.size() < kFewestSteps * stride) return false;
+  double first = 0.0, second = 0.0;
+  for (std::size_t k = 2 * stride; k < x.size(); k += stride) {
+    const double now = x[k] - x[k - stride], before = x[k - stride] - x[k - 2 * stride];
+    if (!std::isfinite(now) || !std::isfinite(before)) continue;
+    first += now * now;
+    second += (now - before) * (now - before);
+  }
+  return first > 0.0 && second < kSmooth * first;
+}
+
+bool tells_motion(const std::string& to) {
+  return to.starts_with("q") || to.starts_with("rot") || to.starts_with("rv") || to == "x" ||
+         to == "y" || to == "z" || to == "alpha" || to == "beta" || to == "gamma";
+}
+
 }  // namespace
+
+void ask_for_clock(const ForeignLog& log, Proposal* proposal) {
+  const auto& clocks = proposal->recipe.clocks;
+  if (std::any_of(clocks.begin(), clocks.end(),
+                  [](const ClockRule& c) { return c.kind != "none"; }))
+    return;
+  for (const ColumnRule& rule : proposal->recipe.columns) {
+    if (!tells_motion(rule.to)) continue;
+    for (const LogStream& stream : log.streams) {
+      const Index at = stream.name == rule.stream ? stream.find(rule.channel) : -1;
+      if (at < 0) continue;
+      const auto& x = stream.channels[static_cast<std::size_t>(at)].values;
+      if (!is_curve(x, 1) && !is_curve(x, 4) && !is_curve(x, 16)) continue;
+      proposal->guesses.push_back("no clock, and " + shown(rule.channel) +
+                                  " moves smoothly from row to row: say --rate HZ or --clock "
+                                  "CHANNEL (these are poses at rest otherwise)");
+      return;
+    }
+  }
+}
+
+void ask_for_stamps(const ForeignLog& log, const ImportWishes& wishes, Proposal* proposal) {
+  const auto& clocks = proposal->recipe.clocks;
+  if (wishes.stamps != "header" || clocks.size() < 2) return;
+  const auto span_of = [&](const ClockRule& clock, bool receipt) {
+    for (const LogStream& stream : log.streams) {
+      if (stream.name != clock.stream) continue;
+      ClockRule rule = clock;
+      if (receipt) rule.kind = stream.received.empty() ? "none" : "receive";
+      const ClockFigures figures = clock_figures(clock_times(stream, rule, log.file));
+      return std::pair(figures.begin, figures.end);
+    }
+    return std::pair(0.0, 0.0);
+  };
+  const auto apart = [&](const ClockRule& a, const ClockRule& b, bool receipt) {
+    const auto s = span_of(a, receipt), t = span_of(b, receipt);
+    if (s.first == s.second || t.first == t.second) return 0.0;
+    return std::max({0.0, t.first - s.second, s.first - t.second});
+  };
+  for (std::size_t k = 1; k < clocks.size(); ++k) {
+    const double far = apart(clocks[0], clocks[k], false);
+    if (far <= 0.0 || apart(clocks[0], clocks[k], true) > 0.0) continue;
+    std::ostringstream words;
+    words
+        << "the stamps of " << clocks[0].stream << " and " << clocks[k].stream << " are " << far
+        << " s apart, the times of their receipt are not: say --stamps receive, or --clock-offset "
+        << clocks[k].stream << "=SECONDS";
+    proposal->questions.push_back(words.str());
+    return;
+  }
+}
 
 void propose_unnamed(const LogStream& stream, ClockRule* rule, std::vector<std::string>* guesses) {
   if (rule->kind != "none" || stream.channels.empty()) return;

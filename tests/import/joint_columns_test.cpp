@@ -50,6 +50,15 @@ TEST(JointColumns, AreKnownByWordsInAnyOrder) {
       {"position_1", "y"},
       {"position_axis_x", "x"},
       {"axis_2_speed", "qd:2"},
+      {"pos_meas1", "q:1"},
+      {"field.position0", "q:0"},
+      {"AIPos.A1", "q:1"},
+      {"ASPos.A1", ""},
+      {"AxisTorque_A3", "tau:3"},
+      {"J1 Disturb Torque", "tau:1"},
+      {"actual_current_2", "current:2"},
+      {"/joint_states/panda_joint1/position", "q:panda_joint1"},
+      {"/joint_states/elbow_joint/effort", "tau:elbow_joint"},
       {"joint_temperature_1", ""}};
   for (const auto& [name, role] : kNames) EXPECT_EQ(role_of(stream, name), role) << name;
 }
@@ -60,6 +69,37 @@ TEST(JointColumns, WithoutAQuantityHaveThatOfTheirFile) {
   EXPECT_EQ(role_of(text_stream("pos_read_data"), "Joint_1"), "q:1");
   EXPECT_EQ(role_of(text_stream("velocity"), "Joint_1"), "qd:1");
   EXPECT_EQ(role_of(text_stream("torque"), "q1"), "q:1");
+}
+
+// An array of more than three torques is an arm's, not the moment of a wrench.
+TEST(JointColumns, OfAnArrayAreNoVector) {
+  const Imported imported = import_text(
+      "time,measuredJointPosition[0],measuredJointPosition[1],measuredJointPosition[2],"
+      "measuredJointPosition[3],measuredTorque[0],measuredTorque[1],measuredTorque[2],"
+      "measuredTorque[3]\n0,1,2,3,4,5,6,7,8\n0.01,1,2,3,4,5,6,7,8\n");
+  EXPECT_EQ(cell(imported, "tau_0", 1), 5.0);
+  EXPECT_EQ(cell(imported, "q_3", 1), 4.0);
+  EXPECT_FALSE(has_column(imported, "x"));
+}
+
+TEST(JointColumns, OfCurrentsStandForTorques) {
+  const Imported imported =
+      import_text("t,J1 Pos,J2 Pos,J1 Current,J2 Current\n0,1,2,3,4\n0.01,1,2,5,6\n");
+  EXPECT_EQ(cell(imported, "tau_2", 1), 6.0);
+}
+
+TEST(JointColumns, ThatAreSaidAreTakenInsteadOfAWrenchAndItsPose) {
+  const std::string text =
+      "t,actual_q_0,actual_q_1,actual_current_0,actual_current_1,actual_TCP_pose_0,"
+      "actual_TCP_pose_1,actual_TCP_pose_2,actual_TCP_pose_3,actual_TCP_pose_4,actual_TCP_pose_5,"
+      "fx,fy,fz\n0,1,2,3,4,0,0,0,0,0,1,1,2,3\n0.01,1,2,3,4,0,0,0,0,0,1,1,2,3\n";
+  EXPECT_TRUE(has_column(import_text(text), "fx"));
+  ImportWishes wishes;
+  wishes.map = {{"q:0", "actual_q_0"}};
+  const Imported arm = import_text(text, wishes);
+  EXPECT_EQ(cell(arm, "q_1", 1), 2.0);
+  EXPECT_EQ(cell(arm, "tau_1", 1), 4.0);
+  EXPECT_FALSE(has_column(arm, "fx"));
 }
 
 TEST(JointColumns, OfOneFilePerQuantityAreOneRecording) {
@@ -132,6 +172,8 @@ TEST(JointColumns, OfALogOfOneJointNeedNoNumber) {
 TEST(JointColumns, WhereMoreThanOneMayBeMeantAreAskedFor) {
   EXPECT_EQ(lone_quantity({"measured", "torque"}), "tau:");
   EXPECT_EQ(lone_quantity({"current"}), "current:");
+  EXPECT_EQ(lone_quantity({"motor", "position"}), "q:");
+  EXPECT_EQ(lone_quantity({"iq"}), "current:");
   EXPECT_EQ(lone_quantity({"current", "position"}), "q:");
   EXPECT_EQ(lone_quantity({"desired", "torque"}), "");
   EXPECT_EQ(lone_quantity({"q", "torque"}), "");

@@ -70,7 +70,7 @@ TEST(RoughLogs, AFirstColumnThatGrowsEvenlyIsProposedAsTheClock) {
   const std::string words = data_error([&] { import_text(log(0.002)); });
   EXPECT_NE(words.find("--clock 'X_Value'"), std::string::npos) << words;
   ImportWishes wishes;
-  wishes.clock = "X_Value";
+  wishes.clock = {"X_Value"};
   EXPECT_NEAR(cell(import_text(log(0.002), wishes), "t", 19), 0.038, 1e-9);
   EXPECT_FALSE(has_column(import_text(log(1.0)), "t"));  // numbers of poses at rest
 }

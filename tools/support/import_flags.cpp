@@ -78,7 +78,8 @@ void ImportFlags::add_channels(Tool& tool) {
 }
 
 void ImportFlags::add_clocks(Tool& tool) {
-  tool.option("--clock", clock_, "channel of the time (else found)").group(kClocks);
+  tool.option("--clock", clock_, "channel of the time, one for each stream (else found)")
+      .group(kClocks);
   tool.option("--clock-unit", clock_unit_, "its unit")
       .one_of({"s", "ms", "us", "ns"})
       .group(kClocks);

@@ -23,7 +23,8 @@ class ImportFlags {
   std::string separator_, decimal_;
   std::vector<std::string> columns_, use_, map_, units_, gains_, offsets_, wraps_, also_;
   std::vector<std::string> clock_offsets_;
-  std::string clock_, clock_unit_, stamps_ = "header";
+  std::vector<std::string> clock_;
+  std::string clock_unit_, stamps_ = "header";
   double rate_hz_ = 0.0;
   std::string quaternion_order_, euler_order_, wrench_frame_ = "sensor";
   bool inverse_ = false, truncated_ = false, zeroed_ = false;

@@ -79,7 +79,8 @@ struct ImportWishes {
   std::map<std::string, std::string> map, units;  ///< by column of the recording
   std::map<std::string, double> gains, offsets, wraps;
   std::map<std::string, double> clock_offsets;  ///< by stream, s
-  std::string clock, clock_unit, stamps = "header";
+  std::vector<std::string> clock;               ///< channels, one for each stream that needs one
+  std::string clock_unit, stamps = "header";
   double rate_hz = 0.0;
   std::string quaternion_order, euler_order;
   std::vector<std::string> also;  ///< channels to keep under their names
