@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "dcnn/core/file.h"
+#include "dcnn/core/file_set.h"
 #include "dcnn/experiment/peers.h"
 #include "support/interrupt.h"
 #include "support/progress.h"
@@ -113,8 +114,10 @@ int main(int argc, char** argv) {
     Json json = to_json(result);
     if (peers) json["peers"] = to_json(*peers);
     if (!out.empty()) {
+      FileSet files(out);
       write_file(out / "bench.json", json.dump(2) + "\n");
       write_file(out / "bench.html", to_html(result, request, peers ? &*peers : nullptr));
+      files.commit();
       tool.note("report      " + (out / "bench.html").string());
     }
     if (tool.common().json) {

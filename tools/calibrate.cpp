@@ -4,6 +4,7 @@
 
 #include "dcnn/calibration/calibration.h"
 #include "dcnn/core/file.h"
+#include "dcnn/core/file_set.h"
 #include "dcnn/data/rotation.h"
 #include "dcnn/experiment/calibration_report.h"
 #include "support/doctor.h"
@@ -126,8 +127,10 @@ int main(int argc, char** argv) {
     const ForcePairs pairs = load(input, read.options(), options.with_bias);
     const Calibration result = calibrate(pairs, options);
     const Json json = to_json(result);
+    FileSet files(out.parent_path());
     write_file(out, json.dump(2) + "\n");
     if (!page.empty()) write_file(page, to_html(result, pairs));
+    files.commit();
     for (const auto& note : result.notes) tool.note(note);
     if (tool.common().json) {
       Tool::print(json);

@@ -6,6 +6,7 @@
 #include "dcnn/conceal/faulty.h"
 #include "dcnn/conceal/inject.h"
 #include "dcnn/core/file.h"
+#include "dcnn/core/file_set.h"
 #include "dcnn/experiment/challenge_report.h"
 #include "support/progress.h"
 #include "support/tool.h"
@@ -47,10 +48,15 @@ std::string write_faulty(const std::string& kind, const std::filesystem::path& m
   } else {
     log.table = conceal::with_fault(kind, read_csv(motion), seed);
   }
+  FileSet files(out);
+  for (const char* earlier : {"sim.json", "system.json"}) files.replaces(earlier);
   write_csv(out / "log.csv", log.table);
   if (!log.simulator.is_null()) write_file(out / "sim.json", log.simulator.dump(2) + "\n");
   if (!log.system.is_null()) write_file(out / "system.json", log.system.dump(2) + "\n");
-  return conceal::write_seal({{"kind", kind}, {"fault", log.fault}, {"seed", seed}}, out, seal);
+  const std::string digest =
+      conceal::write_seal({{"kind", kind}, {"fault", log.fault}, {"seed", seed}}, out, seal);
+  files.commit();
+  return digest;
 }
 
 /// A family of machines: what begins its ids, its plan, and what writes it.
@@ -149,7 +155,7 @@ int main(int argc, char** argv) {
   tool.output("--out", out, "folder of the scenarios",
               {"s[0-9][0-9][0-9][0-9]", "seal.sha256", "sim.json", "system.json", "*.csv"})
       .unless(opening);
-  tool.output("--seal", seal, "file of the answers, outside that folder").unless(opening);
+  tool.output("--seal", seal, "file of the answers, outside that folder").unless(opening).held();
 
   auto what = tool.option("--inject", injection.what,
                           "effect, effect@axis or a JSON file of effects to hide in --motion");

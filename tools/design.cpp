@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "dcnn/core/file.h"
+#include "dcnn/core/file_set.h"
 #include "support/progress.h"
 #include "support/tool.h"
 
@@ -75,9 +76,11 @@ int main(int argc, char** argv) {
     const Design made =
         design::make_design(request, [&](double share) { bar.update(share, "motions"); });
     bar.clear();
+    FileSet files(report);
     write_csv(out, made.motion);
     const Json next = design::next_motion(made, request.seconds);
     write_next_motion(report, request.report, next, out);
+    files.commit();
     if (tool.common().json) {
       Tool::print(design::to_json(made, request.seconds));
     } else {

@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "dcnn/core/file.h"
+#include "dcnn/core/file_set.h"
 #include "dcnn/experiment/evaluate.h"
 #include "support/progress.h"
 #include "support/tool.h"
@@ -38,8 +39,10 @@ std::vector<SnrLevel> parse_levels(const std::string& text) {
 
 void write_report(const std::filesystem::path& folder, const Evaluation& evaluation,
                   const EvaluationRequest& request) {
+  FileSet files(folder);
   write_file(folder / "evaluation.json", to_json(evaluation).dump(2) + "\n");
   write_file(folder / "report.html", to_html(evaluation, request));
+  files.commit();
 }
 
 }  // namespace

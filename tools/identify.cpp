@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "dcnn/core/file.h"
+#include "dcnn/core/file_set.h"
 #include "dcnn/identification/arm.h"
 #include "dcnn/identification/payload.h"
 #include "dcnn/import/summary.h"
@@ -86,9 +87,11 @@ Exit identify(Command& command, const Doctor& doctor, const Tool& tool) {
         Eigen::Vector3d(command.mounting[0], command.mounting[1], command.mounting[2]);
   }
   const ToolIdentification result = identify_tool(command.request);
+  FileSet files(command.out.parent_path());
   write_file(command.out, to_json(Simulator{result.model, {}}).dump(2) + "\n");
   write_report(command, result);
   if (!command.formats.empty()) export_payload(command, result.model, tool);
+  files.commit();
   for (const auto& note : result.notes) tool.note(note);
   const std::string next = diagnosis_of(command, "--sim", command.out, command.request.logs);
   if (tool.common().json) {
@@ -110,8 +113,10 @@ Exit identify_joints(Command& command, const Doctor& doctor, const Tool& tool) {
   if (command.arm.drive_gains) own.push_back("torque_unit");
   doctor.examine(tool, {logs, {}, "", command.arm.system, command.arm.urdf, command.arm.tip}, own);
   const ArmIdentification result = identify_arm(command.arm);
+  FileSet files(command.out.parent_path());
   write_file(command.out, result.system.dump(2) + "\n");
   write_report(command, result);
+  files.commit();
   for (const auto& note : result.notes) tool.note(note);
   const auto& judged = command.arm.loaded.empty() ? command.arm.logs : command.arm.loaded;
   // A diagnosis of joints needs their motion.

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "dcnn/core/file.h"
+#include "dcnn/core/file_set.h"
 #include "dcnn/experiment/configuration.h"
 #include "dcnn/experiment/remainder.h"
 #include "dcnn/models/model.h"
@@ -74,10 +75,12 @@ int main(int argc, char** argv) {
       reports[network] = learn_remainder(
           {network, preset, request.simulator, request.fit, request.holdout, out / network});
     }
+    FileSet files(out);
     for (const auto& [method, report] : reports.items()) {
       write_file(out / method / "report.json", report.dump(1) + "\n");
       if (!tool.common().json) show(method, report);
     }
+    files.commit();
     if (tool.common().json) Tool::print(reports);
     return Exit::kDone;
   });

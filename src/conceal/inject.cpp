@@ -6,6 +6,7 @@
 #include "conceal/draws.h"
 #include "dcnn/conceal/challenge.h"
 #include "dcnn/core/file.h"
+#include "dcnn/core/file_set.h"
 #include "dcnn/core/options.h"
 #include "dcnn/data/rotation.h"
 
@@ -263,13 +264,18 @@ std::string inject(const Injection& request, std::uint64_t seed, const fs::path&
   Json answer{{"id", "injected"}};
   answer.update(truth(s));
   answer["oracle_rmse"] = nullptr;
+  FileSet files(folder);
+  for (const char* earlier : {"sim.json", "system.json"}) files.replaces(earlier);
   for (std::size_t k = 0; k < logs.size(); ++k) {
     add_effects(subject, paths[k], s.hidden, logs[k]);
     write_csv(folder / logs[k].name, logs[k].table);
   }
   write_file(folder / (subject.is_machine() ? "system.json" : "sim.json"),
              read_file(subject.description, 1 << 20, Exit::kData));
-  return write_seal({{"seed", seed}, {"scenarios", Json::array({answer})}}, folder, seal);
+  const std::string digest =
+      write_seal({{"seed", seed}, {"scenarios", Json::array({answer})}}, folder, seal);
+  files.commit();
+  return digest;
 }
 
 }  // namespace dcnn::conceal

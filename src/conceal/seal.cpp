@@ -4,6 +4,7 @@
 #include "dcnn/conceal/scenario.h"
 #include "dcnn/core/digest.h"
 #include "dcnn/core/file.h"
+#include "dcnn/core/file_set.h"
 
 namespace dcnn::conceal {
 namespace {
@@ -36,8 +37,10 @@ Json written(const Scenario& scenario, const fs::path& folder) {
 std::string write_seal(const Json& answers, const fs::path& folder, const fs::path& seal) {
   keep_apart(folder, seal);
   const std::string bytes = answers.dump(1) + "\n", digest = sha256_hex({bytes});
+  FileSet files(folder);
   write_file(seal, bytes);
   write_file(folder / "seal.sha256", digest + "  " + seal.filename().string() + "\n");
+  files.commit();
   return digest;
 }
 
@@ -45,6 +48,10 @@ std::string seal_each(const std::vector<std::string>& ids, std::uint64_t seed,
                       const fs::path& folder, const fs::path& seal,
                       const std::function<void(int, int)>& progress, const WriteScenario& write) {
   keep_apart(folder, seal);
+  FileSet files(folder);  // recordings, their seal and its digest belong together
+  for (const char* earlier : {"sim.json", "system.json", "fit_*.csv", "holdout_*.csv"}) {
+    files.replaces(std::string("s[0-9][0-9][0-9][0-9]/") + earlier);
+  }
   Json answers{{"seed", seed}, {"scenarios", Json::array()}};
   for (std::size_t k = 0; k < ids.size(); ++k) {
     char name[32];
@@ -54,7 +61,9 @@ std::string seal_each(const std::vector<std::string>& ids, std::uint64_t seed,
     answers["scenarios"].push_back(one);
     progress(static_cast<int>(k) + 1, static_cast<int>(ids.size()));
   }
-  return write_seal(answers, folder, seal);
+  const std::string digest = write_seal(answers, folder, seal);
+  files.commit();
+  return digest;
 }
 
 std::string conceal_challenge(const std::vector<std::string>& ids, std::uint64_t seed,

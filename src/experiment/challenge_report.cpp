@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dcnn/core/file.h"
+#include "dcnn/core/file_set.h"
 #include "dcnn/experiment/report.h"
 #include "dcnn/physics/effect_words.h"
 #include "experiment/challenge_tables.h"
@@ -184,10 +185,13 @@ std::string challenge_html(const Json& scores) {
 }
 
 void write_challenge(const std::filesystem::path& folder, const Json& scores) {
+  FileSet files(folder);
+  files.replaces("holdout.svg");
   write_file(folder / "scores.json", scores.dump(1) + "\n");
   write_file(folder / "report.html", challenge_html(scores));
   const Chart holdout = holdout_chart(scores["tables"]["effect"]);
   if (!holdout.categories.empty()) write_file(folder / "holdout.svg", to_svg(holdout));
+  files.commit();
 }
 
 }  // namespace dcnn

@@ -1,6 +1,7 @@
 #include "dcnn/experiment/check_report.h"
 
 #include "dcnn/core/file.h"
+#include "dcnn/core/file_set.h"
 #include "dcnn/experiment/report.h"
 #include "experiment/markup.h"
 #include "experiment/series.h"
@@ -102,8 +103,10 @@ std::string check_html(const std::vector<check::Report>& reports) {
 }
 
 void write_check(const std::filesystem::path& folder, const std::vector<check::Report>& reports) {
+  FileSet files(folder);
   write_file(folder / "check.json", check_json(reports).dump(2) + "\n");
   write_file(folder / "check.html", check_html(reports));
+  files.commit();
 }
 
 }  // namespace dcnn

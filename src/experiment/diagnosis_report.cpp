@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dcnn/core/file.h"
+#include "dcnn/core/file_set.h"
 #include "dcnn/core/number.h"
 #include "dcnn/data/csv.h"
 #include "dcnn/experiment/report.h"
@@ -161,6 +162,8 @@ std::string to_html(const Diagnosis& diagnosis) {
 void write_diagnosis(const std::filesystem::path& folder, const Diagnosis& diagnosis) {
   const auto targets = diagnosis.report["targets"].get<std::vector<std::string>>();
   const bool blocks = diagnosis.report["holdout_recordings"].empty();
+  FileSet files(folder);
+  files.replaces("holdout_*_pred.csv");
   for (std::size_t k = 0; k < diagnosis.holdout.size(); ++k) {
     const HeldOut& record = diagnosis.holdout[k];
     Table table;
@@ -181,6 +184,7 @@ void write_diagnosis(const std::filesystem::path& folder, const Diagnosis& diagn
   write_file(folder / "model.json", diagnosis.model.dump(2) + "\n");
   write_file(folder / "report.json", diagnosis.report.dump(2) + "\n");
   write_file(folder / "report.html", to_html(diagnosis));
+  files.commit();
 }
 
 }  // namespace dcnn

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "dcnn/core/file.h"
+#include "dcnn/core/file_set.h"
 #include "dcnn/data/csv.h"
 #include "dcnn/experiment/report.h"
 #include "experiment/markup.h"
@@ -137,6 +138,7 @@ std::string teleop_line(const Json& row) {
 
 void write_teleop(const std::filesystem::path& folder, const TeleopConfig& config,
                   const std::vector<TeleopResult>& results, std::uint64_t seed) {
+  FileSet files(folder);
   HtmlReport page("Bilateral teleoperation");
   page.paragraph(teleop_answer(results));
   const auto compared = comparison(results);
@@ -174,6 +176,7 @@ void write_teleop(const std::filesystem::path& folder, const TeleopConfig& confi
   write_file(folder / "frames.svg", frames);
   write_file(folder / "report.html", page.html());
   write_file(folder / "teleop.json", Json{{"variants", variants}}.dump(2) + "\n");
+  files.commit();
 }
 
 }  // namespace dcnn

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/run_bench.h"
@@ -99,14 +100,27 @@ class Faults : public ::testing::TestWithParam<Command> {
     return true;
   }
 
-  void judge(const test::Result& result, const std::string& fault) {
-    for (const auto& [name, bytes] : results()) {
-      EXPECT_TRUE(bytes == right_.at(name) ||
-                  (result.exit_code != 0 && bytes == "the result before\n"))
-          << fault << ": " << name << " is neither the result nor what was there; exit "
-          << result.exit_code << "\n"
-          << result.err;
+  /// All of them new, or, where the command has failed, all as they were.
+  void judge_results(const test::Result& result, const std::string& fault) {
+    const auto now = results();
+    const auto all = [&](const auto& is) { return std::all_of(now.begin(), now.end(), is); };
+    const bool all_new =
+        all([&](const auto& file) { return file.second == right_.at(file.first); });
+    const bool all_old = all([](const auto& file) { return file.second == "the result before\n"; });
+    std::string words;
+    for (const auto& [name, bytes] : now) {
+      words += " " + name +
+               (bytes == right_.at(name)         ? " is new,"
+                : bytes == "the result before\n" ? " is old,"
+                                                 : " is neither,");
     }
+    EXPECT_TRUE(all_new || (result.exit_code != 0 && all_old))
+        << fault << ":" << words << " exit " << result.exit_code << "\n"
+        << result.err;
+  }
+
+  void judge(const test::Result& result, const std::string& fault) {
+    judge_results(result, fault);
     if (GetParam().input) {
       EXPECT_TRUE(result.exit_code == 0 ? result.out == printed_ : printed_.starts_with(result.out))
           << fault << ": other rows; exit " << result.exit_code << "\n"
@@ -124,7 +138,10 @@ class Faults : public ::testing::TestWithParam<Command> {
       EXPECT_EQ(result.err.find("Success"), std::string::npos) << fault << ": " << result.err;
     }
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.path())) {
+      if (fault.starts_with("unlink")) break;
       EXPECT_EQ(entry.path().string().find(".tmp"), std::string::npos)
+          << fault << " leaves " << entry.path();
+      EXPECT_EQ(entry.path().string().find(".dcnn-set"), std::string::npos)
           << fault << " leaves " << entry.path();
     }
     ++faults_;
@@ -156,6 +173,29 @@ TEST_P(Faults, LeaveThePreviousResultAndOneLineOrTheRightResult) {
   }
   std::printf("%d faults\n", faults_);
   EXPECT_GT(faults_, 10);
+}
+
+/// The next command in the folder finishes or undoes what it finds.
+TEST_P(Faults, OfTheProcessItselfLeaveAllOldOrAllNew) {
+  if (test::kSanitized) GTEST_SKIP() << "the sanitizer must be loaded first";
+  if (GetParam().results.size() < 2) GTEST_SKIP() << "one file";
+  ASSERT_EQ(command().exit_code, 0);
+  right_ = results();
+  const auto folder = (folder_ / GetParam().results.front()).parent_path();
+  int kills = 0;
+  for (const char* call : {"write", "fsync", "link", "rename", "unlink", "mkdir"}) {
+    for (int place = 1;; ++place) {
+      const auto mark = folder_ / "mark";
+      std::filesystem::remove(mark);
+      for (const auto& name : GetParam().results) write_file(folder_ / name, "the result before\n");
+      const auto result = command(test::fault_environment(call, place, test::kKill, mark));
+      if (!std::filesystem::exists(mark)) break;
+      { const FolderLock next(folder); }
+      judge_results(result, test::words_of_fault(call, place, test::kKill));
+      ++kills;
+    }
+  }
+  EXPECT_GT(kills, 10);
 }
 
 /// 1 GB is enough for what is small; 36 MB are for nothing, and that is one line, too. (Where the

@@ -56,7 +56,11 @@ TEST(Diagnose, TakesApartTwoEffectsAndShowsTheErrorFall) {
   EXPECT_GT(refitted, fit["holdout_rmse_after"][2].get<double>());
 
   // What the files hold is what dcnn-sim makes of model.json.
+  write_file(bench / "out/holdout_1_pred.csv", "of an earlier diagnosis, of two recordings");
+  write_file(bench / "out/notes.txt", "somebody's");
   write_diagnosis(bench / "out", diagnosis);
+  EXPECT_FALSE(std::filesystem::exists(bench / "out/holdout_1_pred.csv"));
+  EXPECT_TRUE(std::filesystem::exists(bench / "out/notes.txt"));
   const Simulator corrected = read_simulator(bench / "out/model.json");
   ReadOptions read;
   const Recording hold = read_recording(bench / "hold.csv", read, System());

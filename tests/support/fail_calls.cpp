@@ -1,7 +1,9 @@
-// Preloaded into a program: the FAIL_AT-th call of FAIL_CALL (open, read, write, fsync, rename,
-// mmap, flock, ftruncate, socket, bind, connect, recv, send, ppoll) fails with the number
-// FAIL_ERRNO, or, where that is 0, does one byte of what it was asked (read, write). The file
-// FAIL_MARK is made when it has. Calls of the C library within itself do not come here.
+// Preloaded into a program: the FAIL_AT-th call of FAIL_CALL (open, openat, fopen, read, pread,
+// write, fsync, rename, renameat2, link, unlink, mkdir, mmap, flock, ftruncate, socket, bind,
+// connect, recv, send, ppoll) fails with the number
+// FAIL_ERRNO; where that is 0, it does one byte of what it was asked (read, write), and where it is
+// below, the process is killed there. The file FAIL_MARK is made when it has. Calls of the C
+// library within itself do not come here.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -12,7 +14,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdarg>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
@@ -37,7 +41,9 @@ Way way_of(const char* call) {
   const long mark =
       ::syscall(SYS_openat, AT_FDCWD, std::getenv("FAIL_MARK"), O_CREAT | O_WRONLY, 0600);
   if (mark >= 0) ::syscall(SYS_close, mark);
-  errno = std::atoi(std::getenv("FAIL_ERRNO"));
+  const int error = std::atoi(std::getenv("FAIL_ERRNO"));
+  if (error < 0) ::kill(::getpid(), SIGKILL);
+  errno = error;
   return errno == 0 ? Way::kShort : Way::kFail;
 }
 
@@ -73,6 +79,30 @@ int open64(const char* path, int flags, ...) {
   va_end(list);
   return opened("open", AT_FDCWD, path, flags, mode);
 }
+int openat(int folder, const char* path, int flags, ...) {
+  va_list list;
+  va_start(list, flags);
+  const mode_t mode = mode_of(flags, list);
+  va_end(list);
+  return opened("openat", folder, path, flags, mode);
+}
+FILE* fopen(const char* path, const char* mode) {
+  static const auto next = next_of<FILE* (*)(const char*, const char*)>("fopen");
+  return passed<FILE*>("fopen", nullptr, [&] { return next(path, mode); });
+}
+FILE* fopen64(const char* path, const char* mode) {
+  static const auto next = next_of<FILE* (*)(const char*, const char*)>("fopen64");
+  return passed<FILE*>("fopen", nullptr, [&] { return next(path, mode); });
+}
+ssize_t pread(int file, void* buffer, size_t size, off_t at) {
+  const Way way = way_of("pread");
+  return way == Way::kFail
+             ? -1
+             : ::syscall(SYS_pread64, file, buffer, way == Way::kShort && size > 1 ? 1 : size, at);
+}
+ssize_t pread64(int file, void* buffer, size_t size, off64_t at) {
+  return pread(file, buffer, size, at);
+}
 ssize_t read(int file, void* buffer, size_t size) {
   const Way way = way_of("read");
   return way == Way::kFail
@@ -100,6 +130,25 @@ int rename(const char* from, const char* to) noexcept {
   return passed<int>("rename", -1, [&] {
     return static_cast<int>(::syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to));
   });
+}
+int renameat2(int from_folder, const char* from, int to_folder, const char* to,
+              unsigned flags) noexcept {
+  return passed<int>("renameat2", -1, [&] {
+    return static_cast<int>(::syscall(SYS_renameat2, from_folder, from, to_folder, to, flags));
+  });
+}
+int link(const char* from, const char* to) noexcept {
+  return passed<int>("link", -1, [&] {
+    return static_cast<int>(::syscall(SYS_linkat, AT_FDCWD, from, AT_FDCWD, to, 0));
+  });
+}
+int unlink(const char* path) noexcept {
+  return passed<int>("unlink", -1,
+                     [&] { return static_cast<int>(::syscall(SYS_unlinkat, AT_FDCWD, path, 0)); });
+}
+int mkdir(const char* path, mode_t mode) noexcept {
+  return passed<int>(
+      "mkdir", -1, [&] { return static_cast<int>(::syscall(SYS_mkdirat, AT_FDCWD, path, mode)); });
 }
 void* mmap(void* address, size_t size, int protection, int flags, int file, off_t place) noexcept {
   static const auto next = next_of<void* (*)(void*, size_t, int, int, int, off_t)>("mmap");

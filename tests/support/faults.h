@@ -10,6 +10,7 @@
 namespace dcnn::test {
 
 constexpr int kOneByte = 0;  ///< instead of an error: one byte of what was asked
+constexpr int kKill = -1;    ///< instead of an error: kill -9
 
 /// Errors that a system call can have.
 inline const std::map<std::string, std::vector<int>>& errors_of_calls() {
@@ -19,6 +20,13 @@ inline const std::map<std::string, std::vector<int>>& errors_of_calls() {
       {"write", {ENOSPC, EIO, EINTR, kOneByte}},
       {"fsync", {EIO, EINTR, ENOSPC}},
       {"rename", {EACCES, EIO, ENOSPC}},
+      {"renameat2", {EACCES, EIO, ENOSPC}},
+      {"link", {EPERM, EIO, EMLINK}},
+      {"unlink", {EIO, EACCES}},
+      {"mkdir", {EACCES, ENOSPC, EIO}},
+      {"openat", {EACCES, EMFILE, EIO}},
+      {"fopen", {EACCES, EMFILE, EIO}},
+      {"pread", {EIO, EINTR, kOneByte}},
       {"flock", {EINTR, ENOLCK}},
       {"mmap", {ENOMEM}},
       {"socket", {EMFILE, ENOBUFS, EACCES}},
@@ -32,7 +40,9 @@ inline const std::map<std::string, std::vector<int>>& errors_of_calls() {
 
 inline std::string words_of_fault(const std::string& call, int place, int error) {
   return call + " number " + std::to_string(place) + ": " +
-         (error == kOneByte ? "one byte" : std::strerror(error));
+         (error == kOneByte ? "one byte"
+          : error == kKill  ? "killed"
+                            : std::strerror(error));
 }
 
 /// What makes the `place`-th call fail in a program that is given it; `mark` is made when it has.

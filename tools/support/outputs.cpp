@@ -46,6 +46,11 @@ bool is_empty_file(const fs::path& file) {
   return fs::file_size(file, error) == 0 && !error;
 }
 
+bool is_stream(const fs::path& path) {
+  std::error_code missing;
+  return path == "-" || (fs::exists(path, missing) && !fs::is_regular_file(path, missing));
+}
+
 bool any_given(const std::vector<Option>& options) {
   return std::any_of(options.begin(), options.end(),
                      [](const Option& option) { return option.given(); });
@@ -88,13 +93,23 @@ bool Outputs::take_standard_output() const {
   });
 }
 
-void Outputs::claim_file(const Output::Rule& rule, bool keep) const {
+void Outputs::claim_file(const Output::Rule& rule, bool keep) {
   const Path path = when_made(rule.path());
   require(path == "-" || !fs::is_directory(path), Exit::kFailure, path.string(),
           ": is a folder; name a file");
+  if (is_stream(path)) return;
+  if (rule.held && !any_given(rule.unless)) names_.emplace_back(path);
   const auto existing = replaced_file(path);
-  if (!existing) return;
+  const Path folder = existing.value_or(path).parent_path();
+  expect_writable(folder);
+  sweep_temporaries(folder.empty() ? Path(".") : folder, path.filename());
+  if (!existing) {
+    if (keep) claim_new(path);
+    return;
+  }
   refuse_input(*existing);
+  require(!rule.precious, Exit::kUsage, path.string(),
+          ": exists already and is never replaced, not with --force either; name another file");
   if (!keep || is_empty_file(*existing) || (rule.own && rule.own(*existing))) return;
   fail(Exit::kUsage, path.string(),
        ": exists already and is kept; name another file, or replace it with --force");
@@ -112,6 +127,9 @@ void Outputs::claim_folder(const Output::Rule& rule, bool keep) {
   require(!keep || existing.empty(), Exit::kUsage, folder.string(), ": holds a result already (",
           existing.empty() ? "" : existing.front().filename().string(),
           "), which is kept; name another folder, or replace it with --force");
+  for (const std::string& name : rule.contents) {
+    if (keep) claim_new(folder, name);
+  }
 }
 
 void Outputs::refuse_input(const Path& output) const {

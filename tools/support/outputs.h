@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dcnn/core/claims.h"
 #include "dcnn/core/file.h"
 #include "support/option.h"
 
@@ -26,6 +27,8 @@ class Output {
     std::vector<Option> unless = {};         ///< options that go on with what is there
     std::vector<Option> file_with = {};      ///< options that make the folder a file
     bool (*own)(const Path&) = nullptr;      ///< whether an existing file may be replaced
+    bool precious = false;                   ///< what exists is kept with --force, too
+    bool held = false;                       ///< no other process may write it meanwhile
 
     bool is_folder() const;
   };
@@ -40,6 +43,10 @@ class Output {
   Output file_with(Option option) const { return rule_->file_with.push_back(option), *this; }
   /// An existing file is replaced where `own` says that it is an earlier, easily repeated result.
   Output replaces(bool (*own)(const Path&)) const { return rule_->own = own, *this; }
+  /// Nothing that exists is replaced, with --force either.
+  Output precious() const { return rule_->precious = true, *this; }
+  /// Two commands with the same file at the same time: the second one is refused.
+  Output held() const { return rule_->held = true, *this; }
   bool given() const { return rule_->option.given(); }
 
  private:
@@ -64,13 +71,14 @@ class Outputs {
   bool take_standard_output() const;
 
  private:
-  void claim_file(const Output::Rule& rule, bool keep) const;
+  void claim_file(const Output::Rule& rule, bool keep);
   void claim_folder(const Output::Rule& rule, bool keep);
   void refuse_input(const Path& output) const;
 
   std::vector<std::shared_ptr<Output::Rule>> rules_;
   std::vector<std::function<std::vector<Path>()>> inputs_;
   std::vector<FolderLock> locks_;
+  std::vector<NameLock> names_;
 };
 
 }  // namespace dcnn

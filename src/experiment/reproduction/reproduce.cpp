@@ -2,6 +2,7 @@
 
 #include "dcnn/cells/merge.h"
 #include "dcnn/core/file.h"
+#include "dcnn/core/file_set.h"
 #include "experiment/reproduction/page.h"
 #include "experiment/reproduction/stages.h"
 #include "experiment/reproduction/tables.h"
@@ -185,6 +186,7 @@ ReproductionOutcome reproduce(const ReproductionRequest& given, const CellRunObs
 
   const OutputLayout layout{request.out};
   const Results results = read_results(layout, plan);
+  FileSet files(layout.out);
   write_tables(layout, plan, results);
   const auto verdicts = judge(request, results);
   const auto from = provenance(request, plan, results);
@@ -192,6 +194,7 @@ ReproductionOutcome reproduce(const ReproductionRequest& given, const CellRunObs
   outcome.report = layout.report();
   write_file(layout.out / "reproduction.json", outcome.summary.dump(2) + "\n");
   write_file(layout.report(), reproduction_page(request, plan, results, verdicts, from));
+  files.commit();
   return outcome;
 }
 
