@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "dcnn/core/file.h"
+#include "dcnn/core/file_set.h"
 #include "dcnn/import/assemble.h"
 #include "dcnn/import/summary.h"
 #include "support/file_kind.h"
@@ -87,9 +88,12 @@ class Importer {
       propose_for(recordings[0]);
     }
     if (!request_.dry_run) {
+      FileSet files(*request_.out);
+      for (const char* earlier : {"system.json", "clock-offset.svg"}) files.replaces(earlier);
       for (const auto& recording : recordings) write(recording);
       write_file(*request_.out / "import.json", to_json(proposal_.recipe).dump(2) + "\n");
       if (!picture_.empty()) write_file(*request_.out / "clock-offset.svg", picture_);
+      files.commit();
       tool_.note("Next: " + next_);
     } else if (request_.recipe) {
       std::cout << describe(read_log(recordings[0], flags_.read()), proposal_.recipe);
