@@ -1,6 +1,7 @@
 #include "import/bytes.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,10 +16,12 @@ constexpr std::uint64_t kLargestPiece = std::uint64_t{1} << 30;
 }  // namespace
 
 ByteFile::ByteFile(const std::filesystem::path& path) : name_(path.string()) {
-  fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // does not wait for a FIFO
   require(fd_ >= 0, Exit::kData, name_, ": cannot open: ", std::strerror(errno),
           "; check path and permissions");
-  const off_t end = ::lseek(fd_, 0, SEEK_END);
+  struct stat about {};
+  const bool regular = ::fstat(fd_, &about) == 0 && S_ISREG(about.st_mode);
+  const off_t end = regular ? ::lseek(fd_, 0, SEEK_END) : -1;
   require(end >= 0, Exit::kData, name_, ": is not a regular file; write it to one first");
   size_ = static_cast<std::uint64_t>(end);
 }

@@ -18,14 +18,25 @@ constexpr const char* kPickle =
     "is a Python pickle, which runs code of its maker when it is read; save its arrays by "
     "numpy.savez or as CSV";
 
+/// A FIFO or a device may be waited for without end.
+constexpr const char* kNotRegular = ": is not a regular file; write it to one first";
+
 /// The files of a folder that ros2 bag made; the path itself otherwise.
 std::vector<fs::path> files_of(const fs::path& path) {
-  if (!fs::is_directory(path)) return {path};
-  std::vector<fs::path> files;
   std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::is_directory(status)) {
+    require(path == "-" || !fs::exists(status) || fs::is_regular_file(status), Exit::kData,
+            path.string(), kNotRegular);
+    return {path};
+  }
+  std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(path, error)) {
     const std::string extension = entry.path().extension();
-    if (extension == ".mcap" || extension == ".db3") files.push_back(entry.path());
+    if (extension != ".mcap" && extension != ".db3") continue;
+    require(!entry.exists(error) || entry.is_regular_file(error), Exit::kData,
+            entry.path().string(), kNotRegular);
+    files.push_back(entry.path());
   }
   require(!files.empty(), Exit::kData, path.string(),
           ": is a folder without .mcap or .db3 files; name a file");

@@ -1,6 +1,7 @@
 // What an attacker or a broken logger writes: one line that says what is wrong, and nothing that a
 // terminal obeys.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <functional>
@@ -155,6 +156,93 @@ TEST_F(HostileInputs, ForgedSealsAreRefused) {
     expect_line(test::run("conceal", {"--score", "--out", at("set"), "--seal", at("seal.json")}), 3,
                 "seal.json");
   }
+}
+
+/// A file name may hold any bytes; JSON and pages hold characters.
+TEST_F(HostileInputs, NamesThatAreNoUtf8LoseNoResult) {
+  const std::string odd = log("l\xff.csv", [](double, Row&) {});
+  const auto checked = test::run("check", {odd, "--json", "--out", at("check")});
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+  EXPECT_NO_THROW(parse_json(checked.out, "stdout", Exit::kFailure));
+  EXPECT_NO_THROW(read_json(at("check/check.json"), Exit::kFailure));
+}
+
+TEST_F(HostileInputs, AFifoIsNoLogAndNothingWaitsForIt) {
+  ASSERT_EQ(::mkfifo(at("fifo").c_str(), 0600), 0);
+  std::filesystem::create_directories(at("bag"));
+  ASSERT_EQ(::mkfifo(at("bag/x.db3").c_str(), 0600), 0);
+  const std::string plain = log("plain.csv", [](double, Row&) {});
+  const auto import = [&](const std::vector<std::string>& logs) {
+    std::vector<std::string> arguments = logs;
+    arguments.insert(arguments.end(), {"--out", at("imported"), "--assume"});
+    return test::run("import", arguments, {.wrapper = {"timeout", "20"}});
+  };
+  const char* words = "is not a regular file";
+  expect_line(import({at("fifo")}), 3, words);
+  expect_line(import({at("bag")}), 3, words);
+  expect_line(import({plain, at("fifo")}), 3, words);
+  EXPECT_FALSE(std::filesystem::exists(at("imported/plain.csv")));
+}
+
+TEST_F(HostileInputs, ASectionOfAConfigurationThatIsNoneIsNamed) {
+  const std::string plain = log("a.csv", [](double, Row&) {});
+  for (const std::string section : {"features", "map", "model", "training", "noise"}) {
+    write_file(at("c.json"), "{\"" + section + "\": 5}");
+    expect_line(test::run("train", {"--config", at("c.json"), "--train", plain, "--online",
+                                    "--epochs", "1", "--out", at("m.dcnn")}),
+                2, "c.json: key '" + section + "' must be an object, not 5");
+  }
+}
+
+TEST_F(HostileInputs, ASimulatorBeyondPhysicsIsRefused) {
+  const std::string plain = log("a.csv", [](double, Row&) {});
+  const auto simulate = [&](const std::string& simulator) {
+    write_file(at("s.json"), simulator);
+    return test::run("sim", {"--sim", at("s.json"), "--motion", plain, "--out", at("s.csv")});
+  };
+  const std::string tool = R"({"tool": {"mass_kg": 0.6)";
+  expect_line(simulate(tool + R"(}, "gravity_mps2": [0, 0, -1e308]})"), 3,
+              "s.json: key 'gravity_mps2' must hold numbers between -1000 and 1000");
+  expect_line(simulate(tool + R"(, "com_m": [1e300, 0, 0]}})"), 3, "key 'tool.com_m'");
+  expect_line(simulate(R"({"tool": {"mass_kg": 1e300}})"), 3, "key 'tool.mass_kg'");
+  expect_line(simulate(tool + R"(}, "sensor": {"rotation_rpy": [0, 0, 1e9]}})"), 3,
+              "key 'sensor.rotation_rpy'");
+  EXPECT_EQ(simulate(tool + "}}").exit_code, 0);
+}
+
+TEST_F(HostileInputs, NoNumberOfThreadsBreaksACommand) {
+  const std::string plain = log("a.csv", [](double, Row&) {});
+  ASSERT_EQ(test::run("train", {"--train", plain, "--model", "mlp", "--preset", "quick", "--epochs",
+                                "1", "--out", at("m.dcnn")})
+                .exit_code,
+            0);
+  const auto predict = [&](const std::string& threads, const std::string& memory) {
+    return test::run(
+        "predict", {at("m.dcnn"), "--data", plain, "--out", "-"},
+        {.environment = {"OMP_NUM_THREADS=" + threads}, .wrapper = {"prlimit", "--as=" + memory}});
+  };
+  const std::string right = predict("1", "unlimited").out;
+  EXPECT_EQ(predict("100000", "unlimited").out, right);
+  int enough = 0;
+  for (const char* threads : {"2", "64"}) {
+    for (const char* memory : {"40000000", "60000000", "100000000", "300000000"}) {
+      const auto result = predict(threads, memory);
+      if (result.exit_code == 127) continue;  // too little for the loader
+      EXPECT_EQ(result.err.find("libgomp"), std::string::npos) << result.err;
+      EXPECT_LE(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+      if (result.exit_code == 0) EXPECT_EQ(result.out, right);
+      enough += result.exit_code == 0;
+    }
+  }
+  EXPECT_GT(enough, 0);
+}
+
+TEST_F(HostileInputs, ATemporaryFolderThatIsNoneIsOneLineWhereItIsUsed) {
+  const auto sweep = [&](const std::vector<std::string>& arguments) {
+    return test::run("sweep", arguments, {.environment = {"TMPDIR=/nonexistent"}});
+  };
+  EXPECT_EQ(sweep({"--help"}).exit_code, 0);
+  expect_line(sweep({"--plan", at("p"), "--jobs", "1"}), 2, "--scratch DIR");
 }
 
 }  // namespace
