@@ -3,11 +3,19 @@
 namespace dcnn {
 namespace {
 
-/// ASCII's control characters, and U+0080 to U+009F, which some terminals obey as well.
+/// ASCII's control characters, U+0080 to U+009F, which some terminals obey as well, and those that
+/// turn the direction of a line or end it: U+061C, U+200E, U+200F, U+2028 to U+202E, U+2066 to
+/// U+2069.
 bool is_control(std::string_view character) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
   if (character.size() == 1) return byte(0) < 0x20 || byte(0) == 0x7f;
-  return byte(0) == 0xc2 && byte(1) < 0xa0;
+  if (character.size() == 2) {
+    return (byte(0) == 0xc2 && byte(1) < 0xa0) || (byte(0) == 0xd8 && byte(1) == 0x9c);
+  }
+  if (character.size() != 3 || byte(0) != 0xe2) return false;
+  if (byte(1) == 0x80)
+    return byte(2) == 0x8e || byte(2) == 0x8f || (byte(2) >= 0xa8 && byte(2) <= 0xae);
+  return byte(1) == 0x81 && byte(2) >= 0xa6 && byte(2) <= 0xa9;
 }
 
 }  // namespace

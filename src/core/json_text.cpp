@@ -112,12 +112,9 @@ Text to_text(const Json& json) {
 
 }  // namespace
 
+/// Names of files may hold any bytes: those that are not UTF-8 become U+FFFD.
 std::string Json::dump(int indent) const {
-  try {
-    return to_text(*this).dump(indent);
-  } catch (const Text::exception& error) {
-    throw exception(short_reason(error.what()));
-  }
+  return to_text(*this).dump(indent, ' ', false, Text::error_handler_t::replace);
 }
 
 Json Json::parse(std::string_view text) {

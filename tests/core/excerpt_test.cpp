@@ -19,6 +19,12 @@ TEST(Excerpt, ShowsNothingThatATerminalObeys) {
       << "U+009B begins a control sequence, too";
   EXPECT_EQ(excerpt("\xc2\xa0"), "\xc2\xa0") << "U+00A0 is a space";
   EXPECT_EQ(excerpt(std::string_view("\0", 1)), "?");
+  for (const char* turn : {"\u061c", "\u200e", "\u200f", "\u2028", "\u202e", "\u2066", "\u2069"}) {
+    EXPECT_EQ(excerpt(turn), "?") << "what follows would stand elsewhere than it is";
+  }
+  for (const char* plain : {"\u061b", "\u200d", "\u2027", "\u202f", "\u2065", "\u206a"}) {
+    EXPECT_EQ(excerpt(plain), plain);
+  }
 }
 
 TEST(Excerpt, CutsBetweenCharactersAndSaysSo) {

@@ -35,6 +35,11 @@ TEST(Json, KeepsTheOrderAndTheKindOfWhatItParses) {
   EXPECT_EQ(Json::parse(text)["z"].get<std::uint64_t>(), std::numeric_limits<std::uint64_t>::max());
 }
 
+TEST(Json, BytesThatAreNoUtf8ArePrintedAsReplacementCharacters) {
+  EXPECT_EQ(Json("l\xff.csv").dump(), "\"l\uFFFD.csv\"");
+  EXPECT_EQ((Json{{"\xc0", 1}}).dump(), "{\"\uFFFD\":1}");
+}
+
 TEST(Json, IndentsAsAsked) {
   EXPECT_EQ((Json{{"a", {1, 2}}}.dump(2)), "{\n  \"a\": [\n    1,\n    2\n  ]\n}");
 }
@@ -69,7 +74,6 @@ TEST(Json, WhatAValueIsNotIsAnException) {
   EXPECT_THROW(json["list"][2], Json::exception);
   EXPECT_THROW(json["list"].value("a", 1.0), Json::exception);
   EXPECT_THROW(Json(std::nan("")).get<int>(), Json::exception);
-  EXPECT_THROW(Json("\xff").dump(), Json::exception);
   EXPECT_THROW(Json::parse("{"), Json::exception);
   EXPECT_THROW(Json(1)["a"] = 2, Json::exception);
   EXPECT_THROW(Json("a").push_back(1), Json::exception);

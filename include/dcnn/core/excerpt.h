@@ -8,7 +8,8 @@
 namespace dcnn {
 
 /// At most `most` bytes of `text`, cut between UTF-8 characters and ended by "..." where it is
-/// longer; each control character (C0, DEL, C1: what a terminal would obey) and each byte that is
+/// longer; each control character (C0, DEL, C1, marks of direction: what a
+/// terminal would obey) and each byte that is
 /// not UTF-8 is shown as '?'.
 std::string excerpt(std::string_view text, std::size_t most = 80);
 
