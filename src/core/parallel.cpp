@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -30,11 +31,47 @@ Index piece_count(Index n) {
 
 namespace {
 
+constexpr int kMostThreads = 1024;
+std::atomic<int> most_threads{kMostThreads};  // that can be made, as far as is known
+std::atomic<int> made_threads{1};             // at once, so far
+
+int wanted_threads() { return std::min(omp_get_max_threads(), most_threads.load()); }
+
+/// As many threads at once, each of which waits for the last one; how many there are with this one.
+int threads_at_once(int wanted) {
+  std::vector<std::thread> others;
+  std::atomic<bool> go{false};
+  try {
+    others.reserve(static_cast<std::size_t>(wanted));
+    while (static_cast<int>(others.size()) + 1 < wanted) {
+      others.emplace_back([&go] { go.wait(false); });
+    }
+  } catch (const std::exception&) {  // a limit of threads or of memory
+  }
+  go = true;
+  go.notify_all();
+  for (std::thread& other : others) other.join();
+  return static_cast<int>(others.size()) + 1;
+}
+
+/// A runtime that cannot make a thread ends the program: what cannot be made is not asked for. The
+/// pieces are the same for any number of threads.
+int possible_threads() {
+  const int wanted = wanted_threads();
+  if (wanted <= made_threads) return wanted;
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  const int made = threads_at_once(wanted);
+  if (made < wanted) most_threads = std::max(1, made - 1);  // one thread's memory stays free
+  made_threads = std::min(wanted, most_threads.load());
+  return made_threads;
+}
+
 #ifdef DCNN_PLAIN_THREADS
 /// As OpenMP below: contiguous pieces for each thread, and no threads within threads.
 void on_threads(Index count, const std::function<void(Index)>& work) {
   thread_local bool inside = false;
-  const Index most = inside ? 1 : omp_get_max_threads();
+  const Index most = inside || count < 2 ? 1 : possible_threads();
   const Index threads = std::max<Index>(1, std::min(count, most));
   const auto share = [&](Index t) {
     const bool before = std::exchange(inside, true);
@@ -48,7 +85,8 @@ void on_threads(Index count, const std::function<void(Index)>& work) {
 }
 #else
 void on_threads(Index count, const std::function<void(Index)>& work) {
-#pragma omp parallel for schedule(static) if (count > 1)
+  const int threads = count > 1 && omp_in_parallel() == 0 ? possible_threads() : 1;
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
   for (Index k = 0; k < count; ++k) work(k);
 }
 #endif
@@ -78,6 +116,6 @@ void set_threads(int threads) {
   if (threads > 0) omp_set_num_threads(threads);
 }
 
-int threads() { return omp_get_max_threads(); }
+int threads() { return wanted_threads(); }
 
 }  // namespace dcnn
