@@ -1,7 +1,6 @@
 #include "dcnn/physics/tool_model.h"
 
 #include <cmath>
-#include <limits>
 
 #include "dcnn/core/options.h"
 #include "dcnn/data/rotation.h"
@@ -11,7 +10,13 @@
 namespace dcnn {
 namespace {
 
-constexpr double kMax = std::numeric_limits<double>::max();
+// Far beyond any tool, sensor or planet: what is larger is a slip or damage, and would overflow.
+constexpr double kMostMass = 1e6;      // kg
+constexpr double kMostLength = 1e3;    // m
+constexpr double kMostGravity = 1e3;   // m/s²
+constexpr double kMostAngle = 1e3;     // rad, of a mounting that was turned several times
+constexpr double kMostOffset = 1e9;    // N, N·m
+constexpr double kMostInertia = 1e12;  // kg·m²
 const Eigen::VectorXd kZero3 = Eigen::VectorXd::Zero(3);
 
 Eigen::Matrix3d symmetric(const Eigen::VectorXd& i) {
@@ -22,10 +27,11 @@ Eigen::Matrix3d symmetric(const Eigen::VectorXd& i) {
 
 void read_tool(Options tool, ToolModel& model) {
   tool.get<double>("mass_kg");
-  model.mass = tool.number("mass_kg", 0.0, 0.0, kMax);
-  model.com = read_list(tool, "com_m", kZero3);
+  model.mass = tool.number("mass_kg", 0.0, 0.0, kMostMass);
+  model.com = read_list(tool, "com_m", kZero3, kMostLength);
   if (tool.has("inertia_kgm2")) {
-    model.inertia = symmetric(read_list(tool, "inertia_kgm2", Eigen::VectorXd::Zero(6)));
+    model.inertia =
+        symmetric(read_list(tool, "inertia_kgm2", Eigen::VectorXd::Zero(6), kMostInertia));
     if ((model.inertia->diagonal().array() < 0.0).any()) {
       tool.reject("inertia_kgm2",
                   "has a negative moment of inertia; its order is ixx,iyy,izz,ixy,ixz,iyz");
@@ -35,9 +41,9 @@ void read_tool(Options tool, ToolModel& model) {
 }
 
 void read_sensor(Options sensor, ToolModel& model) {
-  model.bias = read_list(sensor, "bias_n", kZero3);
-  model.bias_torque = read_list(sensor, "bias_nm", kZero3);
-  model.sensor_rotation_rpy = read_list(sensor, "rotation_rpy", kZero3);
+  model.bias = read_list(sensor, "bias_n", kZero3, kMostOffset);
+  model.bias_torque = read_list(sensor, "bias_nm", kZero3, kMostOffset);
+  model.sensor_rotation_rpy = read_list(sensor, "rotation_rpy", kZero3, kMostAngle);
   sensor.finish();
 }
 
@@ -60,7 +66,7 @@ ToolModel read_tool_model(Options& options) {
   ToolModel model;
   if (!options.has("tool")) options.reject("tool", "is missing; it holds at least mass_kg");
   read_tool(options.child("tool"), model);
-  model.gravity = read_list(options, "gravity_mps2", model.gravity);
+  model.gravity = read_list(options, "gravity_mps2", model.gravity, kMostGravity);
   read_sensor(options.child("sensor"), model);
   model.inertial = read_inertial(options.child("model"));
   model.sample_rate_hz = options.number("sample_rate_hz", model.sample_rate_hz, 1e-3, 1e6);

@@ -1,9 +1,11 @@
 #include "physics/vectors.h"
 
+#include <cmath>
+
 namespace dcnn {
 
-Eigen::VectorXd read_list(Options& options, const std::string& key,
-                          const Eigen::VectorXd& fallback) {
+Eigen::VectorXd read_list(Options& options, const std::string& key, const Eigen::VectorXd& fallback,
+                          double most) {
   const std::vector<double> given(fallback.begin(), fallback.end());
   const auto list = options.get(key, given);
   if (list.size() != given.size()) {
@@ -12,6 +14,11 @@ Eigen::VectorXd read_list(Options& options, const std::string& key,
   const Eigen::VectorXd values =
       Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
   if (!values.allFinite()) options.reject(key, "must hold finite numbers");
+  for (const double value : values) {
+    if (std::abs(value) > most) {
+      options.reject(key, "must hold numbers between ", -most, " and ", most, ", not ", value);
+    }
+  }
   return values;
 }
 

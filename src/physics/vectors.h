@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -9,9 +10,10 @@
 
 namespace dcnn {
 
-/// A list of `size` finite numbers, or `fallback` where the key is absent.
-Eigen::VectorXd read_list(Options& options, const std::string& key,
-                          const Eigen::VectorXd& fallback);
+/// A list of numbers of magnitude `most` at most, as many as `fallback` has, or that where the key
+/// is absent.
+Eigen::VectorXd read_list(Options& options, const std::string& key, const Eigen::VectorXd& fallback,
+                          double most = std::numeric_limits<double>::max());
 Json to_list(const Eigen::VectorXd& values);
 
 }  // namespace dcnn
