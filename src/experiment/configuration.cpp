@@ -57,8 +57,11 @@ Configuration resolve(const ConfigurationFlags& flags) {
   Configuration result;
   Json given = read_file_or_empty(flags);
   result.where = flags.file ? flags.file->string() : "command line";
+  Options as_given(given, result.where, Exit::kUsage);
+  for (const char* section : {"features", "map", "model", "training", "noise"}) {
+    as_given.child(section);  // what is none is named before presets cover it
+  }
   const Json model_section = given.value("model", Json::object());
-  require(model_section.is_object(), Exit::kUsage, result.where, ": key 'model' must be an object");
   const auto name = flags.model.value_or(text_at(model_section, "name", "dcnn", result.where));
   const auto preset = flags.preset.value_or(text_at(given, "preset", "standard", result.where));
   result.kind = &model_kind(name, Exit::kUsage);
