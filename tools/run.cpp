@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
   auto listen = tool.option("--listen", serve.listen, "own address, HOST:PORT or PORT (loopback)");
   auto peer = tool.option("--peer", serve.peer, "the robot's address; nobody else is heard");
   auto key = tool.option("--key-file", key_file, "32 secret bytes that both ends hold");
-  tool.output("--make-key", make_key, "write a new key (mode 0600) and end");
+  tool.output("--make-key", make_key, "write a new key (mode 0600) and end").precious();
   tool.option("--average", options.average, "weighted mean of so many force readings")
       .between(1, 16);
   tool.option("--track-bias", options.bias_seconds,

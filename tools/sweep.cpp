@@ -149,7 +149,8 @@ int main(int argc, char** argv) {
       .positive();
   tool.option("--root", work.root, "folder of the inputs, where it is not the one of the plan")
       .called("DIR");
-  work.scratch = fs::temp_directory_path();
+  std::error_code no_folder;  // TMPDIR may name anything
+  work.scratch = fs::temp_directory_path(no_folder);
   tool.option("--scratch", work.scratch, "cells run in folders below it")
       .called("DIR")
       .with_default();
@@ -161,6 +162,8 @@ int main(int argc, char** argv) {
             !merging.table.empty() || !merging.files.empty(),
         Exit::kUsage,
         "give a description, --jobs, --shard, --status, --project, --emit, --merge or --unpack");
+    require(!work.scratch.empty(), Exit::kUsage,
+            "TMPDIR names no folder; --scratch DIR says where cells run");
     engine.program = fs::canonical("/proc/self/exe");
     work.programs = engine.program.parent_path();
     work.folder = engine.folder = merging.folder = folder;

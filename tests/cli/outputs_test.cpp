@@ -2,6 +2,11 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <fstream>
+#include <thread>
+
+#include "dcnn/core/claims.h"
 #include "dcnn/core/file.h"
 #include "dcnn/core/json.h"
 #include "support/process.h"
@@ -91,7 +96,8 @@ const Case kCases[] = {
      "d/a.csv",
      kInput},
     {"sweep", {"--plan", "p", "--jobs", "1", "--merge", "@t.jsonl"}, "t.jsonl", kKept},
-    {"run", {"--make-key", "@key"}, "key", kKept},
+    {"run", {"--make-key", "@key"}, "key", "never replaced"},
+    {"run", {"--make-key", "@key", "--force"}, "key", "never replaced"},
 };
 INSTANTIATE_TEST_SUITE_P(Every, Outputs, ::testing::ValuesIn(kCases));
 
@@ -137,6 +143,49 @@ TEST_F(Outputs, OfAFolderThatAnotherProcessWritesToAreRefused) {
       test::run("diagnose", {"--sim", kShippedTool, "--fit", kLog, "--out", at("report")});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("another process is writing here"), std::string::npos) << result.err;
+}
+
+TEST_F(Outputs, OfASealThatAnotherProcessWritesAreRefused) {
+  const NameLock other(at("seal.json"));
+  const auto result = test::run(
+      "conceal", {"--scenarios", "1", "--out", at("set"), "--seal", at("seal.json"), "--force"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("another process is writing this file"), std::string::npos)
+      << result.err;
+}
+
+/// What stands under the name when the work is done was made by somebody who did not know of it.
+TEST_F(Outputs, MadeBySomebodyElseDuringTheRunAreKept) {
+  ASSERT_EQ(::mkfifo(at("log.csv").c_str(), 0600), 0);
+  const test::Process train("predict", {kShippedTool, "--data", "-", "--out", at("p.csv")},
+                            {.wrapper = {"bash", "-c", R"(exec "$@" < "$0")", at("log.csv")}});
+  {
+    std::ofstream rows(at("log.csv"));                     // opens once it is read
+    std::this_thread::sleep_for(std::chrono::seconds(1));  // the command has claimed its output
+    std::ofstream(at("p.csv")) << "precious";
+    rows << test::slurp(kLog);
+  }
+  const auto result = train.wait();
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_NE(result.err.find("p.csv: was made by somebody else meanwhile and is kept"),
+            std::string::npos)
+      << result.err;
+  EXPECT_EQ(test::slurp(at("p.csv")), "precious");
+  EXPECT_NE(test::slurp(at("p.csv.2")).find("fz_hat"), std::string::npos);
+}
+
+TEST_F(Outputs, OfAnEarlierLargerSetAreGone) {
+  const auto conceal = [&](const char* count) {
+    return test::run("conceal", {"--scenarios", count, "--out", at("set"), "--seal",
+                                 at("seal.json"), "--force", "-q"});
+  };
+  ASSERT_EQ(conceal("2").exit_code, 0);
+  write_file(at("set/s0002/notes.txt"), "somebody's");
+  ASSERT_TRUE(std::filesystem::exists(at("set/s0002/sim.json")));
+  ASSERT_EQ(conceal("1").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(at("set/s0001/sim.json")));
+  EXPECT_FALSE(std::filesystem::exists(at("set/s0002/sim.json")));
+  EXPECT_TRUE(std::filesystem::exists(at("set/s0002/notes.txt")));
 }
 
 }  // namespace

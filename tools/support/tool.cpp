@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
@@ -14,12 +16,50 @@
 #include "support/usage_fault.h"
 
 namespace dcnn {
+namespace {
+
+int fail_line(const std::string& program, const std::string& message, Exit exit) {
+  constexpr std::size_t kMostBytes = 2000;  // a message may quote a whole document
+  std::string line = message;
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  std::cerr << program << ": " << excerpt(line, kMostBytes) << std::endl;
+  return static_cast<int>(exit);
+}
+
+/// One line for the exception that is being handled; the exit code.
+int tell_exception(const std::string& program) {
+  try {
+    throw;
+  } catch (const Error& error) {
+    return fail_line(program, error.what(), error.exit());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail_line(program, error.path1().string() + ": " + error.code().message(),
+                     Exit::kFailure);
+  } catch (const std::bad_alloc&) {
+    return fail_line(program, "out of memory", Exit::kFailure);
+  } catch (const std::exception& error) {
+    return fail_line(program, std::string("internal error: ") + error.what(), Exit::kFailure);
+  }
+}
+
+std::string program_of_terminate;
+
+/// What is thrown outside Tool::run(), such as where the table of options is made.
+[[noreturn]] void fail_in_one_line() {
+  if (!std::current_exception()) std::abort();
+  std::_Exit(tell_exception(program_of_terminate));
+}
+
+}  // namespace
 
 Tool::Tool(const std::string& name, const std::string& summary, const std::string& examples)
     : name_(name),
       summary_(summary),
       examples_(examples),
       app_(std::make_unique<CLI::App>(summary, name)) {
+  program_of_terminate = name;
+  std::set_terminate(fail_in_one_line);
   app_->set_help_flag();
   app_->allow_extras();  // so that a mistyped option is named before what is missing without it
 }
@@ -151,7 +191,7 @@ std::optional<int> Tool::answer(int argc, char** argv) const {
     std::cout << summary_ << "\n";
   } else if (words.empty()) {
     std::cout << short_help(table()) << std::flush;
-    return fail_line("nothing to do; see " + name_ + " --help", Exit::kUsage);
+    return fail_line(name_, "nothing to do; see " + name_ + " --help", Exit::kUsage);
   } else {
     return std::nullopt;
   }
@@ -180,7 +220,7 @@ int Tool::parse(int argc, char** argv) {
   }
   if (const std::string unknown = unknown_word(); !unknown.empty()) fault = unknown;
   if (fault.empty()) return -1;
-  return fail_line(fault + "; see " + name_ + " --help", Exit::kUsage);
+  return fail_line(name_, fault + "; see " + name_ + " --help", Exit::kUsage);
 }
 
 /// Calls `check` for every file of known kind that the command line names.
@@ -225,28 +265,17 @@ int Tool::run(int argc, char** argv, const std::function<Exit()>& body) {
     std::cout.flush();
     require(std::cout.good(), Exit::kFailure, "standard output: cannot write");
     return static_cast<int>(exit);
-  } catch (const Error& error) {
-    return fail_line(error.what(), error.exit());
-  } catch (const std::filesystem::filesystem_error& error) {
-    return fail_line(error.path1().string() + ": " + error.code().message(), Exit::kFailure);
-  } catch (const std::bad_alloc&) {
-    return fail_line("out of memory", Exit::kFailure);
-  } catch (const std::exception& error) {
-    return fail_line(std::string("internal error: ") + error.what(), Exit::kFailure);
+  } catch (const std::exception&) {
+    return tell_exception(name_);
   }
 }
 
-int Tool::fail_line(const std::string& message, Exit exit) const {
-  constexpr std::size_t kMostBytes = 2000;  // a message may quote a whole document
-  std::string line = message;
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  std::cerr << name_ << ": " << excerpt(line, kMostBytes) << std::endl;
-  return static_cast<int>(exit);
-}
-
 void Tool::note(const std::string& text) const {
-  if (!common_.quiet) std::cerr << text << std::endl;
+  if (common_.quiet) return;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::cerr << excerpt(line, line.size()) << std::endl;
+  }
 }
 
 void Tool::print(const Json& json) { std::cout << json.dump(2) << "\n"; }

@@ -67,7 +67,6 @@ class Tool {
   using FileCheck = void (*)(const std::string& place, const std::filesystem::path& file,
                              const std::vector<FileKind>& wanted);
   void check_inputs(const FileCheck& check) const;
-  int fail_line(const std::string& message, Exit exit) const;
 
   std::string name_, summary_, examples_;
   std::unique_ptr<CLI::App> app_;
