@@ -3,8 +3,10 @@
 #include "dcnn/data/features.h"
 #include "dcnn/data/input_map.h"
 #include "dcnn/design/limits.h"
+#include "dcnn/experiment/configuration.h"
 #include "dcnn/import/recipe.h"
 #include "dcnn/models/online_limits.h"
+#include "dcnn/physics/chain.h"
 #include "dcnn/physics/simulator.h"
 #include "dcnn/teleop/teleop.h"
 #include "fuzz/support.h"
@@ -19,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string printed = json.dump();
     fuzz::demand(parse_json(printed, "again", Exit::kFailure).dump() == printed,
                  "printed text that reads otherwise");
-    switch (data[0] % 10) {
+    switch (data[0] % 14) {
       case 0: {
         const Simulator simulator = parse_simulator(json, "sim.json", Exit::kData);
         parse_simulator(to_json(simulator), "again", Exit::kFailure);
@@ -52,6 +54,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         break;
       case 8:
         parse_limits(json, "online");
+        break;
+      case 10: {
+        const fuzz::MemoryFile file(text);
+        ConfigurationFlags flags;
+        flags.file = file.path();
+        resolve(flags);
+        break;
+      }
+      case 11:
+        parse_chain(json, "arm.json", Exit::kData);
+        break;
+      case 12:
+        parse_effects(json, "effects", Exit::kData);
         break;
       default: {
         const fuzz::MemoryFile file(text);

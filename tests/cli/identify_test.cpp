@@ -30,8 +30,8 @@ TEST(IdentifyTool, WritesASimulatorAPayloadAndTheNextCommand) {
   EXPECT_TRUE(report["parameters"].contains("inertia_xx_kgm2"));
   // A result that exists is kept.
   EXPECT_EQ(run("identify", {(folder / "log.csv").string(), "--out", out}).exit_code, 2);
-  const auto again = run("identify", {"--from", out, "--export", "ur", "--export-to",
-                                      (folder / "ur").string()});
+  const auto again =
+      run("identify", {"--from", out, "--export", "ur", "--export-to", (folder / "ur").string()});
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_TRUE(std::filesystem::exists(folder / "ur" / "payload.script"));
 }
@@ -39,7 +39,8 @@ TEST(IdentifyTool, WritesASimulatorAPayloadAndTheNextCommand) {
 TEST(IdentifyTool, MistakesAreOneLineWithTheirExitCode) {
   const test::TemporaryFolder folder;
   const auto out = (folder / "sim.json").string();
-  const auto torque = testing::temporary_file("torque.csv", "t,alpha,beta,gamma,tx,ty,tz\n0,0,0,0,1,1,1\n0.01,0,0,0,1,1,1\n");
+  const auto torque = testing::temporary_file(
+      "torque.csv", "t,alpha,beta,gamma,tx,ty,tz\n0,0,0,0,1,1,1\n0.01,0,0,0,1,1,1\n");
   const auto missing = run("identify", {torque.string(), "--out", out});
   EXPECT_EQ(missing.exit_code, 3);
   EXPECT_TRUE(contains(missing.err, "fx,fy,fz")) << missing.err;

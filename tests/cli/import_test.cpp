@@ -109,8 +109,8 @@ TEST(ImportTool, SaysHowToNameTheChannelsOfAnAxis) {
   dry.push_back("--dry-run");
   EXPECT_NE(run("import", dry).out.find("--map q:1=CHANNEL"), std::string::npos);
   auto said = named;
-  said.insert(said.end(), {"--clock", "time_ms", "--clock-unit", "ms", "--map", "q:1=a",
-                           "--map", "tau:1=b", "--out", (folder / "out").string()});
+  said.insert(said.end(), {"--clock", "time_ms", "--clock-unit", "ms", "--map", "q:1=a", "--map",
+                           "tau:1=b", "--out", (folder / "out").string()});
   const auto result = run("import", said);
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
