@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   DesignRequest request;
   Path report, limits, out;
   tool.option("--report", report, "folder of dcnn-diagnose").called("DIR").required();
+  tool.reads([&] { return std::vector<Path>{report / "report.json", report / "model.json"}; });
   tool.option("--limits", limits, "what the robot may do (JSON)")
       .required()
       .holds({FileKind::kLimits});

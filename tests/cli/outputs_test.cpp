@@ -47,6 +47,7 @@ TEST_P(Outputs, AreRefusedWhereSomethingWouldBeDestroyed) {
 
 constexpr const char* kInput = "is also an input";
 constexpr const char* kKept = "kept";
+constexpr const char* kBoth = "one of them would be lost";
 const Case kCases[] = {
     {"predict", {"m.dcnn", "--data", "@a.csv", "--out", "@a.csv", "--force"}, "a.csv", kInput},
     {"predict", {"m.dcnn", "--data", "a.csv", "--out", "@p.csv"}, "p.csv", kKept},
@@ -95,6 +96,26 @@ const Case kCases[] = {
      {"--inject", "bias", "--motion", "@d/a.csv", "--sim", "s", "--out", "@d", "--seal", "@s"},
      "d/a.csv",
      kInput},
+    {"design",
+     {"--report", "@r", "--limits", "l.json", "--out", "@r/report.json", "--force"},
+     "r/report.json",
+     kInput},
+    {"design",
+     {"--report", "@r", "--limits", "l.json", "--out", "@r/model.json", "--force"},
+     "r/model.json",
+     kInput},
+    {"calibrate",
+     {"--static", "s.csv", "--out", "@x", "--report", "@./new/../x", "--force"},
+     "x",
+     "--out and --report"},
+    {"predict", {"m.dcnn", "--data", "@a.csv", "--out", "@x", "--onnx", "@x"}, "a.csv", kBoth},
+    {"predict", {"m.dcnn", "--data", "@a.csv", "--out", "-", "--onnx", "-"}, "a.csv", kBoth},
+    {"eval",
+     {"m.dcnn", "--data", "@a.csv", "--out", "@r", "--trace", "@r/report.html"},
+     "a.csv",
+     kBoth},
+    {"eval", {"m.dcnn", "--data", "@a.csv", "--out", "@r", "--trace", "@r/"}, "a.csv", kBoth},
+    {"identify", {"@a.csv", "--out", "@r/identify.json", "--report", "@r"}, "a.csv", kBoth},
     {"sweep", {"--plan", "p", "--jobs", "1", "--merge", "@t.jsonl"}, "t.jsonl", kKept},
     {"run", {"--make-key", "@key"}, "key", "never replaced"},
     {"run", {"--make-key", "@key", "--force"}, "key", "never replaced"},

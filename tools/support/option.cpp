@@ -141,6 +141,8 @@ Option Option::group(const std::string& heading) const {
   return *this;
 }
 
+const std::string& Option::name() const { return row_->names.back(); }
+
 bool Option::given() const { return option_->count() > 0; }
 
 }  // namespace dcnn

@@ -45,6 +45,8 @@ class Option {
   /// --help lists it under this heading.
   Option group(const std::string& heading) const;
 
+  /// "--out".
+  const std::string& name() const;
   /// Whether the command line has it.
   bool given() const;
 

@@ -25,15 +25,33 @@ fs::path when_made(const fs::path& path) {
   return error || !fs::exists(plain, error) ? path : plain;
 }
 
+/// Where bytes for a path go, by one name for each place; empty where a stream takes them.
+fs::path place_of(fs::path path) {
+  constexpr int kMostLinks = 40;  // Linux follows as many
+  if (is_standard_output(path)) return "-";
+  std::error_code error;
+  for (int links = 0; links < kMostLinks && fs::is_symlink(path, error); ++links) {
+    path = path.parent_path() / fs::read_symlink(path, error);
+  }
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error) &&
+      !fs::is_directory(path, error))
+    return {};
+  path = fs::weakly_canonical(fs::absolute(path, error), error);
+  return path.has_filename() ? path : path.parent_path();
+}
+
+bool matches(const std::string& pattern, const std::string& name) {
+  return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
+
 /// The existing files of a folder that a command would write.
 std::vector<fs::path> present(const fs::path& folder, const std::vector<std::string>& contents) {
   std::vector<fs::path> found;
   std::error_code missing;
   for (const auto& entry : fs::directory_iterator(folder, missing)) {
     const std::string name = entry.path().filename();
-    if (std::any_of(contents.begin(), contents.end(), [&](const std::string& pattern) {
-          return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
-        })) {
+    if (std::any_of(contents.begin(), contents.end(),
+                    [&](const std::string& pattern) { return matches(pattern, name); })) {
       found.push_back(entry.path());
     }
   }
@@ -56,6 +74,25 @@ bool any_given(const std::vector<Option>& options) {
                      [](const Option& option) { return option.given(); });
 }
 
+/// Whether what is written by one option would replace what is written by the other.
+bool overlap(const Output::Rule& one, const fs::path& at, const Output::Rule& other,
+             const fs::path& there) {
+  if (at.empty() || there.empty()) return false;
+  if (one.is_folder() && other.is_folder()) {
+    return at == there && std::any_of(one.contents.begin(), one.contents.end(), [&](const auto& a) {
+             return std::any_of(other.contents.begin(), other.contents.end(),
+                                [&](const auto& b) { return matches(a, b) || matches(b, a); });
+           });
+  }
+  if (at == there) return true;
+  const auto holds = [](const Output::Rule& rule, const fs::path& folder, const fs::path& file) {
+    return rule.is_folder() && file.parent_path() == folder &&
+           std::any_of(rule.contents.begin(), rule.contents.end(),
+                       [&](const auto& pattern) { return matches(pattern, file.filename()); });
+  };
+  return holds(one, at, there) || holds(other, there, at);
+}
+
 }  // namespace
 
 bool Output::Rule::is_folder() const { return !contents.empty() && !any_given(file_with); }
@@ -75,6 +112,7 @@ std::vector<Outputs::Path> Outputs::inputs() const {
 
 void Outputs::claim(bool force) {
   if (!is_first_rank()) return;
+  refuse_overlaps();
   for (const auto& rule : rules_) {
     if (rule->path().empty()) continue;
     const bool keep = !force && !any_given(rule->unless);
@@ -136,6 +174,20 @@ void Outputs::refuse_input(const Path& output) const {
   for (const Path& input : inputs()) {
     require(!same_file(input, output), Exit::kUsage, output.string(),
             ": is also an input and would be destroyed; name another output");
+  }
+}
+
+void Outputs::refuse_overlaps() const {
+  std::vector<std::pair<const Output::Rule*, Path>> before;
+  for (const auto& rule : rules_) {
+    if (rule->path().empty()) continue;
+    const Path at = place_of(rule->path());
+    for (const auto& [other, there] : before) {
+      require(!overlap(*rule, at, *other, there), Exit::kUsage, rule->path().string(), ": ",
+              other->option.name(), " and ", rule->option.name(),
+              " both write there, and one of them would be lost; name another output");
+    }
+    before.emplace_back(rule.get(), at);
   }
 }
 

@@ -74,6 +74,7 @@ class Outputs {
   void claim_file(const Output::Rule& rule, bool keep);
   void claim_folder(const Output::Rule& rule, bool keep);
   void refuse_input(const Path& output) const;
+  void refuse_overlaps() const;
 
   std::vector<std::shared_ptr<Output::Rule>> rules_;
   std::vector<std::function<std::vector<Path>()>> inputs_;

@@ -40,6 +40,11 @@ class Tool {
   Output output(const std::string& names, T& variable, const std::string& help,
                 const std::vector<std::string>& contents = {});
 
+  /// Files that the command reads without an option of their own, such as those of a folder.
+  void reads(std::function<std::vector<std::filesystem::path>()> paths) {
+    outputs_.add_input(std::move(paths));
+  }
+
   /// --threads, for a command that shares its work among threads.
   void shares_work();
 
@@ -64,6 +69,7 @@ class Tool {
   std::optional<int> answer(int argc, char** argv) const;
   int parse(int argc, char** argv);
   std::string unknown_word() const;
+  std::string taker_of(const std::string& file) const;
   using FileCheck = void (*)(const std::string& place, const std::filesystem::path& file,
                              const std::vector<FileKind>& wanted);
   void check_inputs(const FileCheck& check) const;
