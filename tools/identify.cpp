@@ -57,8 +57,13 @@ void export_payload(const Command& command, const ToolModel& model, const Tool& 
 /// The command that goes on from what was found; the logs are read as they were here.
 std::string diagnosis_of(const Command& command, const std::string& option, const Path& found,
                          const std::vector<Path>& logs) {
-  std::string text = "dcnn-diagnose " + option + " " + quoted_argument(found.string()) + " --fit";
-  for (const Path& log : logs) text += " " + quoted_argument(log.string());
+  // What went through standard output or came from standard input is to be in a file first.
+  const bool streamed = is_standard_output(found);
+  std::string text = "dcnn-diagnose " + option + " " +
+                     (streamed ? "FOUND.json" : quoted_argument(found.string())) + " --fit";
+  for (const Path& log : logs) {
+    text += " " + (log == "-" ? "LOG.csv" : quoted_argument(log.string()));
+  }
   for (const std::string& word : command.reading) text += " " + quoted_argument(word);
   return text + " --out report";
 }

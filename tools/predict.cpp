@@ -1,7 +1,9 @@
+#include <cctype>
 #include <fstream>
 #include <iostream>
 
 #include "dcnn/core/file.h"
+#include "dcnn/core/standard_input.h"
 #include "dcnn/models/onnx.h"
 #include "dcnn/physics/axis_machine.h"
 #include "support/file_kind.h"
@@ -67,6 +69,17 @@ Recording predict_with_simulator(const std::filesystem::path& model,
   return recording;
 }
 
+/// A simulator is JSON by its name or, on standard input, by its first byte.
+bool is_simulator(const std::filesystem::path& model) {
+  if (model != "-") return model.extension() == ".json";
+  constexpr std::size_t kBlanks = 1024;
+  char byte = ' ';
+  for (std::size_t k = 0; k < kBlanks && std::isspace(static_cast<unsigned char>(byte)) != 0; ++k) {
+    if (read_standard_input(k, &byte, 1, Exit::kModel) == 0) break;
+  }
+  return byte == '{';
+}
+
 /// Whether a file holds an earlier prediction: it is replaced, for it is made again in no time.
 bool is_prediction(const std::filesystem::path& file) {
   std::string header;
@@ -109,7 +122,7 @@ int main(int argc, char** argv) {
     }
     ReadOptions options = read.options();
     options.motion_only = true;
-    const bool simulator = model.extension() == ".json";
+    const bool simulator = is_simulator(model);
     require(!simulator || precision.value() == Precision::kSingle, Exit::kUsage,
             "--precision int16 is for a trained model; ", model.string(), " is a simulator");
     const Recording recording = simulator

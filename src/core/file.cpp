@@ -5,12 +5,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <mutex>
+
 #include "core/descriptor.h"
 #include "core/replace.h"
 #include "core/staging.h"
 #include "dcnn/core/claims.h"
 #include "dcnn/core/file_set.h"
 #include "dcnn/core/ranks.h"
+#include "dcnn/core/standard_input.h"
 
 namespace dcnn {
 namespace {
@@ -22,17 +25,15 @@ bool is_stream(const fs::path& file) {
   return ::stat(file.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
 }
 
-std::string read_standard_input(std::size_t max_bytes, Exit exit) {
+std::string all_of_standard_input(std::size_t max_bytes, Exit exit) {
   std::string bytes;
   char chunk[1 << 16];
-  for (;;) {
-    const auto got = completed([&] { return ::read(STDIN_FILENO, chunk, sizeof chunk); });
-    check_call(got >= 0, exit, "standard input", "cannot read");
-    if (got == 0) return bytes;
-    require(bytes.size() + static_cast<std::size_t>(got) <= max_bytes, exit,
-            "standard input: larger than ", max_bytes, " bytes");
-    bytes.append(chunk, static_cast<std::size_t>(got));
+  while (const std::size_t got = read_standard_input(bytes.size(), chunk, sizeof chunk, exit)) {
+    require(bytes.size() + got <= max_bytes, exit, "standard input: larger than ", max_bytes,
+            " bytes");
+    bytes.append(chunk, got);
   }
+  return bytes;
 }
 
 /// What has come to the name since it was claimed is kept, and so is what this command has made.
@@ -71,8 +72,19 @@ void replace_file(const fs::path& path, std::string_view bytes) {
 
 }  // namespace
 
+std::size_t read_standard_input(std::size_t offset, char* to, std::size_t size, Exit exit) {
+  static std::mutex one_at_a_time;
+  static std::string kept;
+  const std::lock_guard lock(one_at_a_time);
+  if (offset < kept.size()) return kept.copy(to, size, offset);
+  const auto got = completed([&] { return ::read(STDIN_FILENO, to, size); });
+  check_call(got >= 0, exit, "standard input", "cannot read");
+  kept.append(to, static_cast<std::size_t>(got));
+  return static_cast<std::size_t>(got);
+}
+
 std::string read_file(const fs::path& path, std::size_t max_bytes, Exit exit) {
-  if (path == "-") return read_standard_input(max_bytes, exit);
+  if (path == "-") return all_of_standard_input(max_bytes, exit);
   const fs::path from = put_aside_as(path).value_or(path);
   Descriptor fd(completed([&] { return ::open(from.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); }));
   check_call(fd.get() >= 0, exit, path, "cannot open");

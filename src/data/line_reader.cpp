@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "dcnn/core/error.h"
+#include "dcnn/core/standard_input.h"
 
 namespace dcnn {
 namespace {
@@ -21,8 +21,6 @@ LineReader::LineReader(const std::filesystem::path& path) : name_(path.string())
   buffer_.resize(kChunkBytes);
   if (path == "-") {
     name_ = "standard input";
-    fd_ = ::dup(STDIN_FILENO);
-    require(fd_ >= 0, Exit::kData, name_, ": cannot read: ", std::strerror(errno));
     return;
   }
   std::error_code error;
@@ -73,13 +71,20 @@ void LineReader::refill() {
   end_ -= begin_;
   begin_ = 0;
   if (buffer_.size() < end_ + kChunkBytes) buffer_.resize(end_ + kChunkBytes);
+  const std::size_t got = read(buffer_.data() + end_);
+  read_ += got;
+  end_ += got;
+  ended_ = got == 0;
+}
+
+std::size_t LineReader::read(char* to) const {
+  if (fd_ < 0) return read_standard_input(read_, to, kChunkBytes, Exit::kData);
   ssize_t got = 0;
   do {
-    got = ::read(fd_, buffer_.data() + end_, kChunkBytes);
+    got = ::read(fd_, to, kChunkBytes);
   } while (got < 0 && errno == EINTR);
   require(got >= 0, Exit::kData, name_, ": cannot read: ", std::strerror(errno));
-  end_ += static_cast<std::size_t>(got);
-  ended_ = got == 0;
+  return static_cast<std::size_t>(got);
 }
 
 }  // namespace dcnn

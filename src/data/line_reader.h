@@ -32,9 +32,11 @@ class LineReader {
  private:
   bool take(std::size_t length, std::string_view* line);
   void refill();
+  std::size_t read(char* to) const;
 
   std::string name_;
-  int fd_ = -1;
+  int fd_ = -1;           // none: standard input
+  std::size_t read_ = 0;  // bytes
   bool ended_ = false;
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0;  // of the unread bytes in buffer_
