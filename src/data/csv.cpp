@@ -49,7 +49,6 @@ void check_encoding(std::string_view line, const std::string& place) {
   const auto reject = [&](std::string_view bytes, const char* fault) {
     require(line.substr(0, bytes.size()) != bytes, Exit::kData, place, ": ", fault);
   };
-  reject("\xEF\xBB\xBF", "starts with a UTF-8 byte order mark; save as UTF-8 without BOM");
   reject("\xFF\xFE", "is UTF-16 text; save as UTF-8");
   reject("\xFE\xFF", "is UTF-16 text; save as UTF-8");
   reject("\x1F\x8B", "is gzip-compressed; unpack it first");
@@ -76,6 +75,8 @@ void check_separator(std::string_view line, const std::string& place) {
 }
 
 std::vector<std::string> parse_header(std::string_view line, const std::string& place) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // of UTF-8, as spreadsheets write
+  if (line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
   check_encoding(line, place);
   require(!trimmed(line).empty(), Exit::kData, place,
           ": the first line is blank; begin with a header row of column names");

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "data/clock.h"
+#include "data/known_columns.h"
 #include "data/limits.h"
+#include "data/near_names.h"
 #include "data/pose_checks.h"
 #include "dcnn/data/filter.h"
 #include "dcnn/data/table_reader.h"
@@ -109,25 +111,6 @@ void convert_units(Recording& recording, const ReadOptions& options) {
   }
 }
 
-/// The columns that this system gives a meaning to, but for time and pose, which have tests of
-/// their own.
-Names known_columns(const System& system) {
-  if (system.kind == System::Kind::kWrist) {
-    return {"fx",     "fy",     "fz",     "tx",  "ty",  "tz",  "fx_sim",     "fy_sim", "fz_sim",
-            "tx_sim", "ty_sim", "tz_sim", "vx",  "vy",  "vz",  "wx",         "wy",     "wz",
-            "ax",     "ay",     "az",     "dwx", "dwy", "dwz", "temperature"};
-  }
-  Names names;
-  for (const Axis& axis : system.axes) {
-    for (const auto& name :
-         {axis.measured, axis.position, axis.velocity, axis.acceleration, axis.simulated}) {
-      names.push_back(name);
-    }
-    names.insert(names.end(), axis.signals.begin(), axis.signals.end());
-  }
-  return names;
-}
-
 /// Squares and products of what is measured stay far from overflow.
 void check_magnitudes(const Recording& recording, const System& system, const std::string& file) {
   const double most = system.kind == System::Kind::kWrist ? kMostMeasured : kMostOfAxis;
@@ -159,6 +142,23 @@ Names smooth_columns(const System& system) {
 }
 
 }  // namespace
+
+Names known_columns(const System& system) {
+  if (system.kind == System::Kind::kWrist) {
+    return {"fx",     "fy",     "fz",     "tx",  "ty",  "tz",  "fx_sim",     "fy_sim", "fz_sim",
+            "tx_sim", "ty_sim", "tz_sim", "vx",  "vy",  "vz",  "wx",         "wy",     "wz",
+            "ax",     "ay",     "az",     "dwx", "dwy", "dwz", "temperature"};
+  }
+  Names names;
+  for (const Axis& axis : system.axes) {
+    for (const auto& name :
+         {axis.measured, axis.position, axis.velocity, axis.acceleration, axis.simulated}) {
+      names.push_back(name);
+    }
+    names.insert(names.end(), axis.signals.begin(), axis.signals.end());
+  }
+  return names;
+}
 
 bool Recording::has(const std::string& column) const { return find(table, column) >= 0; }
 
@@ -205,6 +205,7 @@ Recording make_recording(SourceTable source, const std::filesystem::path& path,
   recording.notes = std::move(source.notes);
   recording.zeroed = source.zeroed;
   const bool wrist = system.kind == System::Kind::kWrist;
+  refuse_near_names(recording.table.columns, system, file);
   require(recording.has("t") || options.static_list, Exit::kData, file,
           ":1: column 't' is missing; log the time in seconds: a list of poses at rest, which has "
           "none, is not enough here",

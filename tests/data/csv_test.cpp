@@ -56,7 +56,6 @@ std::vector<BadCase> bad_inputs() {
       {"TabRow", "t,fx\n1\t2\n", {":2:", "tab"}},
       {"TabCell", "t,fx\n1,\t2\n", {":2:", "tab"}},
       {"Spaces", "t fx\n1 2\n", {":1:", "spaces"}},
-      {"Bom", "\xEF\xBB\xBFt,fx\n1,2\n", {":1:", "byte order mark"}},
       {"Utf16LittleEndian", "\xFF\xFEt" + nul + ",", {":1:", "UTF-16"}},
       {"Utf16BigEndian", "\xFE\xFF" + nul + "t", {":1:", "UTF-16"}},
       {"Gzip", "\x1F\x8B\x08", {":1:", "gzip"}},
@@ -105,11 +104,9 @@ TEST(Csv, RejectsWhatIsNoRegularFile) {
 
 TEST(Csv, AcceptsTheHarmlessVariants) {
   const std::vector<std::string> same = {
-      "t,fx\n0,1.5\n1,-2e3\n",
-      "t,fx\r\n0,1.5\r\n1,-2e3\r\n",
-      "t,fx\n0,1.5\n1,-2e3",
-      "t,fx\n0,1.5\n1,-2e3\n\n \n",
-      " t , fx \n0, +1.5 \n 1,-2E+3\n",
+      "t,fx\n0,1.5\n1,-2e3\n",        "t,fx\r\n0,1.5\r\n1,-2e3\r\n",
+      "t,fx\n0,1.5\n1,-2e3",          "\xEF\xBB\xBFt,fx\n0,1.5\n1,-2e3\n",
+      "t,fx\n0,1.5\n1,-2e3\n\n \n",   " t , fx \n0, +1.5 \n 1,-2E+3\n",
       "t,fx\n0.0,15e-1\n+1,-2000.\n",
   };
   for (const std::string& text : same) {

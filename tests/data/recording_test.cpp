@@ -68,6 +68,29 @@ TEST(Recording, NamesTheMissingColumn) {
   expect_error("alpha,beta,gamma,fx,fy,fz\n1,1,1,1,1,1\n", {":1:", "'t'", "seconds"});
 }
 
+TEST(Recording, NamesAColumnThatIsKnownUnderAnotherSpelling) {
+  const std::string header = "t,x,y,z,alpha,beta,gamma,fx,fy,fz\n", text = log_text();
+  const std::string rows = text.substr(header.size());
+  const auto refused = [&](const std::string& columns, const std::string& found,
+                           const std::string& meant) {
+    expect_error(
+        columns + "\n" + rows,
+        {":1: column '" + found + "': did you mean " + meant + "? rename it", "dcnn-import"});
+  };
+  refused("time,x,y,z,alpha,beta,gamma,fx,fy,fz", "time", "t");
+  refused("Timestamp [s],x,y,z,alpha,beta,gamma,fx,fy,fz", "Timestamp [s]", "t");
+  refused("t,x,y,z,alpha,beta,gamma,Fx,Fy,Fz", "Fx", "fx");
+  refused("t,x,y,z,Alpha,beta,gamma,fx,fy,fz", "Alpha", "alpha");
+  refused("t,x,y,z,alpha,beta,gamma,f_x (N),fy,fz", "f_x (N)", "fx");
+  EXPECT_NO_THROW(read("time," + header + [&] {  // what is meant is there, too
+    std::string twice;
+    std::istringstream lines(rows);
+    for (std::string line; std::getline(lines, line);)
+      twice += line.substr(0, line.find(',')) + "," + line + "\n";
+    return twice;
+  }()));
+}
+
 TEST(Recording, RejectsTimeThatRepeatsOrGoesBack) {
   expect_error(log_text([](Index i, auto& row) {
                  if (i == 40) row[0] = 0.078;
