@@ -22,8 +22,9 @@ std::string refusal(const std::string& verb, std::vector<std::string> arguments,
   return result.err;
 }
 
-void expect_words(const std::string& text, std::initializer_list<const char*> words) {
-  for (const char* word : words) EXPECT_NE(text.find(word), text.npos) << word << " in: " << text;
+void expect_words(const std::string& text, std::initializer_list<std::string> words) {
+  for (const std::string& word : words)
+    EXPECT_NE(text.find(word), text.npos) << word << " in: " << text;
 }
 
 TEST(FileOfAnotherKind, IsCalledByItsName) {
@@ -81,6 +82,17 @@ TEST(FileOfAnotherKind, IsCalledByItsNameByEveryProgram) {
   expect_words(refusal("design", {"--report", out, "--limits", sim, "--out", out}),
                {"--limits needs the limits of a robot", "configs/limits/wrist.json"});
   EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST(FileOfAnotherKind, IsCalledByItsNameBeforeWhatIsMissing) {
+  const std::string sim = kSampleFolder + "sim.json", csv = kSampleFolder + "test.csv";
+  expect_words(refusal("sim", {"--config", sim}),
+               {"sim.json: is a simulator", "--config needs a scene to simulate"});
+  expect_words(refusal("eval", {sim}, 4), {"is a simulator", "dcnn-eval needs a trained model"});
+  expect_words(refusal("diagnose", {csv}), {"unexpected argument", "did you mean --fit " + csv});
+  expect_words(refusal("train", {"log.csv"}), {"did you mean --train log.csv?"});
+  expect_words(refusal("sim", {"--out", "o", csv}), {"did you mean --motion"});
+  expect_words(refusal("train", {"--train", csv, "--out"}), {"--out needs a value"});
 }
 
 TEST(FileThatIsNone, IsRefusedWithWhatIsWanted) {

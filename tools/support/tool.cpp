@@ -198,11 +198,25 @@ std::optional<int> Tool::answer(int argc, char** argv) const {
   return static_cast<int>(Exit::kDone);
 }
 
+/// The first option that takes files such as this one, whose kind is told by the name where there
+/// is none.
+std::string Tool::taker_of(const std::string& file) const {
+  FileKind kind = kind_of_file(file);
+  if (kind == FileKind::kUnknown && Path(file).extension() == ".csv") kind = FileKind::kRecording;
+  for (const OptionRow& row : rows_) {
+    const bool takes = std::find(row.kinds.begin(), row.kinds.end(), kind) != row.kinds.end();
+    if (takes && !row.is_argument()) return row.names.back();
+  }
+  return "";
+}
+
 /// What is wrong with the first argument that is no option of this command; empty where all are.
 std::string Tool::unknown_word() const {
   for (const std::string& word : app_->remaining()) {
     if (!word.starts_with("-") || word == "-") {
-      return "unexpected argument '" + word + "'";
+      const std::string taker = taker_of(word);
+      return "unexpected argument '" + word + "'" +
+             (taker.empty() ? "" : "; did you mean " + taker + " " + word + "?");
     }
     const std::string name = word.substr(0, word.find('='));
     const std::string near = nearest_word(name, table().names());
@@ -220,6 +234,12 @@ int Tool::parse(int argc, char** argv) {
   }
   if (const std::string unknown = unknown_word(); !unknown.empty()) fault = unknown;
   if (fault.empty()) return -1;
+  try {
+    // What is given comes before what is missing beside it: a file of another kind explains both.
+    if (unknown_word().empty()) check_inputs(expect_kind);
+  } catch (const Error& error) {
+    return fail_line(name_, error.what(), error.exit());
+  }
   return fail_line(name_, fault + "; see " + name_ + " --help", Exit::kUsage);
 }
 
