@@ -174,6 +174,17 @@ class Drawing {
         line({x - 3.5, high}, {x + 3.5, high}, dark) + line({x - 3.5, low}, {x + 3.5, low}, dark);
   }
 
+  /// "DCNN, 20 dB: 0.1324 ± 0.0021", what the pointer shows of one mark.
+  std::string title_of(std::size_t k, std::size_t i) const {
+    const Series& series = chart_.series[k];
+    const auto place = static_cast<std::size_t>(std::max(0.0, series.x[i]));
+    const std::string x =
+        place < chart_.categories.size() ? chart_.categories[place] : significant(series.x[i], 4);
+    return series.label + (series.label.empty() ? "" : ", ") + x + ": " +
+           significant(series.y[i], 4) +
+           (error(k, i) > 0 ? " ± " + significant(error(k, i), 2) : "");
+  }
+
   void draw_bars(std::size_t k, std::size_t bar) {
     const auto& series = chart_.series[k];
     const double group = slot_ * (chart_.categories.empty() ? 1.0 : 0.76);
@@ -182,8 +193,8 @@ class Drawing {
       const double left = series.x[i] - group / 2 + static_cast<double>(bar) * width;
       const Point a = at(left, series.y[i]);
       const Point b = at(left + width, y_.log ? y_.low : 0);
-      body_ +=
-          box({a.x, std::min(a.y, b.y)}, b.x - a.x, std::abs(b.y - a.y), filled(look(chart_, k)));
+      body_ += box({a.x, std::min(a.y, b.y)}, b.x - a.x, std::abs(b.y - a.y),
+                   filled(look(chart_, k)), title_of(k, i));
       draw_error(k, i, (a.x + b.x) / 2);
     }
   }
@@ -198,12 +209,12 @@ class Drawing {
         path += (path.empty() ? "" : " ") + number(p.x) + "," + number(p.y);
       }
       body_ += "<polyline points=\"" + path + "\" fill=\"none\" stroke-linejoin=\"round\" " +
-               dashed(look(chart_, k)) + "/>\n";
+               dashed(look(chart_, k)) + closed("polyline", series.label);
     }
     for (const auto i : points) {
       const Point p = at(series.x[i] + shift, series.y[i]);
       draw_error(k, i, p.x);
-      if (has_markers(series)) body_ += marker(p, look(chart_, k));
+      if (has_markers(series)) body_ += marker(p, look(chart_, k), title_of(k, i));
     }
   }
 

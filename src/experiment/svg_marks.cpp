@@ -57,9 +57,16 @@ std::string words(Point at, const std::string& text, const std::string& attribut
          escape_markup(text) + "</text>\n";
 }
 
-std::string box(Point corner, double width, double height, const std::string& attributes) {
+std::string closed(const char* element, const std::string& title) {
+  if (title.empty()) return "/>\n";
+  return "><title>" + escape_markup(title) + "</title></" + element + ">\n";
+}
+
+std::string box(Point corner, double width, double height, const std::string& attributes,
+                const std::string& title) {
   return "<rect x=\"" + number(corner.x) + "\" y=\"" + number(corner.y) + "\" width=\"" +
-         number(width) + "\" height=\"" + number(height) + "\" " + attributes + "/>\n";
+         number(width) + "\" height=\"" + number(height) + "\" " + attributes +
+         closed("rect", title);
 }
 
 std::string stroke(std::size_t k) {
@@ -78,12 +85,12 @@ std::string filled(std::size_t k) {
          kOpacities[k % kOpacities.size()] + "\" " + stroke(k);
 }
 
-std::string marker(Point at, std::size_t k) {
+std::string marker(Point at, std::size_t k, const std::string& title) {
   const bool hollow = k / kColours.size() % 2 == 1;
   return std::string("<path d=\"") + kMarkers[k % kMarkers.size()] + "\" transform=\"translate(" +
          number(at.x) + " " + number(at.y) + ")\" fill=\"" +
          (hollow ? "#fff" : kColours[k % kColours.size()]) + "\" " + stroke(k) +
-         (hollow ? " stroke-width=\"1.4\"" : "") + "/>\n";
+         (hollow ? " stroke-width=\"1.4\"" : "") + closed("path", title);
 }
 
 }  // namespace dcnn

@@ -21,8 +21,12 @@ std::string svg_document(double width, double height, const std::string& title,
 
 std::string line(Point a, Point b, const std::string& attributes);
 std::string words(Point at, const std::string& text, const std::string& attributes);
-std::string box(Point corner, double width, double height, const std::string& attributes);
-std::string marker(Point at, std::size_t k);
+/// With a `title`, which browsers show under the pointer.
+std::string box(Point corner, double width, double height, const std::string& attributes,
+                const std::string& title = "");
+std::string marker(Point at, std::size_t k, const std::string& title = "");
+/// The end of an element with such a title.
+std::string closed(const char* element, const std::string& title);
 
 std::string stroke(std::size_t k);  ///< attributes: colour
 std::string dashed(std::size_t k);  ///< attributes: colour and dashes of a line

@@ -14,6 +14,10 @@ constexpr const char* kUse = R"js(
   out.background = getComputedStyle(document.body).backgroundColor;
   out.cut = Array.from(document.querySelectorAll('.wide')).filter(box => box.scrollWidth > box.clientWidth + 1)
     .map(box => box.textContent.trim().slice(0, 60));
+  const pictures = Array.from(document.querySelectorAll('figure > svg'));
+  out.cut.push(...pictures.map(svg => svg.parentElement).filter(box => box.scrollWidth > box.clientWidth + 1)
+    .map(box => 'picture: ' + box.textContent.trim().slice(0, 60)));
+  out.titles = document.querySelectorAll('figure svg rect > title, figure svg path > title, figure svg polyline > title').length;
   const group = [...groups.values()][0];
   if (group) {
     out.plots = group.length;
@@ -75,9 +79,12 @@ inline void expect_worked(const Json& seen, int width) {
   ASSERT_TRUE(seen.contains("order")) << seen.dump();
   EXPECT_EQ(seen["width"].get<int>(), width);
   EXPECT_LE(seen["wide"].get<int>(), width) << "the page scrolls sideways";
-  EXPECT_TRUE(seen["cut"].empty()) << "tables wider than the page: " << seen["cut"].dump();
+  EXPECT_TRUE(seen["cut"].empty()) << "wider than the page: " << seen["cut"].dump();
   EXPECT_EQ(seen["order"].get<std::string>(), "ascending");
-  if (seen["plots"].get<int>() == 0) return;
+  if (seen["plots"].get<int>() == 0) {  // what the pointer shows is in the picture itself
+    EXPECT_GT(seen["titles"].get<int>(), 0);
+    return;
+  }
   EXPECT_NEAR(seen["zoom"].get<double>(), 0.3, 0.05);
   EXPECT_NEAR(seen["reset"].get<double>(), 1.0, 1e-9);
   EXPECT_TRUE(seen["together"].get<bool>());
