@@ -58,7 +58,7 @@ void print_claims(const Json& summary, const std::string& preset) {
 }
 
 Exit work(const ReproductionRequest& request, const Tool& tool) {
-  catch_interrupts();
+  catch_interrupts(tool.common().quiet);
   if (!request.prepare) {
     tool.note(std::to_string(reproduction_plan(request)["steps"].size()) + " cells on " +
               std::to_string(request.jobs) +

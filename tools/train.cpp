@@ -216,7 +216,7 @@ int main(int argc, char** argv) {
     const std::vector<std::string> check = checked(tool, doctor, request);
     require(rank_count() == 1 || flags.model != "auto", Exit::kUsage,
             "--model auto tries models of one process; name one, or run dcnn-train without mpirun");
-    catch_interrupts();
+    catch_interrupts(tool.common().quiet || !is_first_rank());
     Observer observer(tool);
     const TrainingOutcome outcome = flags.model == "auto"
                                         ? train_best(request, observer.callbacks())

@@ -106,6 +106,7 @@ class CellRunner {
   CellRunOutcome run() {
     choose_cells();
     if (!queue_.empty()) check_programs();
+    tell_progress();  // time is counted from here
     while (!queue_.empty() || !active_.empty()) {
       if (observer_.stop_wanted && observer_.stop_wanted()) {
         outcome_.finished = false;
@@ -193,6 +194,11 @@ class CellRunner {
                      ": " + cell.command_line());
     }
     ended_weight_ += weight_of(cell);
+    tell_progress();
+  }
+
+  void tell_progress() {
+    if (total_ == 0) return;
     observer_.progress(ended_weight_ / weight_,
                        std::to_string(outcome_.done) + " of " + std::to_string(total_) + " cells");
   }

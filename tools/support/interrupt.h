@@ -4,8 +4,8 @@
 namespace dcnn {
 
 /// From now on SIGINT, SIGTERM and SIGUSR1 set a flag; a second signal ends the process with 128 +
-/// signal.
-void catch_interrupts();
+/// signal. Unless `quiet` the first one is answered by "stopping…", since saving takes a while.
+void catch_interrupts(bool quiet = true);
 bool interrupted();
 /// Dies of the signal that was caught: for a work that has no state to save.
 [[noreturn]] void die_of_interrupt();

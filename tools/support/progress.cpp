@@ -13,6 +13,8 @@ namespace {
 constexpr double kRedrawSeconds = 0.1;
 constexpr double kPlainSeconds = 10.0;  // a log file is no place for a bar
 constexpr int kBarWidth = 24;
+// Before so much is done, or so much time has passed, a time left would be a guess.
+constexpr double kLeastShare = 0.02, kLeastSeconds = 10.0;
 
 bool plain_terminal() {
   const char* term = std::getenv("TERM");
@@ -47,7 +49,8 @@ void Progress::update(double done, const std::string& text) {
   const std::chrono::duration<double> since = now - drawn_at_, run = now - start_;
   if (since.count() < (terminal_ ? kRedrawSeconds : kPlainSeconds)) return;
   const double gained = done - first_done_;
-  const std::string eta = gained > 0.0 ? clock_text(run.count() * (1.0 - done) / gained) : "-:--";
+  const bool measured = gained > kLeastShare || (gained > 0.0 && run.count() > kLeastSeconds);
+  const std::string eta = measured ? clock_text(run.count() * (1.0 - done) / gained) : "-:--";
   char percent[8];
   std::snprintf(percent, sizeof percent, "%3.0f %%", 100.0 * done);
   if (terminal_) {

@@ -1,8 +1,11 @@
 #include "dcnn/experiment/reproduce.h"
 
+#include <chrono>
+
 #include "dcnn/cells/merge.h"
 #include "dcnn/core/file.h"
 #include "dcnn/core/file_set.h"
+#include "experiment/reproduction/pace.h"
 #include "experiment/reproduction/page.h"
 #include "experiment/reproduction/stages.h"
 #include "experiment/reproduction/tables.h"
@@ -135,15 +138,18 @@ double seconds_of(const ReproductionStage& stage) {
 /// False where it was stopped, or prepared.
 bool finish_stages(const std::vector<ReproductionStage>& stages, const ReproductionRequest& request,
                    const CellRunObserver& observer, ReproductionOutcome& outcome) {
-  double total = 0.0, before = 0.0;
-  for (const ReproductionStage& stage : stages) total += seconds_of(stage);
-  for (const ReproductionStage& stage : stages) {
+  std::vector<double> planned;
+  for (const ReproductionStage& stage : stages) planned.push_back(seconds_of(stage));
+  Pace pace(planned);
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    const ReproductionStage& stage = stages[k];
     CellRunObserver part = observer;
     part.progress = [&](double done, const std::string& text) {
-      observer.progress((before + done * seconds_of(stage)) / total, stage.name + ": " + text);
+      const std::chrono::duration<double> run = std::chrono::steady_clock::now() - start;
+      observer.progress(pace.share(k, done, run.count()), stage.name + ": " + text);
     };
     if (!finish_stage(stage, request, part, outcome)) return false;
-    before += seconds_of(stage);
     if (stage.name != "recordings") continue;
     for (const RecordingPart recording : {RecordingPart::kTraining, RecordingPart::kTest}) {
       require(std::filesystem::exists(request.out / recording_place(request, recording)),
