@@ -216,7 +216,7 @@ void add_references(const std::filesystem::path& model, const EvaluationRequest&
   const TestSet set = thinned(make_test_set(rigid, recordings.get(rigid.layout)), request.every);
   references.rigid = score(predict_every(*rigid.model, set.stream, request.every) + set.base,
                            set.wanted, rigid.targets);
-  references.rigid_file = (file.parent_path().filename() / file.filename()).string();
+  references.rigid_file = file.string();
 }
 
 void check_targets(const Evaluation& evaluation, const Identifier& identifier,
@@ -283,6 +283,7 @@ Evaluation evaluate(const EvaluationRequest& request,
     if (identifier.layout.dt > 0.0) evaluation.references.noise = white_noise(set.unfiltered);
     add_references(path, request, recordings, evaluation);
   }
+  note_missing_rigid(request.models, evaluation);
   add_warnings(evaluation);
   for (const auto& path : request.data) evaluation.data.push_back(path.filename().string());
   return evaluation;

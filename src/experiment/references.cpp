@@ -102,6 +102,23 @@ std::vector<std::string> warnings(const std::string& model, const std::vector<do
   return lines;
 }
 
+void note_missing_rigid(const std::vector<std::filesystem::path>& models, Evaluation& evaluation) {
+  const bool is_there =
+      std::any_of(evaluation.summary.begin(), evaluation.summary.end(),
+                  [](const EvaluationSummary& s) { return s.model == "rigid"; }) ||
+      std::any_of(models.begin(), models.end(), [](const std::filesystem::path& model) {
+        return std::filesystem::exists(run_directory(model));
+      });
+  if (evaluation.references.rigid || is_there) return;
+  const std::filesystem::path& model = models.front();
+  evaluation.notes.push_back(
+      model.string() + ": the rigid tool that dcnn-train fitted beside it, " +
+      rigid_file(model).string() + ", is missing, so it is not compared; copy " +
+      run_directory(model).filename().string() +
+      " beside the model, or train one by dcnn-train --model rigid and name "
+      "it here, too");
+}
+
 void add_warnings(Evaluation& evaluation) {
   EvaluationReferences& references = evaluation.references;
   References beside{evaluation.unidentified.rmse, {}, references.noise, references.rigid_file};

@@ -38,6 +38,9 @@ std::vector<std::string> warnings(const std::string& model, const std::vector<do
                                   const References& references, const Targets& targets);
 
 struct Evaluation;
+/// Says that no rigid tool is shown because the run directory is not beside the first model, and
+/// how to get it; nothing where the rigid tool itself is evaluated.
+void note_missing_rigid(const std::vector<std::filesystem::path>& models, Evaluation& evaluation);
 /// What an evaluation says first: the warnings() of models whose clean error is above a
 /// reference's.
 void add_warnings(Evaluation& evaluation);

@@ -59,6 +59,29 @@ TEST(References, StandBesideEveryModelOfTrainAndEval) {
   EXPECT_EQ(json["warnings"].size(), 1U);
 }
 
+TEST(References, AModelWithoutItsRunDirectorySaysWhatIsMissing) {
+  const test::TemporaryFolder folder;
+  const std::string model = folder / "home/cf.dcnn", away = folder / "away/cf.dcnn";
+  ASSERT_EQ(
+      test::run("train", {"-q", "--model", "cf", "--train", kTrain, "--out", model}).exit_code, 0);
+  const auto evaluated = [&](const std::string& file) {
+    return test::run("eval", {file, "--data", kTest, "--snr", "clean"});
+  };
+  const auto home = evaluated(model);
+  EXPECT_NE(home.out.find("which is " + (folder / "home/cf.run/rigid.dcnn").string()),
+            std::string::npos)
+      << home.out;
+  EXPECT_EQ(home.err.find("is missing"), std::string::npos) << home.err;
+  std::filesystem::create_directories(folder / "away");
+  std::filesystem::copy_file(model, away);
+  const auto copied = evaluated(away);
+  EXPECT_EQ(copied.exit_code, 0) << copied.err;
+  EXPECT_NE(copied.err.find("the rigid tool that dcnn-train fitted beside it, " +
+                            (folder / "away/cf.run/rigid.dcnn").string() + ", is missing"),
+            std::string::npos)
+      << copied.err;
+}
+
 TEST(References, AModelThatIsASimulatorSaysSoAndCountsNoParameters) {
   const test::TemporaryFolder folder;
   const std::string simulator = folder / "model.json";
