@@ -1,5 +1,7 @@
 #include "dcnn/experiment/check_report.h"
 
+#include <algorithm>
+
 #include "dcnn/core/file.h"
 #include "dcnn/core/file_set.h"
 #include "dcnn/experiment/report.h"
@@ -14,7 +16,9 @@ std::vector<std::string> fault_row(const check::Fault& fault) {
   const std::string where = fault.interval_s ? significant(fault.interval_s->first, 6) + " to " +
                                                    significant(fault.interval_s->second, 6)
                                              : "";
-  return {fault.id, significant(fault.probability, 4), fault.words, where, remedy};
+  std::string name = fault.id;  // in words, as --accept writes it but for the signs between
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return {name, significant(fault.probability, 4), fault.words, where, remedy};
 }
 
 void add_faults(const check::Report& report, HtmlReport& page) {

@@ -254,7 +254,11 @@ void add_settings(HtmlReport& page, const Evaluation& evaluation,
   page.table({"setting", "value"}, rows);
   for (const auto& note : evaluation.notes) page.paragraph(note);
   for (const auto& path : request.models) {
-    page.paragraph("Configuration of " + path.filename().string() + ":");
+    page.paragraph(
+        "Configuration of " + path.filename().string() +
+        ", as dcnn-train --config takes it (sigma_floor is the least deviation that an "
+        "input is divided by, as a share of the largest of its unit; drop_factor is what "
+        "the learning rate is multiplied by after every drop_period epochs):");
     page.preformatted(read_identifier(path).configuration.dump(2));
   }
 }

@@ -46,14 +46,32 @@ std::vector<Chart> figure_six(const TeleopResult& result, const TeleopConfig& co
   return rows;
 }
 
+/// What stands in the place of a variant's name in legends and tables.
+std::string name_of_variant(const std::string& name) {
+  static const std::map<std::string, std::string> kNames{
+      {"ideal", "tool known"}, {"none", "no feedback"}, {"ns", "raw force"}};
+  const auto known = kNames.find(name);
+  return known == kNames.end() ? name : known->second;
+}
+
+std::string words_of_variant(const std::string& name) {
+  static const std::map<std::string, std::string> kWords{
+      {"ideal", "where the tool's own force is known exactly"},
+      {"none", "without force feedback"},
+      {"ns", "with the sensor's raw force"}};
+  const auto known = kWords.find(name);
+  return known == kWords.end() ? "with " + name : known->second;
+}
+
 /// The contact of all variants side by side: where the slave went, and what the hand felt.
 std::vector<Chart> comparison(const std::vector<TeleopResult>& results) {
   Chart z = time_chart("Slave, z", "z [mm]");
   Chart felt = time_chart("Force on the hand, z", "force [N]");
   for (const TeleopResult& result : results) {
     const auto t = list_of(result.trace.t);
-    z.series.push_back({result.name, t, list_of(1e3 * result.trace.slave.col(2)), {}});
-    felt.series.push_back({result.name, t, list_of(result.trace.felt.col(2)), {}});
+    z.series.push_back(
+        {name_of_variant(result.name), t, list_of(1e3 * result.trace.slave.col(2)), {}});
+    felt.series.push_back({name_of_variant(result.name), t, list_of(result.trace.felt.col(2)), {}});
   }
   return {z, felt};
 }
@@ -68,9 +86,9 @@ void add_table(const std::vector<TeleopResult>& results, HtmlReport& page) {
     const Json& j = r.row;
     const Json& contact = j["contact_interval_s"];
     const std::string interval =
-        contact.is_null() ? "none" : fixed(contact[0], 1) + "-" + fixed(contact[1], 1);
+        contact.is_null() ? "no contact" : fixed(contact[0], 1) + "-" + fixed(contact[1], 1);
     rows.push_back(
-        {r.name, interval, cell(j["force_max_n"], 1),
+        {name_of_variant(r.name), interval, cell(j["force_max_n"], 1),
          cell(j["free_error_rms_m"], 1e3) + " / " + cell(j["free_error_max_m"], 1e3),
          cell(j["contact_error_rms_m"], 1e3) + " / " + cell(j["contact_error_max_m"], 1e3),
          cell(j["handle_force_free_rms_n"], 1), cell(j["master_drift_m"], 1e3),
@@ -103,15 +121,6 @@ Table signals(const TeleopTrace& trace) {
   return table;
 }
 
-std::string words_of_variant(const std::string& name) {
-  static const std::map<std::string, std::string> kWords{
-      {"ideal", "where the tool's own force is known exactly"},
-      {"none", "without force feedback"},
-      {"ns", "with the sensor's raw force"}};
-  const auto known = kWords.find(name);
-  return known == kWords.end() ? "with " + name : known->second;
-}
-
 /// What the compensation does to the force that the hand feels in free motion, in one sentence.
 std::string teleop_answer(const std::vector<TeleopResult>& results) {
   std::string text;
@@ -142,8 +151,10 @@ void write_teleop(const std::filesystem::path& folder, const TeleopConfig& confi
   HtmlReport page("Bilateral teleoperation");
   page.paragraph(teleop_answer(results));
   const auto compared = comparison(results);
-  page.chart(compared[1],
-             "'ideal' knows the tool exactly, 'none' sends no force back, 'ns' the raw force.");
+  page.chart(
+      compared[1],
+      "'tool known' subtracts the tool's own force exactly, 'no feedback' sends no force back, "
+      "'raw force' sends what the sensor reads.");
   add_table(results, page);
   page.paragraph("A simulated demonstration (seed " + std::to_string(seed) +
                  "); every mass, stiffness and delay is a free assumption and stands in the "

@@ -189,7 +189,8 @@ std::string reproduction_page(const ReproductionRequest& request, const Reproduc
     page.chart(
         wide(overall.back(), "Error over noise on the input"),
         "RMSE of the paper's identifiers over the noise on their inputs, all trained with noise "
-        "(Fig. 5). Logarithmic axis.");
+        "(Fig. 5). Logarithmic axis. NS is no identification, which predicts zero; CF is curve "
+        "fitting, the force as a function of the orientation.");
   }
   std::erase_if(first.models, [&](const ModelScores& model) {
     return std::none_of(shown.begin(), shown.end(),
