@@ -34,24 +34,33 @@ Shard parse_shard(const std::string& text) {
   return shard;
 }
 
-void print_projection(const std::filesystem::path& folder, const std::string& text) {
+/// Prints the time that `text`, "cells/workers", takes, or gives it for --json.
+Json project(const std::filesystem::path& folder, const std::string& text, bool print) {
   long cells = 0, workers = 0;
   char rest = 0;
   require(std::sscanf(text.c_str(), "%ld/%ld%c", &cells, &workers, &rest) == 2 && cells >= 1 &&
               workers >= 1 && cells <= 10'000'000 && workers <= cells,
           Exit::kUsage, "--project: ", text, " is not cells/workers, such as 1721/100");
+  Json json = Json::object();
   for (const CellTime time : {CellTime::kWall, CellTime::kProcessor}) {
     const CellProjection p = project_cells(folder, cells, workers, time);
+    json[time == CellTime::kWall ? "wall_time" : "processor_time"] = {{"measured", p.measured},
+                                                                      {"mean_s", p.mean_s},
+                                                                      {"longest_s", p.longest_s},
+                                                                      {"median_s", p.median_s},
+                                                                      {"late_s", p.late_s}};
+    if (!print) continue;
     std::cout << (time == CellTime::kWall ? "wall time" : "processor time") << ": " << p.measured
               << " cells took " << std::lround(p.mean_s * 10.0) / 10.0
               << " s on average, the longest " << std::lround(p.longest_s * 10.0) / 10.0 << " s; "
               << cells << " such cells on " << workers << " workers " << clock_text(p.median_s)
               << ", 95 of 100 times less than " << clock_text(p.late_s) << "\n";
   }
+  return json;
 }
 
 Exit run(const CellRun& request, bool failures_allowed, const Tool& tool) {
-  catch_interrupts();
+  catch_interrupts(tool.common().quiet);
   Progress bar(tool.common().quiet);
   CellRunObserver observer;
   observer.stop_wanted = [] { return interrupted(); };
@@ -121,7 +130,7 @@ int main(int argc, char** argv) {
   MergeRequest merging;
   EngineRequest engine;
   CellRun work;
-  std::string shard, emit, project;
+  std::string shard, emit, projected;
   bool status = false;
   tool.option("description", description,
               "settings, seeds, recordings, models and the commands (JSON)");
@@ -131,7 +140,7 @@ int main(int argc, char** argv) {
   tool.option("--limit", work.limit, "run this many cells and no more").positive();
   tool.flag("--again", work.again, "run cells that failed again");
   tool.flag("--status", status, "what is done, running, failed, and the time left");
-  tool.option("--project", project, "the time that N such cells take on W workers").called("N/W");
+  tool.option("--project", projected, "the time that N such cells take on W workers").called("N/W");
   tool.output("--merge", merging.table,
               "the table of all results, one line of JSON each, in the order of keys")
       .replaces(is_merged_table);
@@ -158,12 +167,14 @@ int main(int argc, char** argv) {
   return tool.run(argc, argv, [&] {
     const bool runs = jobs.given() || share.given();
     require(
-        runs || status || !project.empty() || !description.empty() || !emit.empty() ||
+        runs || status || !projected.empty() || !description.empty() || !emit.empty() ||
             !merging.table.empty() || !merging.files.empty(),
         Exit::kUsage,
         "give a description, --jobs, --shard, --status, --project, --emit, --merge or --unpack");
     require(!work.scratch.empty(), Exit::kUsage,
             "TMPDIR names no folder; --scratch DIR says where cells run");
+    require(emit.empty() || !tool.common().json, Exit::kUsage,
+            "--json and --emit both go to standard output; give one of them");
     engine.program = fs::canonical("/proc/self/exe");
     work.programs = engine.program.parent_path();
     work.folder = engine.folder = merging.folder = folder;
@@ -184,11 +195,14 @@ int main(int argc, char** argv) {
     if (!emit.empty())
       std::cout << (emit == "slurm" ? slurm_script(engine) : parallel_script(engine));
     if (!merging.table.empty() || !merging.files.empty()) exit = merge(merging);
-    if (!project.empty()) print_projection(folder, project);
-    if (status) {
-      const Json json = cells_status(folder);
-      tool.common().json ? Tool::print(json) : print_status(json);
+    const bool json = tool.common().json;
+    Json said = status || json ? cells_status(folder) : Json();
+    if (status && !json) print_status(said);
+    if (!projected.empty()) {
+      const Json projection = project(folder, projected, !json);
+      if (json) said["projection"] = projection;
     }
+    if (json) Tool::print(said);
     return exit;
   });
 }

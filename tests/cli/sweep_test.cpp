@@ -43,6 +43,21 @@ class Sweep : public testing::Test {
   std::string wanted_;
 };
 
+TEST_F(Sweep, AsksForOneDocument) {
+  const auto document = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--plan", at("told"), "--json", "-q"});
+    const auto result = run("sweep", arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return parse_json(result.out, "sweep", Exit::kFailure);
+  };
+  EXPECT_EQ(document({at("s.json")})["cells"], kCells);
+  EXPECT_EQ(document({"--jobs", "4"})["done"], kCells);
+  EXPECT_EQ(document({"--merge", at("told.jsonl")})["left"], 0);
+  const Json projection = document({"--project", "100/10"})["projection"];
+  EXPECT_EQ(projection["wall_time"]["measured"], kCells);
+  EXPECT_EQ(run("sweep", {"--plan", at("told"), "--emit", "slurm", "--json"}).exit_code, 2);
+}
+
 TEST_F(Sweep, KilledAtRandomGivesTheBytesOfAPlainRun) {
   plan("killed");
   std::mt19937 random(1);                      // the kills, not the results, depend on it
