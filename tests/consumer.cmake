@@ -10,8 +10,9 @@ run(${CMAKE_COMMAND} -S ${SOURCE_DIR}/tests/consumer -B ${work}/build -G ${GENER
 run(${CMAKE_COMMAND} --build ${work}/build)
 run(${work}/build/consumer)
 
-# The example of docs/use/run.md, too.
+# The examples of docs/use/run.md and docs/use/export.md, too.
 run(${CMAKE_COMMAND} -S ${SOURCE_DIR}/examples -B ${work}/examples -G ${GENERATOR}
   -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_PREFIX_PATH=${work}/prefix)
 run(${CMAKE_COMMAND} --build ${work}/examples)
 run(${work}/examples/robot_loop)
+run(${work}/examples/robot_loop_in_process ${SOURCE_DIR}/data/sample/sim.json)
