@@ -118,6 +118,7 @@ TEST_F(Reproduce, GoesOnAfterAnInterruptToTheSameNumbers) {
   process.signal(SIGINT);
   const Result stopped = process.wait();
   ASSERT_EQ(stopped.exit_code, 75) << stopped.err;
+  EXPECT_NE(stopped.err.find("\nstopping…\n"), std::string::npos) << stopped.err;
   EXPECT_FALSE(fs::exists(at("cut/report.html")));
   ASSERT_EQ(run("reproduce", cut).exit_code, 0);
   EXPECT_EQ(slurp(at("whole/models/A/dcnn/dcnn.dcnn")), slurp(at("cut/models/A/dcnn/dcnn.dcnn")));
