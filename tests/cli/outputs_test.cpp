@@ -144,6 +144,25 @@ TEST_F(Outputs, OfAPredictionAreReplacedByANewerOneLinksFollowedStreamsWritten) 
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
+TEST_F(Outputs, OfACommandThatReadsStandardInputSeveralTimes) {
+  const auto piped = [](const char* verb, const Arguments& arguments, const std::string& input) {
+    const auto result = test::Process(verb, arguments, {.input = input}).wait();
+    EXPECT_EQ(result.exit_code, 0) << verb << ": " << result.err;
+    return result;
+  };
+  const std::string rows = piped("predict", {"-", "--data", kLog, "--out", "-"}, kShippedTool).out;
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 4001);
+  piped("diagnose", {"-q", "--sim", "-", "--fit", kLog, "--out", at("by_description")},
+        kShippedTool);
+  piped("diagnose", {"-q", "--sim", kShippedTool, "--fit", "-", "--out", at("by_log")}, kLog);
+  piped("train", {"-q", "--model", "cf", "--base", "-", "--train", kLog, "--out", at("m.dcnn")},
+        kShippedTool);
+  const auto identified = piped("identify", {"-", "--out", "-"}, kLog);
+  EXPECT_NE(identified.err.find("Next: dcnn-diagnose --sim FOUND.json --fit LOG.csv"),
+            std::string::npos)
+      << identified.err;
+}
+
 TEST_F(Outputs, OnStandardOutputStandAlone) {
   const std::string log = DCNN_SOURCE_DIR "/data/sample/test.csv";
   for (const char* out : {"-", "/dev/stdout", "/dev/fd/1"}) {
