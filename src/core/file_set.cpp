@@ -64,8 +64,7 @@ class FileSet::State {
     for (const FileStep& step : steps_) {
       if (step.outside && !unfinished_) ::unlink(step.staged.c_str());
     }
-    std::error_code error;
-    if (!unfinished_ && !staging_.path.empty()) fs::remove_all(staging_.path, error);
+    if (!unfinished_ && !staging_.path.empty()) staging_.remove();
     if (lock_ >= 0) ::close(lock_);
   }
 

@@ -138,6 +138,12 @@ FileStep Staging::step(FileStep::Kind kind, const fs::path& to, int number) cons
   return {kind, to, path / name, path / (name + ".old"), number, false};
 }
 
+void Staging::remove() const {
+  std::error_code error;
+  fs::remove_all(path, error);
+  if (error) fs::remove_all(path, error);
+}
+
 void carry_out(const std::vector<FileStep>& steps, const Staging& staging) {
   try {
     for (const FileStep& step : steps) go(step);
@@ -176,8 +182,7 @@ void recover(const Staging& staging) {
       carry_out(journal->steps, staging);
     }
   }
-  std::error_code error;
-  fs::remove_all(staging.path, error);
+  staging.remove();
 }
 
 }  // namespace dcnn

@@ -26,6 +26,8 @@ struct Staging {
 
   FileStep step(FileStep::Kind kind, const std::filesystem::path& to, int number) const;
   std::filesystem::path journal() const { return path / "journal"; }
+  /// Again where it fails at first; what stays after all is harmless and goes with the next set.
+  void remove() const;
 };
 
 /// All steps, those outside first; where one fails all the way back, and Error(kFailure). Nothing
