@@ -1,6 +1,6 @@
-// A control loop with the model in the robot's own process (docs/use/run.md), beside robot_loop.cpp,
-// which asks dcnn-run: the loop that keeps real time calls step(), which allocates, locks and
-// throws nothing. Put your robot's calls in place of read() and use().
+// A control loop with the model in the robot's own process (docs/use/run.md), beside
+// robot_loop.cpp, which asks dcnn-run: the loop that keeps real time calls step(), which allocates,
+// locks and throws nothing. Put your robot's calls in place of read() and use().
 //   robot_loop_in_process MODEL [FALLBACK [SECONDS]]
 #include <dcnn/runtime/open.h>
 
@@ -11,8 +11,8 @@
 
 namespace {
 
-/// Pose and force at time t [s] of a robot that swings a tool of 0.5 kg; 5 N from outside along base z
-/// after 1 s.
+/// Pose and force at time t [s] of a robot that swings a tool of 0.5 kg; 5 N from outside along
+/// base z after 1 s.
 dcnn::OnlineSample read(double t) {
   dcnn::OnlineSample sample;
   sample.t = t;
