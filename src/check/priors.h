@@ -6,12 +6,16 @@ namespace dcnn::check {
 
 /// Probability of each kind of fault in somebody's log, shared by its variants.
 constexpr double kFaultPrior = 0.004;
+/// Probability that a sensor was zeroed in some pose before the recording.
+constexpr double kZeroedBefore = 0.01;
 /// Independent residuals at most: what physics beyond the rigid tool leaves is alike for seconds.
 constexpr double kMostIndependent = 40.0;
 /// Share of the force's deviation that a rigid tool may be wrong by.
 constexpr double kToolError = 0.01;
 /// Probability that forces show no inertia: of a simulator without it, or filtered.
 constexpr double kQuasiStatic = 0.1;
+/// Share of a quantity's power that a model leaves at most, where its readings are told apart.
+constexpr double kMostForeign = 0.5;
 /// No plausibility of one quantity counts more than this [nats].
 constexpr double kMostSurprise = 30.0;
 
@@ -29,19 +33,31 @@ constexpr double kPayloadShare = 0.1;
 struct Typical {
   double median, below, above;
 };
-constexpr Typical kRate{250.0, 1.1, 1.1};       ///< sampling rate [Hz]
-constexpr Typical kSlowRate{0.5, 1.2, 1.2};     ///< of readings taken one by one [Hz]
-constexpr double kSlowShare = 0.05;             ///< of such logs
-constexpr Typical kLogDuration{60.0, 1.6, 1.6};    ///< of a recording [s]
-constexpr Typical kTurnSpeed{0.4, 3.0, 1.4};    ///< rms angular speed [rad/s]; slow is no surprise
-constexpr Typical kSpeed{0.15, 3.0, 1.4};       ///< rms speed of the sensor [m/s]
-constexpr Typical kReach{0.15, 3.0, 1.0};       ///< rms distance from the mean position [m]
-constexpr Typical kDistance{0.8, 2.0, 0.8};     ///< mean distance from the robot's base [m]
-constexpr Typical kTurn{0.6, 3.0, 0.9};         ///< rms deviation of an angle [rad]
-constexpr Typical kMass{1.0, 1.3, 1.3};         ///< of a tool nobody described [kg]
-constexpr double kNominalMassSpread = 0.35;     ///< of the logarithm of mass over sim.json's
-constexpr Typical kLever{0.08, 1.0, 1.0};       ///< torque over force, gravity on a tool [m]
-constexpr Typical kOrderedRows{0.7, 1.0, 1.0};  ///< von Neumann's ratio of poses somebody chose
-constexpr double kCountsRange = 50.0;           ///< whole units that a physical channel ranges over
+constexpr Typical kRate{250.0, 1.1, 1.1};        ///< sampling rate [Hz]
+constexpr Typical kSlowRate{0.5, 1.2, 1.2};      ///< of readings taken one by one [Hz]
+constexpr double kSlowShare = 0.05;              ///< of such logs
+constexpr Typical kLogDuration{60.0, 1.6, 1.6};  ///< of a recording [s]
+constexpr Typical kTurnSpeed{0.4, 3.0, 1.4};     ///< rms angular speed [rad/s]; slow is no surprise
+constexpr Typical kSpeed{0.15, 3.0, 1.4};        ///< rms speed of the sensor [m/s]
+constexpr Typical kReach{0.15, 3.0, 1.0};        ///< rms distance from the mean position [m]
+constexpr Typical kDistance{0.8, 2.0, 0.8};      ///< mean distance from the robot's base [m]
+constexpr Typical kTurn{0.6, 3.0, 0.9};          ///< rms deviation of an angle [rad]
+constexpr Typical kDriveTurn{30.0, 3.0, 2.0};    ///< the same of a motor or a wheel [rad]
+constexpr double kDrives = 0.3;          ///< of logs of joints: they turn as often as they like
+constexpr double kSlowTorque = 0.1;      ///< of joints: another dependence on the angle than weight
+constexpr Typical kMass{1.0, 1.3, 1.3};  ///< of a tool nobody described [kg]
+constexpr double kNominalMassSpread = 0.35;  ///< of the logarithm of mass over sim.json's
+constexpr Typical kSubtracted{1.0, 0.5,
+                              0.5};  ///< mass that a controller subtracts, over the tool's
+constexpr double kPartly = 0.2;  ///< of logs with a subtracted weight: another mass than the tool's
+constexpr Typical kOffset{3.0, 1.3, 1.3};    ///< of a sensor [N]
+constexpr Typical kLever{0.08, 1.0, 1.0};    ///< torque over force, gravity on a tool [m]
+constexpr double kNominalLeverSpread = 0.5;  ///< of the logarithm of c over sim.json's
+/// Von Neumann's ratio of a channel: of a motion; of poses in an order that somebody chose, where
+/// that channel goes from one end to the other, and where it does not.
+constexpr Typical kMovingRows{0.03, 2.0, 2.0}, kOrderedSlow{0.05, 1.5, 1.5},
+    kOrderedRows{1.5, 0.5, 0.5};
+constexpr double kSlowChannels = 0.2;
+constexpr double kCountsRange = 50.0;  ///< whole units that a physical channel ranges over
 
 }  // namespace dcnn::check

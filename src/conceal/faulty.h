@@ -7,17 +7,22 @@
 namespace dcnn::conceal {
 
 /// Clean logs: a wrist with Euler angles, on a motion whose accelerations count, with a quaternion,
-/// with logged rates; that hardly turns; poses at rest; three joints; an arm with its description,
-/// one of six joints, one that hangs from a ceiling or a wall though it is described upright, one
-/// whose torques hold no weight.
+/// with logged rates, with torques, zeroed in another
+/// pose before; that hardly turns; poses at rest; three joints, three
+/// motors behind gears; an arm with its
+/// description, one of six joints, one that hangs from a ceiling or a wall though it is described
+/// upright, one whose torques hold no weight.
 enum class CleanLog {
   kEuler,
   kBrisk,
   kQuaternion,
   kRates,
+  kTorque,
+  kZeroedBefore,
   kStill,
   kStatic,
   kJoints,
+  kMotors,
   kArm,
   kSixJoints,
   kHanging,

@@ -11,7 +11,8 @@ namespace dcnn::conceal {
 namespace {
 
 using Eigen::Index;
-constexpr int kStride = 16;  // 250 Hz
+constexpr int kStride = 16;            // 250 Hz
+constexpr double kTorqueNoise = 0.03;  // m, noise of torques over that of forces
 
 Tool draw_any_tool(Rng& rng) {
   Tool tool;
@@ -24,7 +25,12 @@ Tool draw_any_tool(Rng& rng) {
 /// Every second log has some friction that no rigid tool has.
 std::vector<Hidden> draw_friction(Rng& rng) {
   if (rng.uniform() < 0.5) return {};
-  Hidden friction{"coulomb_friction", one_of<std::string>(rng, {"base_x", "base_y", "tool_z"}), {}, {}, false, 0.0};
+  Hidden friction{"coulomb_friction",
+                  one_of<std::string>(rng, {"base_x", "base_y", "tool_z"}),
+                  {},
+                  {},
+                  false,
+                  0.0};
   friction.parameters = {{"fc_n", rng.uniform(0.05, 0.4)}, {"v0_mps", 0.01}};
   return {friction};
 }
@@ -33,7 +39,8 @@ Path draw_any_path(CleanLog kind, Rng& rng) {
   auto motion = one_of<std::string>(rng, {"human", "multisine", "points", "scan", "repeats"});
   if (kind == CleanLog::kBrisk) motion = one_of<std::string>(rng, {"human", "points", "repeats"});
   const double seconds = kind == CleanLog::kStatic ? 60.0 : rng.uniform(12.0, 18.0);
-  const Path path = make_path(kind == CleanLog::kStatic ? "points" : motion, 0.0, seconds, {0.0, 0.0, 0.0}, {}, rng.bits());
+  const Path path = make_path(kind == CleanLog::kStatic ? "points" : motion, 0.0, seconds,
+                              {0.0, 0.0, 0.0}, {}, rng.bits());
   if (kind != CleanLog::kStill) return path;
   Eigen::MatrixXd pose = path.pose;
   std::vector<Eigen::Matrix3d> rotation;
@@ -63,6 +70,15 @@ void add_rates(const Path& path, Index rows, Rng& rng, Table& table) {
   for (const char* name : {"vx", "vy", "vz", "wx", "wy", "wz"}) append(table, name, rates.col(j++));
 }
 
+void add_torques(const Eigen::MatrixXd& torque, double noise, Rng& rng, Table& table) {
+  Index j = 0;
+  for (const char* name : {"tx", "ty", "tz"}) {
+    append(table, name, torque.col(j++).unaryExpr([&](double x) {
+      return rounded(x + noise * rng.normal(), 1e7);
+    }));
+  }
+}
+
 void use_quaternion(Table& table) {
   Recording recording{"", table, 0.0, 0.0, {{0, table.values.rows()}}, false, {}};
   const Eigen::MatrixXd q = quaternions(recording);
@@ -80,11 +96,24 @@ void keep_poses(Rng& rng, Table& table) {
 }
 
 FaultyLog make_wrist(CleanLog kind, Rng& rng) {
-  const Tool tool = draw_any_tool(rng);
+  Tool tool = draw_any_tool(rng);
+  const bool torques = kind == CleanLog::kTorque;
+  if (torques) draw_body(tool, rng);
+  if (kind == CleanLog::kZeroedBefore) {
+    const Eigen::Vector3d down(rng.normal(), rng.normal(), rng.normal());
+    tool.bias = -9.81 * tool.mass * down.normalized();
+  }
   Path path = draw_any_path(kind, rng);
-  if (kind == CleanLog::kStatic) path.acceleration.setZero(), path.rate.setZero(), path.rate_derivative.setZero();
-  const Eigen::MatrixXd F = reading(path, tool, kind == CleanLog::kStatic ? std::vector<Hidden>{} : draw_friction(rng), {}, kStride);
-  const double noise = rng.uniform(0.02, 0.06), metres = logarithmic(rng, 5e-6, 5e-5), angles = logarithmic(rng, 5e-6, 1e-4);
+  if (kind == CleanLog::kStatic)
+    path.acceleration.setZero(), path.rate.setZero(), path.rate_derivative.setZero();
+  std::vector<Hidden> hidden =
+      kind == CleanLog::kStatic ? std::vector<Hidden>{} : draw_friction(rng);
+  for (Hidden& h : hidden) {
+    if (torques) draw_torques(h, rng);
+  }
+  const Eigen::MatrixXd F = reading(path, tool, hidden, {}, kStride);
+  const double noise = rng.uniform(0.02, 0.06), metres = logarithmic(rng, 5e-6, 5e-5),
+               angles = logarithmic(rng, 5e-6, 1e-4);
   FaultyLog out{{{"t", "x", "y", "z", "alpha", "beta", "gamma", "fx", "fy", "fz"},
                  Eigen::MatrixXd(F.rows(), 10)},
                 simulator_of(tool, rng),
@@ -93,26 +122,32 @@ FaultyLog make_wrist(CleanLog kind, Rng& rng) {
   for (Index i = 0; i < F.rows(); ++i) {
     out.table.values(i, 0) = rounded(path.time(i * kStride), 1e6);
     for (Index j = 0; j < 6; ++j) {
-      out.table.values(i, 1 + j) = rounded(path.pose(i * kStride, j) + (j < 3 ? metres : angles) * rng.normal(), 1e8);
+      out.table.values(i, 1 + j) =
+          rounded(path.pose(i * kStride, j) + (j < 3 ? metres : angles) * rng.normal(), 1e8);
     }
-    for (Index j = 0; j < 3; ++j) out.table.values(i, 7 + j) = rounded(F(i, j) + noise * rng.normal(), 1e6);
+    for (Index j = 0; j < 3; ++j)
+      out.table.values(i, 7 + j) = rounded(F(i, j) + noise * rng.normal(), 1e6);
   }
+  if (torques) add_torques(F.rightCols<3>(), kTorqueNoise * noise, rng, out.table);
   if (kind == CleanLog::kRates) add_rates(path, F.rows(), rng, out.table);
   if (kind == CleanLog::kQuaternion) use_quaternion(out.table);
   if (kind == CleanLog::kStatic) keep_poses(rng, out.table);
   return out;
 }
 
-/// Three joints, each with inertia, gravity and friction of its own, and a little of the others'.
-FaultyLog make_joints(Rng& rng) {
+/// Three joints, each with inertia, gravity and friction of its own, and a little of the others';
+/// or three motors behind gears, which carry no weight and are logged in radians of their shafts.
+FaultyLog make_joints(Rng& rng, bool motors) {
   const auto rows = static_cast<Index>(250.0 * rng.uniform(12.0, 18.0));
-  const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(rows, 0.0, static_cast<double>(rows - 1) / 250.0);
+  const Eigen::VectorXd t =
+      Eigen::VectorXd::LinSpaced(rows, 0.0, static_cast<double>(rows - 1) / 250.0);
   FaultyLog out{{{"t"}, t}, nullptr, nullptr, ""};
   Eigen::MatrixXd q(rows, 3), v(rows, 3), a(rows, 3), tau(rows, 3);
   q.setZero(), v.setZero(), a.setZero();
   for (Index j = 0; j < 3; ++j) {
     for (int k = 0; k < 4; ++k) {
-      const double w = 2.0 * std::numbers::pi * logarithmic(rng, 0.1, 1.0), p = rng.uniform(0.0, 6.28), size = 1.2 / (1.0 + w);
+      const double w = 2.0 * std::numbers::pi * logarithmic(rng, 0.1, 1.0),
+                   p = rng.uniform(0.0, 6.28), size = 1.2 / (1.0 + w);
       for (Index i = 0; i < rows; ++i) {
         const double s = elementary::sin(w * t[i] + p), c = elementary::cos(w * t[i] + p);
         q(i, j) += size * s, v(i, j) += size * w * c, a(i, j) -= size * w * w * s;
@@ -120,17 +155,27 @@ FaultyLog make_joints(Rng& rng) {
     }
   }
   for (Index j = 0; j < 3; ++j) {
-    const double inertia = logarithmic(rng, 0.2, 2.0), weight = rng.uniform(-20.0, 20.0), dry = rng.uniform(1.0, 6.0), viscous = rng.uniform(0.5, 5.0);
+    const double inertia = logarithmic(rng, 0.2, 2.0),
+                 weight = motors ? 0.0 : rng.uniform(-20.0, 20.0), dry = rng.uniform(1.0, 6.0),
+                 viscous = rng.uniform(0.5, 5.0);
     for (Index i = 0; i < rows; ++i) {
-      tau(i, j) = inertia * (a(i, j) + 0.2 * a(i, (j + 1) % 3)) + weight * elementary::sin(q(i, j)) +
-                  dry * elementary::tanh(v(i, j) / 0.02) + viscous * v(i, j) + 0.2 * rng.normal();
+      tau(i, j) = inertia * (a(i, j) + 0.2 * a(i, (j + 1) % 3)) +
+                  weight * elementary::sin(q(i, j)) + dry * elementary::tanh(v(i, j) / 0.02) +
+                  viscous * v(i, j) + 0.2 * rng.normal();
     }
   }
   for (Index j = 0; j < 3; ++j) {
     const std::string number = std::to_string(j + 1);
-    append(out.table, "q_" + number, q.col(j).unaryExpr([&](double x) { return rounded(x + 2e-5 * rng.normal(), 1e7); }));
-    append(out.table, "qd_" + number, v.col(j).unaryExpr([&](double x) { return rounded(x + 2e-3 * rng.normal(), 1e7); }));
-    append(out.table, "tau_" + number, tau.col(j).unaryExpr([&](double x) { return rounded(x, 1e6); }));
+    if (motors) {
+      const double gear = logarithmic(rng, 20.0, 150.0);
+      q.col(j) *= gear, v.col(j) *= gear;
+    }
+    append(out.table, "q_" + number,
+           q.col(j).unaryExpr([&](double x) { return rounded(x + 2e-5 * rng.normal(), 1e7); }));
+    append(out.table, "qd_" + number,
+           v.col(j).unaryExpr([&](double x) { return rounded(x + 2e-3 * rng.normal(), 1e7); }));
+    append(out.table, "tau_" + number,
+           tau.col(j).unaryExpr([&](double x) { return rounded(x, 1e6); }));
   }
   return out;
 }
@@ -141,7 +186,8 @@ double rounded(double value, double per_unit) { return std::round(value * per_un
 
 Index column_of(const Table& table, const std::string& name) {
   const auto it = std::find(table.columns.begin(), table.columns.end(), name);
-  require(it != table.columns.end(), Exit::kUsage, "this fault needs a log with a column '", name, "'");
+  require(it != table.columns.end(), Exit::kUsage, "this fault needs a log with a column '", name,
+          "'");
   return it - table.columns.begin();
 }
 
@@ -164,7 +210,8 @@ void remove(Table& table, const std::string& name) {
 
 FaultyLog make_clean(CleanLog kind, Rng& rng) {
   if (kind >= CleanLog::kArm) return make_arm(kind, rng);
-  return kind == CleanLog::kJoints ? make_joints(rng) : make_wrist(kind, rng);
+  const bool motors = kind == CleanLog::kMotors;
+  return motors || kind == CleanLog::kJoints ? make_joints(rng, motors) : make_wrist(kind, rng);
 }
 
 }  // namespace dcnn::conceal

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "conceal/draws.h"
 #include "conceal/faulty_alter.h"
@@ -20,7 +21,9 @@ std::string some_measured(const Table& t, Rng& rng) {
   return std::find(t.columns.begin(), t.columns.end(), name) != t.columns.end() ? name : "tau_2";
 }
 
-void keep_rows(Table& t, const std::vector<Index>& rows) { t.values = Eigen::MatrixXd(t.values(rows, Eigen::all)); }
+void keep_rows(Table& t, const std::vector<Index>& rows) {
+  t.values = Eigen::MatrixXd(t.values(rows, Eigen::all));
+}
 
 void set_clock_back(Table& t, Rng& rng) {
   const Index at = some_row(t, rng), n = t.values.rows();
@@ -98,18 +101,21 @@ void wrap_register(Table& t, Rng& rng) {
   auto x = column(t, name);
   const double middle = x.mean() + rng.uniform(-0.1, 0.1) * (x.maxCoeff() - x.minCoeff());
   const double counts = 65536.0 / (1.2 * (x.maxCoeff() - x.minCoeff()));
-  for (double& value : x) value = std::floor((value - middle) * counts) - 65536.0 * std::floor((value - middle) * counts / 65536.0);
+  for (double& value : x)
+    value = std::floor((value - middle) * counts) -
+            65536.0 * std::floor((value - middle) * counts / 65536.0);
 }
 
 void count(Table& t, Rng& rng) {
   const double per_newton = logarithmic(rng, 100.0, 3000.0);
-  for (const char* name : {"fx", "fy", "fz"}) column(t, name) = (column(t, name) * per_newton).array().round().matrix();
+  for (const char* name : {"fx", "fy", "fz"})
+    column(t, name) = (column(t, name) * per_newton).array().round().matrix();
 }
 
-/// Positive: the force is late. Rows without a partner are cut.
-void shift_force(Table& t, Index rows) {
+/// Positive: the columns are late. Rows without a partner are cut.
+void shift(Table& t, const std::vector<std::string>& names, Index rows) {
   const Index n = t.values.rows(), lag = std::abs(rows);
-  for (const char* name : {"fx", "fy", "fz"}) {
+  for (const std::string& name : names) {
     const Eigen::VectorXd x = column(t, name);
     if (rows > 0) column(t, name).tail(n - lag) = x.head(n - lag);
     if (rows < 0) column(t, name).head(n - lag) = x.tail(n - lag);
@@ -118,7 +124,8 @@ void shift_force(Table& t, Index rows) {
 }
 
 void zero_at_start(Table& t) {
-  for (const char* name : {"fx", "fy", "fz"}) column(t, name).array() -= column(t, name).head(10).mean();
+  for (const char* name : {"fx", "fy", "fz"})
+    column(t, name).array() -= column(t, name).head(10).mean();
 }
 
 void touch(Table& t, Rng& rng) {
@@ -142,6 +149,32 @@ void wrap_joint(Table& t) {
   remove(t, "qd_1");
 }
 
+void shift_torques(Table& t, Rng& rng) {
+  const Index rows = 3 + static_cast<Index>(rng.below(6));
+  shift(t, {"tau_1", "tau_2", "tau_3"}, rng.uniform() < 0.5 ? rows : -rows);
+}
+
+/// A joint's angle in (-pi, pi] that meets pi once.
+void turn_once(Table& t, Rng& rng) {
+  auto q = column(t, "q_1");
+  const Index n = q.size(), at = some_row(t, rng);
+  q.tail(n - at).array() -= 2.0 * std::numbers::pi;
+}
+
+void lose_single_torques(Table& t, Rng& rng) {
+  const int count = 5 + static_cast<int>(rng.below(15));
+  for (int k = 0; k < count; ++k) column(t, "tau_2")[some_row(t, rng)] = 0.0;
+}
+
+/// A motion of which a row every tenth of a second was kept, without its clock.
+void keep_few_rows(Table& t, Rng& rng) {
+  std::vector<Index> kept;
+  const Index every = 12 + static_cast<Index>(rng.below(14));
+  for (Index i = 0; i < t.values.rows(); i += every) kept.push_back(i);
+  keep_rows(t, kept);
+  remove(t, "t");
+}
+
 }  // namespace
 
 const std::vector<FaultyKind>& faults_of_rows() {
@@ -149,7 +182,8 @@ const std::vector<FaultyKind>& faults_of_rows() {
   static const std::vector<FaultyKind> kinds{
       {"clock_ms", "clock_unit", C::kEuler, [](Table& t, Rng&) { column(t, "t") *= 1e3; }},
       {"clock_us", "clock_unit", C::kEuler, [](Table& t, Rng&) { column(t, "t") *= 1e6; }},
-      {"clock_ns", "clock_unit", C::kQuaternion, [](Table& t, Rng&) { column(t, "t") = (column(t, "t") * 1e9).array() + 1.7e18; }},
+      {"clock_ns", "clock_unit", C::kQuaternion,
+       [](Table& t, Rng&) { column(t, "t") = (column(t, "t") * 1e9).array() + 1.7e18; }},
       {"joint_clock_ms", "clock_unit", C::kJoints, [](Table& t, Rng&) { column(t, "t") *= 1e3; }},
       {"clock_back", "clock_order", C::kEuler, set_clock_back},
       {"jitter", "jitter", C::kEuler, shake_clock},
@@ -166,16 +200,28 @@ const std::vector<FaultyKind>& faults_of_rows() {
       {"wrap", "wrap", C::kEuler, wrap_register},
       {"joint_wrap", "wrap", C::kJoints, [](Table& t, Rng&) { wrap_joint(t); }},
       {"counts", "counts", C::kEuler, count},
-      {"delay_late", "delay", C::kBrisk, [](Table& t, Rng& rng) { shift_force(t, 4 + static_cast<Index>(rng.below(7))); }},
-      {"delay_early", "delay", C::kBrisk, [](Table& t, Rng& rng) { shift_force(t, -4 - static_cast<Index>(rng.below(7))); }},
+      {"delay_late", "delay", C::kBrisk,
+       [](Table& t, Rng& rng) {
+         shift(t, {"fx", "fy", "fz"}, 4 + static_cast<Index>(rng.below(7)));
+       }},
+      {"delay_early", "delay", C::kBrisk,
+       [](Table& t, Rng& rng) {
+         shift(t, {"fx", "fy", "fz"}, -4 - static_cast<Index>(rng.below(7)));
+       }},
+      {"joint_delay", "delay", C::kJoints, shift_torques},
+      {"joint_turn", "wrap", C::kJoints, turn_once},
+      {"joint_dropouts", "dropouts", C::kJoints, lose_single_torques},
       {"zeroed", "zeroed", C::kEuler, [](Table& t, Rng&) { zero_at_start(t); }},
       {"moving_rows", "moving_rows", C::kEuler, [](Table& t, Rng&) { remove(t, "t"); }},
+      {"moving_rows_sparse", "moving_rows", C::kEuler, keep_few_rows},
       {"no_motion", "no_motion", C::kStill, [](Table&, Rng&) {}},
       {"contact", "contact", C::kEuler, touch},
       {"clean", "", C::kEuler, [](Table&, Rng&) {}},
       {"clean_quaternion", "", C::kQuaternion, [](Table&, Rng&) {}},
       {"clean_rates", "", C::kRates, [](Table&, Rng&) {}},
+      {"clean_torque", "", C::kTorque, [](Table&, Rng&) {}},
       {"clean_static", "", C::kStatic, [](Table&, Rng&) {}},
+      {"clean_motors", "", C::kMotors, [](Table&, Rng&) {}},
       {"clean_joints", "", C::kJoints, [](Table&, Rng&) {}},
   };
   return kinds;
