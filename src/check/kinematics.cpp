@@ -43,10 +43,12 @@ Eigen::Matrix3d from_angles(const Eigen::Vector3d& angles, const Orientation& ho
 Eigen::Matrix3d from_quaternion(const Eigen::Vector4d& logged, const Orientation& how) {
   Eigen::Vector4d q;  // w, x, y, z
   for (int k = 0; k < 4; ++k) {
-    q[static_cast<Index>(std::string("wxyz").find(how.order[static_cast<std::size_t>(k)]))] = logged[k];
+    q[static_cast<Index>(std::string("wxyz").find(how.order[static_cast<std::size_t>(k)]))] =
+        logged[k];
   }
   const double norm = q.norm();
-  return norm > 0.0 ? rotation_from_quaternion(q / norm) : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  return norm > 0.0 ? rotation_from_quaternion(q / norm)
+                    : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
 }
 
 /// (T,4) w, x, y, z of the rotations, neighbours near one another.
@@ -109,7 +111,8 @@ Sampled sample(const Log& log) {
   const Index free = listed ? 0 : rows.half + std::min(kShifts, log.rows() / 20);
   const Index stride = std::max<Index>({1, rows.half, log.rows() / kMostCentres});
   for (const Segment& segment : log.segments) {
-    for (Index i = segment.begin + free; i + free < segment.end; i += stride) rows.centres.push_back(i);
+    for (Index i = segment.begin + free; i + free < segment.end; i += stride)
+      rows.centres.push_back(i);
   }
   return rows;
 }
@@ -128,9 +131,9 @@ std::vector<Eigen::Matrix3d> orientations(const Log& log, const Reading& reading
   const Eigen::MatrixXd logged = log.block(quaternion ? kQuaternion : kEuler);
   const Eigen::Vector3d unit = reading.angle * reading.orientation.sign;
   for (Index i = 0; i < log.rows(); ++i) {
-    R.push_back(quaternion
-                    ? from_quaternion(logged.row(i), reading.orientation)
-                    : from_angles(logged.row(i).transpose().cwiseProduct(unit), reading.orientation));
+    R.push_back(quaternion ? from_quaternion(logged.row(i), reading.orientation)
+                           : from_angles(logged.row(i).transpose().cwiseProduct(unit),
+                                         reading.orientation));
     if (reading.orientation.inverse) R.back().transposeInPlace();
   }
   return R;

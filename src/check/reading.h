@@ -34,13 +34,15 @@ struct Reading {
   std::string remedy;                       ///< in place of the kind's
   double prior = 1.0;
   double clock = 1.0, position = 1.0, angle = 1.0, force = 1.0;  ///< SI per unit of the file
+  double rate = 1.0;  ///< the same of the rate of a joint that turns
   Orientation orientation;
   Eigen::Matrix3d position_axes = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d force_axes = Eigen::Matrix3d::Identity();  ///< F_S = force_axes * F_log
   ArmReading arm;                                            ///< of Log::arm
   bool force_in_base = false, compensated = false;
-  bool harmless = false;  ///< what one may leave undeclared: it stops nothing
-  int estimated = 0;      ///< numbers chosen to suit the log
+  bool weight_apart = false;  ///< beside `compensated`: part of the weight is left
+  bool harmless = false;      ///< what one may leave undeclared: it stops nothing
+  int estimated = 0;          ///< numbers chosen to suit the log
 };
 
 /// Rows of the log on which readings are compared, smoothed over some 0.12 s, with derivatives
@@ -56,6 +58,8 @@ struct Sampled {
                            Eigen::Index shift = 0) const;
 };
 Sampled sample(const Log& log);
+/// Effective number of residuals.
+double independent_residuals(const Sampled& rows);
 
 /// The motion as one reading has it, per sample.
 struct Kinematics {
@@ -69,12 +73,14 @@ Kinematics kinematics(const Log& log, const Sampled& rows, const Reading& readin
 /// R_BE of every row.
 std::vector<Eigen::Matrix3d> orientations(const Log& log, const Reading& reading);
 
-/// F = m field - m (dw x c + w x (w x c)) + bias, by robust least squares.
+/// F = m field - m (dw x c + w x (w x c)) + bias, by robust least squares. Where the weight is
+/// apart, field is without gravity, and there is a term weighed·R^T g.
 struct RigidFit {
   double mass = 0.0;  ///< not below 0
   /// The estimate of any sign, and its deviation were there one residual alone: the residual's
   /// variance grows by the factor 1 + (m - free_mass)²/mass_spread² where the mass is held at m.
   double free_mass = 0.0, mass_spread = 0.0;
+  double weighed = 0.0;  ///< kg, by the weight alone where a reading has it apart, of either sign
   Eigen::Vector3d moment{0, 0, 0}, bias{0, 0, 0};  ///< m c [kg m], [N]
   double variance = 0.0;                           ///< of the residual per axis, robust [N^2]
   Eigen::MatrixXd residual, force;                 ///< (n,3) in S [N]

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "check/joints.h"
 #include "check/rows.h"
 #include "core/elementary.h"
 
@@ -10,64 +11,13 @@ namespace {
 
 using Eigen::Index;
 
-struct Motion {
-  Eigen::VectorXd place, v, a;
-};
-
 /// How much likelier a joint's torque is with the sign that the log declares than with the other.
 struct SignEvidence {
   std::string channel;
   double log_odds = 0.0;
 };
 
-/// As the likeliest reading has it: gravity depends on the angle.
-Motion motion_of(const Evidence& e, const Joint& joint) {
-  const Sampled& rows = e.adopted.rows;
-  const double dt = e.log.step * e.adopted.reading.clock;
-  const Eigen::VectorXd q =
-      (joint.turns ? e.adopted.reading.angle : 1.0) * e.log.column(joint.position);
-  return {rows.smoothed(q, rows.value), rows.smoothed(q, rows.first) / dt,
-          rows.smoothed(q, rows.second) / (dt * dt)};
-}
-
-void append(Eigen::MatrixXd& A, const Eigen::VectorXd& column) {
-  A.conservativeResize(column.size(), A.cols() + 1);
-  A.col(A.cols() - 1) = column / std::max(column.norm(), 1e-12);
-}
-
 constexpr Index kSigned = 2;  // own inertia and dry friction, which no joint has negative
-constexpr Index kOfAnother = 6;
-
-/// The torque's columns: own inertia and dry friction; then what may have either sign: the rate,
-/// which viscous friction opposes and a controller's damping as well while another joint drives
-/// this one; a constant, gravity by the own angle, and what other joints transmit, the nearest
-/// first, as far as there are ten rows to a column.
-Eigen::MatrixXd columns_of(const std::vector<Motion>& motions, std::size_t own) {
-  const Motion& motion = motions[own];
-  const Index n = motion.v.size();
-  const double slow = 0.05 * std::sqrt(motion.v.squaredNorm() / static_cast<double>(n)) + 1e-12;
-  Eigen::MatrixXd A(n, 0);
-  const auto append_gravity = [&](const Motion& of) {
-    append(A, elementary::sin(of.place.array()).matrix());
-    append(A, elementary::cos(of.place.array()).matrix());
-  };
-  append(A, motion.a);
-  append(A, elementary::tanh(motion.v.array() / slow).matrix());
-  append(A, motion.v);
-  append(A, Eigen::VectorXd::Ones(n));
-  append_gravity(motion);
-  for (std::size_t away = 1; away < motions.size(); ++away) {
-    for (const std::size_t k : {own + away, own - away}) {  // wraps where there is none
-      if (k >= motions.size() || 10 * (A.cols() + kOfAnother) > n) continue;
-      append(A, motions[k].a);
-      append(A, motions[k].v);
-      append(A, motions[k].v.cwiseAbs2());
-      append(A, motions[k].v.cwiseProduct(motion.v));
-      append_gravity(motions[k]);
-    }
-  }
-  return A;
-}
 
 /// Least squares with `sign` times the first columns' coefficients not below zero: the best of the
 /// subsets of these columns that fulfils it. Returns the residual of the torque `y`.
@@ -93,9 +43,9 @@ Eigen::VectorXd residual_with_sign(const Eigen::MatrixXd& A, const Eigen::Vector
 /// The likelihood ratio of normal residuals of unknown variance, of as many rows as are
 /// independent.
 SignEvidence sign_of(const Log& log, const Joint& joint, const Sampled& rows,
-                     const std::vector<Motion>& motions, std::size_t own) {
+                     const std::vector<JointMotion>& motions, std::size_t own) {
   const Eigen::VectorXd y = joint.scale * rows.smoothed(log.column(joint.measured), rows.value);
-  const Eigen::MatrixXd A = columns_of(motions, own);
+  const Eigen::MatrixXd A = torque_columns(motions, own, Place::kGravity);
   const Eigen::VectorXd with = residual_with_sign(A, y, 1.0),
                         against = residual_with_sign(A, y, -1.0);
   const double independent =
@@ -132,13 +82,11 @@ std::vector<Fault> find_power_sign(const Evidence& e) {
   std::vector<Fault> out;
   if (!e.log.arm.empty()) return out;
   if (rows.half == 0 || rows.centres.size() < 40) return out;
-  std::vector<const Joint*> joints;
-  std::vector<Motion> motions;
-  for (const Joint& joint : e.log.joints) {
-    if (joint.position.empty() || joint.measured.empty()) continue;
-    if (robust_deviation(e.log.column(joint.position)) <= 0.0) continue;
-    joints.push_back(&joint);
-    motions.push_back(motion_of(e, joint));
+  const auto joints = driven_joints(e.log);
+  std::vector<JointMotion> motions;
+  for (const Joint* joint :
+       joints) {  // as the likeliest reading has it: gravity depends on the angle
+    motions.push_back(joint_motion(e.log, rows, e.adopted.reading, *joint));
   }
   std::vector<SignEvidence> signs;
   for (std::size_t k = 0; k < joints.size(); ++k) {

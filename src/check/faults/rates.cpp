@@ -1,3 +1,5 @@
+#include "check/rates.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,77 +12,29 @@ namespace dcnn::check {
 namespace {
 
 using Eigen::Index;
-constexpr double kPerDegree = 180.0 / std::numbers::pi;
-constexpr double kRateError = 0.03;  // of a rate's deviation: its own filter, its own delay
-
-/// What a logged rate may be, (n,columns) each, if it is not what it is called.
-struct RateMeaning {
-  Eigen::MatrixXd rate;
-  double scale;
-  std::string words;
-};
-
-/// Rows that move by more than the rms of the motion: at rest there is nothing to compare, and the
-/// logged rate's noise there would favour the meaning that divides it by most.
-std::vector<Index> moving_rows(const Eigen::MatrixXd& rate) {
-  const Eigen::VectorXd square = rate.rowwise().squaredNorm();
-  const double mean = square.mean();
-  std::vector<Index> moving;
-  for (Index i = 0; i < square.size(); ++i) {
-    if (square(i) >= mean) moving.push_back(i);
-  }
-  return moving;
-}
-
-double rate_cost(const Eigen::MatrixXd& logged, const RateMeaning& meaning, double independent) {
-  const std::vector<Index> moving = moving_rows(meaning.rate);
-  const Eigen::MatrixXd rate = meaning.rate(moving, Eigen::all);
-  const Eigen::MatrixXd off = logged(moving, Eigen::all) / meaning.scale - rate;
-  const double variance = median(off.rowwise().squaredNorm());
-  const auto rows = static_cast<double>(rate.rows());
-  const double size = rate.squaredNorm() / rows;
-  const double share = rows / static_cast<double>(meaning.rate.rows());
-  return 0.5 * share * independent * elementary::log(std::max(variance + kRateError * kRateError * size, 1e-300));
-}
 
 /// The first meaning is the declared one.
-void compare_rates(const Eigen::MatrixXd& logged, const std::vector<RateMeaning>& meanings, double independent,
-                   const std::string& channel, std::vector<Fault>& out) {
+void compare_rates(const Eigen::MatrixXd& logged, const std::vector<RateMeaning>& meanings,
+                   double independent, const std::string& channel, std::vector<Fault>& out) {
   const double declared = rate_cost(logged, meanings[0], independent);
   double odds = 0.0, most = -1e300;
   std::size_t best = 0;
   for (std::size_t k = 1; k < meanings.size(); ++k) {
     const double gain = declared - rate_cost(logged, meanings[k], independent);
-    odds += kFaultPrior / static_cast<double>(meanings.size() - 1) * elementary::exp(std::min(gain, 600.0));
+    odds += kFaultPrior / static_cast<double>(meanings.size() - 1) *
+            elementary::exp(std::min(gain, 600.0));
     if (gain > most) most = gain, best = k;
   }
   if (odds < 0.05) return;
-  out.push_back(fault_of(rates_fault, odds / (1.0 + odds), channel,
-                         channel + " is not the derivative of its position: it is " + meanings[best].words));
-}
-
-std::vector<RateMeaning> meanings_of(const Eigen::MatrixXd& rate, bool turns) {
-  std::vector<RateMeaning> all{{rate, 1.0, "as declared"}, {-rate, 1.0, "of the other sign"}};
-  if (turns) {
-    all.push_back({rate, kPerDegree, "in degrees per second where the position is in radians"});
-    all.push_back({rate, 1.0 / kPerDegree, "in radians per second where the position is in degrees"});
-    all.push_back({rate, 30.0 / std::numbers::pi, "in revolutions per minute"});
-  }
-  all.push_back({rate, 1e3, "1000 times too large (milli-units, or a clock in ms)"});
-  all.push_back({rate, 1e-3, "1000 times too small"});
-  return all;
+  out.push_back(
+      fault_of(rates_fault, odds / (1.0 + odds), channel,
+               channel + " is not the derivative of its position: it is " + meanings[best].words));
 }
 
 void find_joint_rates(const Evidence& e, std::vector<Fault>& out) {
-  const Sampled& rows = e.adopted.rows;
-  const double dt = e.log.step * e.adopted.reading.clock;
-  for (const Joint& joint : e.log.joints) {
-    if (joint.position.empty() || joint.velocity.empty()) continue;
-    if (never_changes(e.log.column(joint.position))) continue;
-    const Eigen::MatrixXd rate = rows.smoothed(e.log.column(joint.position), rows.first) / dt;
-    const Eigen::MatrixXd logged = rows.smoothed(e.log.column(joint.velocity), rows.value);
-    if (rate.norm() == 0.0) continue;
-    compare_rates(logged, meanings_of(rate, joint.turns), e.adopted.independent, joint.velocity, out);
+  const Adopted& a = e.adopted;
+  for (const JointRate& joint : joint_rates(e.log, a.rows, a.reading)) {
+    compare_rates(joint.unit * joint.logged, joint.meanings, a.independent, joint.channel, out);
   }
 }
 
@@ -89,21 +43,26 @@ void find_wrist_rates(const Evidence& e, const std::vector<std::string>& names, 
                       std::vector<Fault>& out) {
   const Adopted& a = e.adopted;
   if (!e.log.has_all(names) || (!angular && !a.motion.has_position)) return;
-  const Eigen::Matrix3d R_ES = e.log.declared.model ? e.log.declared.model->R_ES() : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  const Eigen::Matrix3d R_ES = e.log.declared.model ? e.log.declared.model->R_ES()
+                                                    : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
   const double dt = e.log.step * a.reading.clock;
   const auto n = static_cast<Index>(a.rows.centres.size());
   Eigen::MatrixXd in_sensor(n, 3), in_base(n, 3);
   for (Index i = 0; i < n; ++i) {
     const Eigen::Matrix3d R = a.motion.R[static_cast<std::size_t>(i)];
-    const Eigen::Vector3d v = angular ? Eigen::Vector3d(R * a.motion.w.row(i).transpose() / dt)
-                                      : Eigen::Vector3d(a.reading.position * (a.reading.position_axes * a.motion.velocity.row(i).transpose()) / dt);
+    const Eigen::Vector3d v =
+        angular ? Eigen::Vector3d(R * a.motion.w.row(i).transpose() / dt)
+                : Eigen::Vector3d(a.reading.position *
+                                  (a.reading.position_axes * a.motion.velocity.row(i).transpose()) /
+                                  dt);
     in_base.row(i) = v;
     in_sensor.row(i) = (R * R_ES).transpose() * v;
   }
-  std::vector<RateMeaning> all = meanings_of(in_sensor, angular);
+  std::vector<RateMeaning> all = rate_meanings(in_sensor, angular, a.reading.angle == 1.0);
   all.push_back({in_base, 1.0, "in the base frame, not in the sensor's"});
   const double unit = angular ? a.reading.angle : a.reading.position;
-  compare_rates(unit * a.rows.smoothed(e.log.block(names), a.rows.value), all, a.independent, names[0], out);
+  compare_rates(unit * a.rows.smoothed(e.log.block(names), a.rows.value), all, a.independent,
+                names[0], out);
 }
 
 std::vector<Fault> find_rates(const Evidence& e) {
@@ -118,7 +77,8 @@ std::vector<Fault> find_rates(const Evidence& e) {
 
 }  // namespace
 
-const FaultKind rates_fault{"rates", true, "convert the column, or leave it out: rates are then derived from the position", "",
-                            find_rates};
+const FaultKind rates_fault{
+    "rates", true, "convert the column, or leave it out: rates are then derived from the position",
+    "", find_rates};
 
 }  // namespace dcnn::check

@@ -1,0 +1,32 @@
+// What a logged rate may be beside the derivative of its position.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "check/reading.h"
+
+namespace dcnn::check {
+
+/// What a logged rate may be, (n,columns) each, if it is not what it is called.
+struct RateMeaning {
+  Eigen::MatrixXd rate;  ///< SI
+  double scale;          ///< logged = scale * rate
+  std::string words;
+};
+
+/// The first is the declared one. `turns`: an angle's rate; `radians`: the angle is in rad.
+std::vector<RateMeaning> rate_meanings(const Eigen::MatrixXd& rate, bool turns, bool radians);
+/// -ln of the likelihood of the logged rate, SI, as one meaning has it.
+double rate_cost(const Eigen::MatrixXd& logged, const RateMeaning& meaning, double independent);
+
+struct JointRate {
+  std::string channel;
+  Eigen::MatrixXd logged;  ///< (n,1), smoothed, in units of the file
+  double unit = 1.0;       ///< SI per unit of the file, as the reading has it
+  std::vector<RateMeaning> meanings;
+};
+/// Of the joints whose positions change.
+std::vector<JointRate> joint_rates(const Log& log, const Sampled& rows, const Reading& reading);
+
+}  // namespace dcnn::check
