@@ -47,14 +47,18 @@ std::vector<std::string> measured_columns(const Log& log) {
   return names;
 }
 
+double relative_motion(const Log& log, const std::string& position, Index begin, Index end) {
+  const Eigen::VectorXd steps = steps_of(log.column(position)).cwiseAbs2();
+  const double whole = steps.mean();
+  return whole > 0.0 ? std::sqrt(steps.segment(begin, end - begin - 1).mean() / whole) : 0.0;
+}
+
 double relative_motion(const Log& log, Index begin, Index end) {
   double most = 0.0;
   for (const std::string& name : log.positions()) {
-    const Eigen::VectorXd steps = steps_of(log.column(name)).cwiseAbs2();
-    const double whole = steps.mean();
-    if (whole > 0.0) most = std::max(most, steps.segment(begin, end - begin - 1).mean() / whole);
+    most = std::max(most, relative_motion(log, name, begin, end));
   }
-  return std::sqrt(most);
+  return most;
 }
 
 double independent_of(const Eigen::MatrixXd& residual) {
@@ -63,7 +67,7 @@ double independent_of(const Eigen::MatrixXd& residual) {
   const double power = std::max(residual.squaredNorm(), 1e-300);
   const double rho = residual.topRows(n - 1).cwiseProduct(residual.bottomRows(n - 1)).sum() / power;
   const double r = std::clamp(rho, 0.0, 0.99);
-  return std::min(kMostOfAll, static_cast<double>(3 * n) * (1.0 - r) / (1.0 + r));
+  return std::min(kMostOfAll, static_cast<double>(residual.size()) * (1.0 - r) / (1.0 + r));
 }
 
 void set_interval(const Log& log, Index begin, Index end, Fault& fault) {

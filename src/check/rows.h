@@ -19,9 +19,12 @@ Eigen::VectorXd outlying(const Eigen::VectorXd& values);
 std::vector<std::string> measured_columns(const Log& log);
 /// Rms step of the positions' columns in rows [begin, end), relative to that of the whole log.
 double relative_motion(const Log& log, Eigen::Index begin, Eigen::Index end);
+/// The same of one of them alone: of a joint's position where its torque is looked at.
+double relative_motion(const Log& log, const std::string& position, Eigen::Index begin,
+                       Eigen::Index end);
 /// Rows as times of the log's clock; nothing without one.
 void set_interval(const Log& log, Eigen::Index begin, Eigen::Index end, Fault& fault);
-/// Number of independent residuals among (n,3), by their correlation from row to row.
+/// Number of independent residuals among (n,columns), by their correlation from row to row.
 double independent_of(const Eigen::MatrixXd& residual);
 
 }  // namespace dcnn::check

@@ -6,43 +6,55 @@
 namespace dcnn::check {
 namespace {
 
-constexpr double kFarFromZero = 20.0;  // deviations of the channel's noise
+constexpr double kFarFromZero = 5.0;  // deviations of the channel's noise
+constexpr double kMovesAtAll = 1.0;   // of the usual speed: a drive at rest may be off by right
 
-/// Runs of one sentinel value, zero as a rule, that a channel far from it jumps to and back from.
+/// Runs of one sentinel value, zero as a rule, that a channel far from it jumps to and back from
+/// while the robot moves.
 void find_dropouts_in(const Log& log, const std::vector<std::string>& names,
                       std::vector<Fault>& out) {
   const Eigen::MatrixXd values = log.block(names);
+  const auto joint = std::find_if(log.joints.begin(), log.joints.end(), [&](const Joint& one) {
+    return one.measured == names[0] && !one.position.empty();
+  });
+  const auto moves = [&](Eigen::Index begin, Eigen::Index end) {
+    if (log.positions().empty()) return true;
+    const double motion = joint == log.joints.end()
+                              ? relative_motion(log, begin, end)
+                              : relative_motion(log, joint->position, begin, end);
+    return motion >= kMovesAtAll;
+  };
   Eigen::Index rows = 0, events = 0, first = 0;
-  bool before = false;
   Eigen::VectorXd noise(values.cols());
   for (Eigen::Index j = 0; j < values.cols(); ++j) {
     noise[j] = std::max(noise_of(values.col(j)), 0.5 * resolution(values.col(j)));
   }
-  Eigen::Index last = -1;  // the last row that is not zero
-  for (Eigen::Index i = 0; i < values.rows(); ++i) {
-    const bool zero = (values.row(i).array() == 0.0).all();
-    if (!zero) {
-      last = i;
-      before = false;
-      continue;
-    }
-    if (last < 0) continue;
-    const bool far =
-        (values.row(last).transpose().array().abs() > kFarFromZero * noise.array()).any();
-    if (!far) continue;
-    if (!before && events++ == 0) first = i;
-    before = true;
-    ++rows;
+  const auto zero = [&](Eigen::Index i) { return (values.row(i).array() == 0.0).all(); };
+  const auto far = [&](Eigen::Index i) {
+    return (values.row(i).transpose().array().abs() > kFarFromZero * noise.array()).any();
+  };
+  Eigen::Index begin = 0;
+  for (Eigen::Index i = 0; i < values.rows(); i = begin) {
+    begin = i + 1;
+    if (!zero(i)) continue;
+    Eigen::Index end = i;
+    while (end < values.rows() && zero(end)) ++end;
+    begin = end;
+    if (i == 0 || end == values.rows() || !far(i - 1) || !far(end)) continue;
+    if (!moves(i - 1, end + 1)) continue;
+    if (events++ == 0) first = i;
+    rows += end - i;
   }
   if (events == 0) return;
   // A continuous value meets zero exactly in one row of range/resolution, if it passes there at
-  // all.
+  // all; so many times by chance as Poisson has it.
   double chance = 1.0;
   for (Eigen::Index j = 0; j < values.cols(); ++j) {
     const double range = values.col(j).maxCoeff() - values.col(j).minCoeff();
     if (range > 0.0) chance *= std::min(1.0, resolution(values.col(j)) / range);
   }
-  const double p = std::min(1.0, static_cast<double>(values.rows()) * chance);
+  const double p =
+      poisson_tail(static_cast<double>(events), static_cast<double>(values.rows()) * chance);
   Fault fault = fault_of(
       dropouts_fault, posterior_of_p(p), names[0],
       std::to_string(rows) + (rows == 1 ? " row of " : " rows of ") + names[0] +

@@ -21,17 +21,21 @@ bool at_an_end(const Eigen::VectorXd& x, double value) {
 void find_frozen_column(const Log& log, const std::string& name, std::vector<Fault>& out) {
   const Eigen::VectorXd x = log.column(name);
   const std::vector<Run> runs = runs_of(x);
+  const bool whole = runs.size() == 1;
+  // At zero a channel is off, or was lost; at its ends it may be at a limit.
+  std::vector<Run> held;
+  for (const Run& run : runs) {
+    if (whole || (run.value != 0.0 && !at_an_end(x, run.value))) held.push_back(run);
+  }
   const auto longest = std::max_element(
-      runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.length < b.length; });
-  const bool whole = longest->length == x.size();
-  if (longest->length < 8 || (!whole && (longest->value == 0.0 || at_an_end(x, longest->value))))
-    return;
+      held.begin(), held.end(), [](const Run& a, const Run& b) { return a.length < b.length; });
+  if (longest == held.end() || longest->length < 8) return;
   const Eigen::Index end = longest->begin + longest->length;
   if (relative_motion(log, longest->begin, end) < kMoves) return;
   // Repeats outside of the run tell how often this channel repeats at all; held samples come in
   // rows.
   double others = 0.0, second = 1.0;
-  for (const Run& run : runs) {
+  for (const Run& run : held) {
     if (&run == &*longest) continue;
     others += static_cast<double>(run.length - 1);
     second = std::max(second, static_cast<double>(run.length));

@@ -25,12 +25,12 @@ End end_of(const Eigen::VectorXd& x, double grid) {
 }
 
 /// Rows that come together where a channel keeps a value for several, by their runs between its two
-/// ends: sum of squares of lengths over the sum. 1 where no value repeats.
+/// ends: sum of squares of lengths over the sum. 1 where no value repeats. At zero it may be off.
 double rows_of_an_event(const Eigen::VectorXd& x) {
   const double low = x.minCoeff(), high = x.maxCoeff();
   double rows = 0.0, squares = 0.0;
   for (const Run& run : runs_of(x)) {
-    if (run.value == low || run.value == high) continue;
+    if (run.value == low || run.value == high || run.value == 0.0) continue;
     const auto length = static_cast<double>(run.length);
     rows += length;
     squares += length * length;
@@ -46,8 +46,9 @@ void find_saturation_in(const Log& log, const std::string& name, std::vector<Fau
   for (const double side : {1.0, -1.0}) {
     const End end = end_of(side * x, grid);
     if (end.longest < 4) continue;
-    // Were the end a level like any other, the density at a peak is at most thrice that below.
-    const double expected = 3.0 * static_cast<double>(end.next + 1);
+    // Were the end a level like any other, the density at a peak is at most thrice that below,
+    // where neighbours within the noise count together.
+    const double expected = 3.0 * static_cast<double>(end.next + 1) * resolution(x) / grid;
     const double p = poisson_tail(static_cast<double>(end.at) / together, expected / together);
     if (p >= 1.0) continue;
     Fault fault = fault_of(saturation_fault, posterior_of_p(p), name,

@@ -54,6 +54,30 @@ Wrap wrap_of(const Eigen::VectorXd& x) {
   return wrap;
 }
 
+/// Steps of a full turn that their neighbours do not share: no joint moves so in a row. The tail is
+/// Student's with five degrees of freedom.
+void find_turns_in(const Log& log, const std::string& name, std::vector<Fault>& out) {
+  const Eigen::VectorXd x = log.column(name), steps = steps_of(x);
+  const double usual = robust_deviation(steps_of(steps));
+  int jumps = 0;
+  Eigen::Index first = 0;
+  double least = 0.0;
+  for (Eigen::Index i = 0; i < steps.size(); ++i) {
+    if (!is_full_turn(steps, i)) continue;
+    if (jumps++ == 0) first = i;
+    least = least == 0.0 ? std::abs(steps[i]) : std::min(least, std::abs(steps[i]));
+  }
+  if (jumps == 0) return;
+  const double z = least / std::max(usual, 1e-12 * least);
+  const double p = std::min(1.0, static_cast<double>(steps.size()) * 19.0 / std::pow(z, 5));
+  Fault fault = fault_of(wrap_fault, posterior_of_p(p), name,
+                         name + " jumps by a full turn " + std::to_string(jumps) +
+                             (jumps == 1 ? " time" : " times") +
+                             ": an angle that begins anew after each turn");
+  set_interval(log, first, first + 2, fault);
+  out.push_back(fault);
+}
+
 /// The power of two (of counts) that the range is just below.
 bool is_register(double range) {
   for (int bits = 8; bits <= 32; ++bits) {
@@ -91,6 +115,12 @@ std::vector<Fault> find_wrap(const Evidence& e) {
     if (!joint.position.empty()) names.push_back(joint.position);
   }
   for (const std::string& name : names) find_wrap_in(e.log, name, out);
+  for (const Joint& joint : e.log.joints) {
+    const bool told = std::any_of(out.begin(), out.end(), [&](const Fault& fault) {
+      return fault.channel == joint.position && fault.probability >= kLikely;
+    });
+    if (joint.turns && !joint.position.empty() && !told) find_turns_in(e.log, joint.position, out);
+  }
   return out;
 }
 

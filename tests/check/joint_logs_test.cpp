@@ -1,0 +1,93 @@
+// Faults of joints' channels in logs that end with the drives off, and drives that turn many times.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dcnn/check/check.h"
+#include "dcnn/core/random.h"
+
+namespace dcnn {
+namespace {
+
+constexpr Eigen::Index kRows = 1000, kOn = 920;
+
+/// Two joints at 100 Hz, whose drives are off, and read zero, in the last rows.
+Table two_joints() {
+  Table table{{"t", "q_1", "q_2", "tau_1", "tau_2"}, Eigen::MatrixXd(kRows, 5)};
+  Rng rng({21});
+  for (Eigen::Index i = 0; i < kRows; ++i) {
+    const double t = 0.01 * static_cast<double>(i);
+    const double q1 = std::sin(1.3 * t) + 0.4 * std::sin(4.1 * t),
+                 q2 = 0.8 * std::cos(1.7 * t) + 0.3 * std::sin(3.7 * t + 1.0);
+    const double on = i < kOn ? 1.0 : 0.0;
+    table.values.row(i) << t, q1, q2, on * (8.0 * std::sin(q1) + 0.1 * rng.normal()),
+        on * (6.0 * std::sin(q1 + q2) + 2.0 * std::cos(5.0 * t) + 0.3 * rng.normal());
+  }
+  return table;
+}
+
+double probability_of(const check::Report& report, const std::string& fault,
+                      const std::string& channel) {
+  for (const check::Fault& one : report.faults) {
+    if (one.id == fault && one.channel == channel) return one.probability;
+  }
+  return 0.0;
+}
+
+check::Report report_of(const Table& table) {
+  return check::check(check::make_log("joints.csv", table, {}));
+}
+
+TEST(JointLogs, ADriveThatIsOffIsNoFault) {
+  const check::Report report = report_of(two_joints());
+  for (const check::Fault& fault : report.faults) {
+    EXPECT_LT(fault.probability, check::kLikely) << fault.words;
+  }
+}
+
+// The rows at zero are more than the frozen ones, and of another kind.
+TEST(JointLogs, FrozenRowsAreFoundBesideADriveThatIsOff) {
+  Table table = two_joints();
+  table.values.col(4).segment(312, 46).setConstant(double(table.values(312, 4)));
+  EXPECT_GE(probability_of(report_of(table), "frozen", "tau_2"), check::kCertain);
+}
+
+TEST(JointLogs, ALimitIsFoundBesideADriveThatIsOff) {
+  Table table = two_joints();
+  auto tau = table.values.col(4);
+  std::vector<double> sizes(tau.begin(), tau.end());
+  std::sort(sizes.begin(), sizes.end());
+  tau = tau.cwiseMin(sizes[static_cast<std::size_t>(0.95 * kRows)]);
+  EXPECT_GE(probability_of(report_of(table), "saturation", "tau_2"), check::kLikely);
+}
+
+// At a low rate the torque moves as far from row to row as a few of them are from zero.
+TEST(JointLogs, SingleRowsAtZeroAreDropouts) {
+  Table table = two_joints();
+  for (Eigen::Index i = 40; i < kOn; i += 60) table.values(i, 4) = 0.0;
+  EXPECT_GE(probability_of(report_of(table), "dropouts", "tau_2"), check::kCertain);
+}
+
+TEST(JointLogs, OneFullTurnIsAWrap) {
+  Table table = two_joints();
+  table.values.col(1).tail(400).array() -= 2.0 * std::numbers::pi;
+  EXPECT_GE(probability_of(report_of(table), "wrap", "q_1"), check::kCertain);
+}
+
+// A motor turns as often as it likes, to and fro; its rate agrees with its position.
+TEST(JointLogs, AMotorThatTurnsToAndFroIsNotInDegrees) {
+  Table table{{"t", "q_1", "qd_1", "tau_1"}, Eigen::MatrixXd(4000, 4)};
+  Rng rng({22});
+  for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+    const double t = 0.005 * static_cast<double>(i);
+    const double q = 40.0 * std::sin(t) + 15.0 * std::sin(2.7 * t),
+                 v = 40.0 * std::cos(t) + 40.5 * std::cos(2.7 * t);
+    table.values.row(i) << t, q, v, 0.01 * v + 0.3 * std::tanh(v) + 0.02 * rng.normal();
+  }
+  EXPECT_LT(probability_of(report_of(table), "angle_unit", "q_1"), check::kLikely);
+}
+
+}  // namespace
+}  // namespace dcnn
