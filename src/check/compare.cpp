@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "check/arm.h"
+#include "check/joints.h"
 #include "check/kind.h"
 #include "check/statistics.h"
 #include "core/elementary.h"
@@ -42,37 +43,21 @@ double motion_weight(const Log& log, const Kinematics& motion, const Reading& re
   return sum;
 }
 
-/// The shaft of a motor or a wheel: in degrees, too, it turns farther than the cables of an arm's
-/// joint allow, or farther than once without turning back. Its size tells no unit.
-bool turns_endlessly(const Eigen::VectorXd& angle) {
-  const double range = angle.maxCoeff() - angle.minCoeff();
-  const double path =
-      (angle.tail(angle.size() - 1) - angle.head(angle.size() - 1)).cwiseAbs().sum();
-  constexpr double kTurnDegrees = 360.0, kMostTurns = 4.0;  // of a joint, end to end
-  constexpr double kNoise = 1.05;  // path over range where nothing turns back
-  return range > kMostTurns * kTurnDegrees || (range > kTurnDegrees && path < kNoise * range);
-}
-
 double angle_weight(const Log& log, const Reading& reading) {
   double most = 0.0;
   if (log.has_all(kEuler) && !log.has_quaternion()) {
     most = rms(centred(log.block(kEuler))) / std::sqrt(3.0);
   }
-  for (const Joint& joint : log.joints) {
-    if (joint.turns && !joint.position.empty() && !turns_endlessly(log.column(joint.position))) {
-      most = std::max(most, rms(centred(log.column(joint.position))));
-    }
+  for (const std::size_t j : log.arm) {  // a limb's, with its limits
+    const Joint& joint = log.joints[j];
+    if (joint.turns) most = std::max(most, rms(centred(log.column(joint.position))));
   }
   return most > 0.0 ? plausibility(reading.angle * most, kTurn) : 0.0;
 }
 
-double independent_residuals(const Sampled& rows) {
-  return std::min(kMostIndependent, 0.75 * static_cast<double>(rows.centres.size()));
-}
-
 double mass_weight(const Log& log, const Sampled& rows, const RigidFit& fit,
                    const Reading& reading) {
-  if (reading.compensated) return 0.0;
+  if (reading.compensated && !reading.weight_apart) return 0.0;
   Typical typical = kMass;
   if (log.declared.model) {
     typical = {log.declared.model->mass, kNominalMassSpread, kNominalMassSpread};
@@ -81,7 +66,10 @@ double mass_weight(const Log& log, const Sampled& rows, const RigidFit& fit,
   // because it hardly turns the tool, is no surprise whatever its estimate.
   const auto weight = [&](double mass) {
     const double z = (mass - fit.free_mass) / std::max(fit.mass_spread, 1e-300);
-    return plausibility(mass, typical) -
+    // Controllers subtract a mass that is meant to be the tool's.
+    const double subtracted =
+        reading.weight_apart ? plausibility((mass - fit.weighed) / mass, kSubtracted) : 0.0;
+    return plausibility(mass, typical) + subtracted -
            0.5 * independent_residuals(rows) * elementary::log(1.0 + z * z);
   };
   const double estimate = std::max(fit.free_mass, kLeastMass);
@@ -120,18 +108,24 @@ class Motions {
   std::vector<std::pair<Reading, Kinematics>> known_;
 };
 
-/// All readings one fault away from `base`, those of a fit only where there is one.
-std::vector<Reading> readings_about(const Log& log, const Reading& base, const RigidFit* fit) {
+/// All readings one fault away from `base`, those of a fit only where there is a motion. A kind's
+/// prior is shared by the weights that its readings have.
+std::vector<Reading> readings_about(const Log& log, const Sampled& rows, const Reading& base,
+                                    const Kinematics* motion) {
   std::vector<Reading> all{base};
   all[0].fault.clear();
   all[0].words = "as declared";
   for (const FaultKind* kind : fault_kinds()) {
     std::vector<Reading> variants;
     if (kind->readings != nullptr) kind->readings(log, base, variants);
-    if (kind->estimates != nullptr && fit != nullptr) kind->estimates(base, *fit, variants);
+    if (kind->estimates != nullptr && motion != nullptr) {
+      kind->estimates({log, rows, *motion, base}, variants);
+    }
+    double sum = 0.0;
+    for (const Reading& variant : variants) sum += variant.prior;
     for (Reading& variant : variants) {
       variant.fault = kind->id;
-      variant.prior = kFaultPrior / static_cast<double>(variants.size());
+      variant.prior *= kFaultPrior / sum;
       all.push_back(std::move(variant));
     }
   }
@@ -160,9 +154,7 @@ struct Round {
 
 Round weigh(const Log& log, const Sampled& rows, Motions* motions, const Reading& base) {
   Round round;
-  std::optional<RigidFit> fit;
-  if (motions != nullptr) fit = fit_rigid(log, rows, motions->of(base), base);
-  round.readings = readings_about(log, base, fit ? &*fit : nullptr);
+  round.readings = readings_about(log, rows, base, motions ? &motions->of(base) : nullptr);
   Eigen::VectorXd weights(static_cast<Index>(round.readings.size()));
   for (Index k = 0; k < weights.size(); ++k) {
     const Reading& reading = round.readings[static_cast<std::size_t>(k)];
@@ -222,10 +214,14 @@ void list_weights(const Round& round, Adopted& out) {
 
 }  // namespace
 
+double independent_residuals(const Sampled& rows) {
+  return std::min(kMostIndependent, 0.75 * static_cast<double>(rows.centres.size()));
+}
+
 Reading declared_reading(const Log& log) {
   Reading reading;
   reading.position = log.declared.read.position_unit;
-  reading.angle = log.declared.read.angle_unit;
+  reading.angle = reading.rate = log.declared.read.angle_unit;
   reading.force = 1.0;
   reading.force_axes *= log.declared.read.force_sign;
   reading.orientation.order = log.has_quaternion() ? "wxyz" : "zyx";
@@ -242,6 +238,10 @@ double log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
   double sum = elementary::log(reading.prior) + angle_weight(log, reading) -
                0.5 * reading.estimated * elementary::log(independent_residuals(rows));
   if (log.smooth && log.step > 0.0) sum += clock_weight(log, reading.clock);
+  if (!log.joints.empty()) {
+    if (log.step > 0.0) sum += rates_weight(log, rows, reading);
+    if (log.arm.empty()) sum += angles_weight(log, rows, reading);
+  }
   if (can_fit_arm(log, rows)) sum += arm_weight(log, rows, reading);
   if (motion == nullptr) return sum;
   sum += motion_weight(log, *motion, reading);

@@ -16,6 +16,14 @@ struct Evidence {
   const Adopted& adopted;
 };
 
+/// What a rigid tool is fitted to: the log under one reading.
+struct Fitting {
+  const Log& log;
+  const Sampled& rows;
+  const Kinematics& motion;
+  const Reading& base;
+};
+
 /// A fault is found by an alternative reading of the log that explains it better (`readings`), or
 /// by a statistic of its own (`find`).
 struct FaultKind {
@@ -26,8 +34,8 @@ struct FaultKind {
   std::vector<Fault> (*find)(const Evidence&) = nullptr;
   void (*readings)(const Log&, const Reading& base, std::vector<Reading>& out) = nullptr;
   bool of_force = false;  ///< a reading of the forces or of their frame
-  /// Readings whose numbers are estimated, from the fit of the reading that they alter.
-  void (*estimates)(const Reading& base, const RigidFit& fit, std::vector<Reading>& out) = nullptr;
+  /// Readings whose numbers are estimated, by fits of the reading that they alter.
+  void (*estimates)(const Fitting& fitting, std::vector<Reading>& out) = nullptr;
 };
 
 #define FAULT(id) extern const FaultKind id##_fault;

@@ -14,14 +14,16 @@ using Eigen::Index;
 constexpr int kMostReweightings = 60;
 constexpr double kSettled = 1e-6;  // relative change of the residual's variance
 constexpr Index kStretches = 8;
-constexpr Index kFewestRows = 12;           // of a stretch
-constexpr double kOwnScale = 3.0;           // Cauchy's weights halve at so many deviations
+constexpr Index kFewestRows = 12;  // of a stretch
+constexpr double kOwnScale = 3.0;  // Cauchy's weights halve at so many deviations
 
+constexpr Index kTool = 8;               // columns of mass, moment, bias, and of a weight apart
 constexpr double kFrictionSpeed = 0.02;  // m/s, over which dry friction changes its sign
 
 struct Design {
-  std::vector<Eigen::MatrixXd> rows;  // (3,7) of mass, moment, bias; (3,14) with friction
-  Eigen::MatrixXd force, field;       // (n,3) in S
+  std::vector<Eigen::MatrixXd>
+      rows;                      // (3,8) of mass, moment, bias, weight apart; (3,15) with friction
+  Eigen::MatrixXd force, field;  // (n,3) in S
 };
 
 /// Dry and viscous friction along the base's axes, dry friction along the sensor's z, (3,7).
@@ -56,9 +58,11 @@ Design design_of(const Log& log, const Sampled& rows, const Kinematics& motion,
     const Eigen::Vector3d dw = rate * rate * (R_ES.transpose() * motion.dw.row(i).transpose());
     const Eigen::Vector3d field =
         R.transpose() * ((reading.compensated ? Eigen::Vector3d(0.0, 0.0, 0.0) : g) - a);
-    Eigen::MatrixXd A(3, with_friction ? 14 : 7);
-    A.leftCols(7) << field, -cross_matrix(dw) - cross_matrix(w) * cross_matrix(w),
-        Eigen::Matrix3d::Identity();
+    Eigen::MatrixXd A(3, with_friction ? kTool + 7 : kTool);
+    const Eigen::Vector3d weight =
+        reading.weight_apart ? Eigen::Vector3d(R.transpose() * g) : Eigen::Vector3d(0.0, 0.0, 0.0);
+    A.leftCols(kTool) << field, -cross_matrix(dw) - cross_matrix(w) * cross_matrix(w),
+        Eigen::Matrix3d::Identity(), weight;
     if (with_friction && options.columns) {
       A.rightCols(7) = options.columns->row(i).reshaped(3, 7);
     } else if (with_friction) {
@@ -79,7 +83,7 @@ Design design_of(const Log& log, const Sampled& rows, const Kinematics& motion,
 }
 
 /// Weighted least squares with a faint ridge for what the motion does not show; without the tool,
-/// its four columns are held at zero.
+/// its four columns are held at zero, the mass and its moment.
 Eigen::VectorXd solve(const Design& design, const Eigen::VectorXd& weight, bool with_tool,
                       Eigen::MatrixXd& normal) {
   const Index columns = design.rows[0].cols();
@@ -93,7 +97,8 @@ Eigen::VectorXd solve(const Design& design, const Eigen::VectorXd& weight, bool 
   }
   // Moments are known to some 0.3 kg m, where an equation is good to 0.3 N.
   for (Index k = 0; k < 4; ++k) normal(k, k) += with_tool ? (k == 0 ? 1e-9 : 1.0) : 1e15;
-  for (Index k = 7; k < columns; ++k) normal(k, k) += 1e-3;
+  normal(kTool - 1, kTool - 1) += 1e-9;
+  for (Index k = kTool; k < columns; ++k) normal(k, k) += 1e-3;
   return normal.ldlt().solve(right);
 }
 
@@ -173,6 +178,7 @@ RigidFit fit_rigid(const Log& log, const Sampled& rows, const Kinematics& motion
   fit.mass = std::max(0.0, x[0]);
   fit.moment = x.segment<3>(1);
   fit.bias = x.segment<3>(4);
+  fit.weighed = x[kTool - 1];
   fit.force = std::move(design.force);
   fit.field = std::move(design.field);
   fit.covariance = fit.variance * normal.inverse().topLeftCorner(7, 7);

@@ -1,4 +1,5 @@
 #include "check/kind.h"
+#include "dcnn/core/number.h"
 
 namespace dcnn::check {
 namespace {
@@ -24,9 +25,29 @@ void compensations(const Log& log, const Reading& base, std::vector<Reading>& ou
   reading.compensated = true;
   reading.channel = "fx";
   reading.flag = "--payload KG";
+  reading.prior = 1.0 - kPartly;
   reading.words =
       "the force holds no weight: the controller has subtracted a payload, or no tool is mounted";
   out.push_back(reading);
+}
+
+/// Another mass than the tool's was subtracted: its weight and its inertia are of two masses. The
+/// inertia tells that of a motion alone.
+void partly_compensated(const Fitting& fitting, std::vector<Reading>& out) {
+  const auto& [log, rows, motion, base] = fitting;
+  if (base.compensated || rows.half == 0 || !motion.has_position) return;
+  Reading reading = base;
+  reading.harmless = !log.declared.model;
+  reading.compensated = reading.weight_apart = true;
+  reading.channel = "fx";
+  reading.prior = kPartly;
+  reading.estimated = 1;
+  const RigidFit fit = fit_rigid(log, rows, motion, reading, {0, true});
+  reading.flag = "--payload " + brief(fit.mass - fit.weighed);
+  reading.words = "the tool weighs " + brief(fit.weighed) + " kg by its weight and " +
+                  brief(fit.mass) +
+                  " kg by its inertia: the controller has subtracted another payload than the tool";
+  out.push_back(std::move(reading));
 }
 
 }  // namespace
@@ -38,6 +59,7 @@ const FaultKind compensated_fault{
     "",
     nullptr,
     compensations,
-    true};
+    true,
+    partly_compensated};
 
 }  // namespace dcnn::check
