@@ -16,7 +16,8 @@ using Eigen::Index;
 constexpr double kListed = 0.05;  // of a fault's probability; less is not worth a line
 constexpr std::size_t kReadingsListed = 8;
 
-/// What one fault does to the statistic of another: the consequence is not listed beside its cause.
+/// What one fault does to the statistic of another: the consequence is not listed beside its cause,
+/// where that is certain or the likelier one.
 const std::vector<std::pair<std::string, std::string>> kConsequences{
     {"counts", "force_unit"}, {"counts", "quantisation"},   {"wrap", "spikes"},
     {"wrap", "contact"},      {"dropouts", "spikes"},       {"dropouts", "frozen"},
@@ -29,7 +30,7 @@ void drop_consequences(std::vector<Fault>& faults) {
   const std::vector<Fault> all = faults;
   std::erase_if(faults, [&](const Fault& fault) {
     return std::any_of(all.begin(), all.end(), [&](const Fault& cause) {
-      return cause.probability >= kLikely &&
+      return cause.probability >= std::max(kLikely, std::min(fault.probability, kCertain)) &&
              std::find(kConsequences.begin(), kConsequences.end(), std::pair(cause.id, fault.id)) !=
                  kConsequences.end();
     });

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "check/rows.h"
@@ -6,30 +7,52 @@
 namespace dcnn::check {
 namespace {
 
-/// Without a clock, rows are taken as poses at rest. Samples of a motion resemble their neighbours.
+constexpr Eigen::Index kFewestOrdered = 12;
+constexpr double kDwells = 0.3;  // of the rms step
+
+double normal_density(double log_ratio, const Typical& typical) {
+  const double z = (log_ratio - elementary::log(typical.median)) / typical.below;
+  return elementary::exp(-0.5 * z * z) / typical.below;
+}
+
+/// Of von Neumann's ratio of one channel: that of a motion over that of a list of poses, most of
+/// whose channels are in no order; a few go from one end to the other.
+double motion_log_odds(double ratio) {
+  const double r = elementary::log(std::max(ratio, 1e-9));
+  const double listed = (1.0 - kSlowChannels) * normal_density(r, kOrderedRows) +
+                        kSlowChannels * normal_density(r, kOrderedSlow);
+  return elementary::log(std::max(normal_density(r, kMovingRows), 1e-300) /
+                         std::max(listed, 1e-300));
+}
+
+/// Without a clock, rows are taken as poses at rest. All channels of a motion resemble their
+/// neighbours.
 std::vector<Fault> find_moving_rows(const Evidence& e) {
-  if (e.log.t.size() > 0 || !e.log.smooth) return {};
-  double ratio = 0.0;
+  if (e.log.t.size() > 0 || e.log.rows() < kFewestOrdered) return {};
+  double log_odds = elementary::log(kFaultPrior / (1.0 - kFaultPrior));
   bool moves = false;
   for (const std::string& name : e.log.positions()) {
     const Eigen::VectorXd x = e.log.column(name), steps = steps_of(x);
     const double spread = (x.array() - x.mean()).square().sum();
     if (spread <= 0.0) continue;
-    ratio = std::max(ratio, steps.squaredNorm() / spread);
-    // Dwells with several rows each are at rest most of the time: then steps are noise.
-    moves = moves || median(steps.cwiseAbs()) > 3.0 * noise_of(x);
+    log_odds += motion_log_odds(steps.squaredNorm() / spread);
+    // Dwells with several rows each are at rest most of the time: then steps are noise, or nothing
+    // beside those from one pose to the next.
+    const double usual = median(steps.cwiseAbs());
+    moves = moves || usual > 3.0 * noise_of(x) ||
+            usual > kDwells * std::sqrt(steps.squaredNorm() / static_cast<double>(steps.size()));
   }
-  if (!moves || ratio <= 0.0) return {};
-  const double z = (elementary::log(kOrderedRows.median) - elementary::log(ratio)) / kOrderedRows.below;
-  if (z <= 0.0) return {};
-  return {fault_of(moving_rows_fault, posterior_of_p(tail(z)), "t",
-                   "there is no column t, yet the rows are samples of a motion (neighbours are alike): they are no "
-                   "list of poses at rest")};
+  if (!moves) return {};
+  const double odds = elementary::exp(std::min(log_odds, 600.0));
+  return {fault_of(moving_rows_fault, odds / (1.0 + odds), "t",
+                   "there is no column t, yet the rows are samples of a motion (neighbours are "
+                   "alike): they are no list of poses at rest")};
 }
 
 }  // namespace
 
-const FaultKind moving_rows_fault{"moving_rows", true, "add a column t in seconds: row number times the sampling interval", "",
-                                  find_moving_rows};
+const FaultKind moving_rows_fault{
+    "moving_rows", true, "add a column t in seconds: row number times the sampling interval", "",
+    find_moving_rows};
 
 }  // namespace dcnn::check

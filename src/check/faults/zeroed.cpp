@@ -1,22 +1,52 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "check/rows.h"
+#include "core/elementary.h"
 
 namespace dcnn::check {
 namespace {
 
 constexpr Eigen::Index kFirstRows = 10;
 
+/// A sensor that was zeroed before the recording, in whatever pose, has an offset of the size of
+/// the tool's weight: |b| = m g, within what the fit tells of both. Against offsets of any size,
+/// whose median is kOffset.
+std::vector<Fault> find_zeroed_before(const Evidence& e) {
+  const Adopted& a = e.adopted;
+  const double g = e.log.declared.model ? e.log.declared.model->gravity.norm() : 9.81;
+  const double offset = a.fit.bias.norm();
+  if (offset <= 0.0) return {};
+  Eigen::Matrix<double, 7, 1> slope = Eigen::Matrix<double, 7, 1>::Zero();
+  slope[0] = -g;
+  slope.tail<3>() = a.fit.bias / offset;
+  const RigidFit fit = fit_rigid(e.log, a.rows, a.motion, a.reading, {0, true});
+  // What physics beyond the tool leaves is alike for seconds.
+  const double scale = static_cast<double>(fit.residual.size()) /
+                       std::min(kMostIndependent, independent_of(fit.residual));
+  const double variance = std::max(1.0, scale) * slope.dot(fit.covariance * slope);
+  const double off = fit.bias.norm() - g * fit.mass;
+  if (!(variance > 0.0)) return {};
+  const double density =
+      elementary::exp(-0.5 * off * off / variance) / std::sqrt(2.0 * std::numbers::pi * variance);
+  // Log-normal sizes of offsets, per newton.
+  const double spread = offset < kOffset.median ? kOffset.below : kOffset.above;
+  const double any = elementary::exp(plausibility(offset, kOffset)) /
+                     (std::sqrt(2.0 * std::numbers::pi) * spread * offset);
+  const double odds = kZeroedBefore / (1.0 - kZeroedBefore) * density / any;
+  return {fault_of(zeroed_fault, odds / (1.0 + odds), "fx",
+                   "the offset of " + brief(fit.bias.norm()) +
+                       " N is as large as the tool's weight: the sensor was zeroed in another pose "
+                       "before, its offset is this recording's own")};
+}
+
 /// The first rows of a sensor that is zeroed when the recording begins read nothing but noise,
 /// though the tool has a weight. By chance so near to zero: the share of the ball that the force is
 /// in.
-std::vector<Fault> find_zeroed(const Evidence& e) {
+std::vector<Fault> find_zeroed_first(const Evidence& e) {
   const Adopted& a = e.adopted;
-  // A force without its weight begins near zero anyway.
-  if (e.log.declared.read.payload.mass > 0.0) return {};
-  if (!a.compared || !e.log.smooth || e.log.rows() < 10 * kFirstRows || a.fit.mass <= 0.0)
-    return {};
+  if (!e.log.smooth || e.log.rows() < 10 * kFirstRows) return {};
   const Eigen::MatrixXd F = e.log.block({"fx", "fy", "fz"});
   const Eigen::Vector3d first = F.topRows(kFirstRows).colwise().mean();
   double noise = 0.0;
@@ -34,10 +64,19 @@ std::vector<Fault> find_zeroed(const Evidence& e) {
                    "): the sensor was zeroed at the start, its offset is this recording's own")};
 }
 
+std::vector<Fault> find_zeroed(const Evidence& e) {
+  // A force without its weight begins near zero anyway.
+  const bool weightless = e.log.declared.read.payload.mass > 0.0 || e.adopted.reading.compensated;
+  if (weightless || !e.adopted.compared || e.adopted.fit.mass <= 0.0) return {};
+  const std::vector<Fault> first = find_zeroed_first(e);
+  return first.empty() ? find_zeroed_before(e) : first;
+}
+
 }  // namespace
 
-const FaultKind zeroed_fault{
-    "zeroed", false, "do not carry the offset from one recording to another; dcnn-diagnose --zeroed estimates one for each",
-    "", find_zeroed};
+const FaultKind zeroed_fault{"zeroed", false,
+                             "do not carry the offset from one recording to another; dcnn-diagnose "
+                             "--zeroed estimates one for each",
+                             "", find_zeroed};
 
 }  // namespace dcnn::check
