@@ -56,7 +56,8 @@ ForcePairs load(const Input& input, const ReadOptions& read, bool with_bias) {
                       *input.mass_kg);
 }
 
-/// Signs, axes and the mounting are what a calibration finds itself.
+/// Signs, axes and the mounting are what a calibration finds itself; not a force that is in another
+/// frame than the sensor's in every pose, or without the weight.
 void check_recordings(const Tool& tool, const Doctor& doctor, const Input& input,
                       const ReadOptions& read) {
   CheckRequest logs{{}, read, "", ""};
@@ -64,8 +65,8 @@ void check_recordings(const Tool& tool, const Doctor& doctor, const Input& input
     if (!path.empty()) logs.logs.push_back(path);
   }
   doctor.examine(tool, logs,
-                 {"reaction", "force_sign", "force_axes", "mounting", "base_frame", "inverse_pose",
-                  "angle_sign", "euler_order", "compensated", "force_unit"});
+                 {"reaction", "force_sign", "force_axes", "mounting", "inverse_pose", "angle_sign",
+                  "euler_order", "force_unit"});
 }
 
 /// Whether a file holds an earlier answer: it is replaced, for it is made again in no time.

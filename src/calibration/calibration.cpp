@@ -12,9 +12,10 @@ using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
 constexpr double kDegenerate = 1e-3, kMirrored = 0.05;  // shares of the largest singular value
+constexpr double kLeastExplained = 0.5;  // of the sensor's power, by a turn and any gain
 constexpr double kGainTolerance = 0.02;
 constexpr double kOtherMounting = 20.0 * M_PI / 180.0;  // no assembly tolerance
-constexpr double kRounding = 1e-9;  // of the force: sums of squares in double
+constexpr double kRounding = 1e-9;                      // of the force: sums of squares in double
 constexpr double kClearF = 20.0;  // by chance in less than 2 of 1000 sets of four pairs
 
 std::string text(const char* format, double a, double b = 0, double c = 0) {
@@ -92,6 +93,17 @@ Matrix3d best_rotation(const Matrix3d& H, const ForcePairs& pairs,
   return nearest_rotation(svd);
 }
 
+/// Of the power of s, a turn and a gain explain (sum w r R s)^2 / (sum w |s|^2 sum w |r|^2).
+void require_explained(const ForcePairs& pairs, double product, double sensor, double reference) {
+  const double share = product * product / (sensor * reference);
+  require(share >= kLeastExplained, Exit::kData, pairs.name, ": ",
+          text("the reference explains only %.0f %% of the measured force, however the sensor is "
+               "turned",
+               100.0 * share),
+          "; was a payload subtracted, is the force in the base's frame, or was the tool touched? "
+          "record raw forces of the sensor with the payload set to 0 kg");
+}
+
 void compare_with_nominal(const ForcePairs& pairs, const CalibrationOptions& options,
                           Calibration& result) {
   const Matrix3d& nominal = *options.nominal;
@@ -149,6 +161,9 @@ Calibration calibrate(const ForcePairs& pairs, const CalibrationOptions& options
   const double energy = weighted.cwiseProduct(s).sum();
   result.gain = (result.R_ES * H).trace() / energy;
   result.offset = r_mean.transpose() - result.R_ES * s_mean.transpose();
+
+  require_explained(pairs, (result.R_ES * H).trace(), energy,
+                    pairs.weights.dot(r.rowwise().squaredNorm()));
 
   const double chi2 = chi_squared(s, r, pairs.weights, result.R_ES);
   result.residual_rms = std::sqrt(chi2 / (3.0 * pairs.weights.sum()));

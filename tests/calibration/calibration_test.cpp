@@ -162,6 +162,17 @@ TEST(Calibration, AFileThatIsNoRotationIsRefused) {
   EXPECT_TRUE(contains(error_of([&] { read_calibration(bad); }, Exit::kData), "not a rotation"));
 }
 
+// A controller has subtracted the weight: what is left follows the reference in no mounting.
+TEST(Calibration, ForcesThatDoNotFollowTheReferenceAreRefused) {
+  ForcePairs pairs = random_pairs(24, 0.0);
+  Rng rng(11);
+  for (double& value : pairs.sensor.reshaped()) value = 0.02 * rng.normal();
+  EXPECT_TRUE(contains(error_of([&] { calibrate(pairs, {}); }, Exit::kData), "explains only"));
+  EXPECT_TRUE(
+      contains(error_of([&] { calibrate(pairs, {.with_bias = true, .nominal = {}}); }, Exit::kData),
+               "payload"));
+}
+
 /// 24 poses of a real ATI Gamma sensor on a KUKA LBR Med (see docs/use/calibrate.md).
 TEST(Calibration, RealStaticPosesAreFittedToATenthOfANewton) {
   const auto path = testing::shared("data/ntnu_wrist/static_24_poses.csv");
