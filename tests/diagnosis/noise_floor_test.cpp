@@ -126,28 +126,6 @@ TEST(NoiseFloor, TakesNoErrorOfALawForNoiseWhereTheLevelSteps) {
   EXPECT_NEAR(floor.deviation(), 1.0, 0.05);
 }
 
-// A sensor whose noise is thirty times as loud while it moves as while it stops, half a second each,
-// beside an offset and a slow error of the law of a thousand times the noise: neither is noise.
-TEST(NoiseFloor, TakesNoErrorOfALawForNoiseWhereTheLevelSteps) {
-  const Case study = recordings_of(2);
-  constexpr double kLoud = 30.0, kOffset = 1000.0, kSlowHz = 0.2;
-  constexpr Index kStop = 125;  // rows
-  Rng rng(7);
-  Signals residual = noise_of(2, 0.0, rng);
-  const double unit = std::sqrt(0.5 * (1.0 + kLoud * kLoud));  // levels have an rms of 1
-  Signals levels = ones(2);
-  for (std::size_t k = 0; k < residual.size(); ++k) {
-    for (Index i = 0; i < kRows; ++i) {
-      levels[k](i, 0) = (i / kStop % 2 == 0 ? 1.0 : kLoud) / unit;
-      residual[k](i, 0) *= levels[k](i, 0);
-      const double phase = 2.0 * std::numbers::pi * kSlowHz * kDt * static_cast<double>(i);
-      residual[k](i, 0) += kOffset * (1.0 + std::sin(phase));
-    }
-  }
-  const Floor floor = noise_floor(study, residual, levels).front();
-  EXPECT_NEAR(floor.deviation(), 1.0, 0.05);
-}
-
 TEST(NoiseFloor, ExceedsWhatIsLeftOnlyWhereItDoes) {
   const Case study = recordings_of(4);
   int falsely = 0, rightly = 0;
