@@ -122,7 +122,7 @@ class Importer {
       tool_.note("  note: --urdf is not used: the log has an orientation of its own");
     }
     if (request_.logs.size() > 1 && !request_.join && proposal_.recipe.columns.empty()) {
-      proposal_.questions.push_back(
+      proposal_.questions.emplace_back(
           "of several logs each is a recording: say --join where they are parts of one");
     }
     if (!request_.dry_run) demand_answers(proposal_, request_.assume, log.file);
