@@ -90,8 +90,8 @@ std::string how_to_name(const ForeignLog& log) {
     if (moving.size() < 2) return begin;
     maps = map_of("q:1", moving.front()) + map_of("tau:1", moving.back());
   }
-  return begin + "; such as: dcnn-import " + quoted_argument(log.file) + maps +
-         (clock.empty() ? " --rate HZ" : " --clock " + quoted_argument(clock)) +
+  return begin + "; such as, beside what was given: dcnn-import " + quoted_argument(log.file) +
+         maps + (clock.empty() ? " --rate HZ" : " --clock " + quoted_argument(clock)) +
          " --out imported (q, qd, tau: an arm's joints; fx, tx, x, qw: a wrench and its pose)";
 }
 

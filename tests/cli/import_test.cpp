@@ -107,7 +107,8 @@ TEST(ImportTool, SaysHowToNameTheChannelsOfAnAxis) {
   const std::vector<std::string> named{log, "--columns", "time_ms", "a", "b"};
   auto dry = named;
   dry.push_back("--dry-run");
-  EXPECT_NE(run("import", dry).out.find("--map q:1=CHANNEL"), std::string::npos);
+  EXPECT_NE(run("import", dry).out.find("--map q:1=a --map tau:1=b --clock time_ms"),
+            std::string::npos);
   auto said = named;
   said.insert(said.end(), {"--clock", "time_ms", "--clock-unit", "ms", "--map", "q:1=a", "--map",
                            "tau:1=b", "--out", (folder / "out").string()});
