@@ -35,7 +35,7 @@ TEST(CheckTool, NamesTheFaultAndWritesItsPage) {
   EXPECT_EQ(read_json(folder / "check/check.json", Exit::kData)["faults"].size(),
             json["faults"].size());
   const std::string page = read_file(folder / "check/check.html", 1 << 24, Exit::kData);
-  EXPECT_TRUE(contains(page, "position_unit") && contains(page, "<svg"));
+  EXPECT_TRUE(contains(page, "--position-unit mm") && contains(page, "<svg"));
   test::expect_usable_page(page);
 }
 
