@@ -13,53 +13,17 @@
 #include "dcnn/core/options.h"
 #include "dcnn/core/parallel.h"
 #include "dcnn/experiment/provenance.h"
+#include "support/fail_line.h"
 #include "support/usage_fault.h"
 
 namespace dcnn {
-namespace {
-
-int fail_line(const std::string& program, const std::string& message, Exit exit) {
-  constexpr std::size_t kMostBytes = 2000;  // a message may quote a whole document
-  std::string line = message;
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  std::cerr << program << ": " << excerpt(line, kMostBytes) << std::endl;
-  return static_cast<int>(exit);
-}
-
-/// One line for the exception that is being handled; the exit code.
-int tell_exception(const std::string& program) {
-  try {
-    throw;
-  } catch (const Error& error) {
-    return fail_line(program, error.what(), error.exit());
-  } catch (const std::filesystem::filesystem_error& error) {
-    return fail_line(program, error.path1().string() + ": " + error.code().message(),
-                     Exit::kFailure);
-  } catch (const std::bad_alloc&) {
-    return fail_line(program, "out of memory", Exit::kFailure);
-  } catch (const std::exception& error) {
-    return fail_line(program, std::string("internal error: ") + error.what(), Exit::kFailure);
-  }
-}
-
-std::string program_of_terminate;
-
-/// What is thrown outside Tool::run(), such as where the table of options is made.
-[[noreturn]] void fail_in_one_line() {
-  if (!std::current_exception()) std::abort();
-  std::_Exit(tell_exception(program_of_terminate));
-}
-
-}  // namespace
 
 Tool::Tool(const std::string& name, const std::string& summary, const std::string& examples)
     : name_(name),
       summary_(summary),
       examples_(examples),
       app_(std::make_unique<CLI::App>(summary, name)) {
-  program_of_terminate = name;
-  std::set_terminate(fail_in_one_line);
+  fail_in_one_line(name);
   app_->set_help_flag();
   app_->allow_extras();  // so that a mistyped option is named before what is missing without it
 }
