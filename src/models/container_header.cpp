@@ -144,11 +144,10 @@ void check_tiling(const ContainerHeader& header, std::uint64_t data_bytes,
 }  // namespace
 
 std::string quoted(const std::string& text) {
-  try {
-    return Json(text).dump();
-  } catch (const Json::exception&) {
-    fail(Exit::kFailure, "cannot write a model file: a name or description in it is not UTF-8");
-  }
+  std::string dumped = Json(text).dump();  // with U+FFFD for what is no UTF-8
+  require(Json::parse(dumped) == text, Exit::kFailure,
+          "cannot write a model file: a name or description in it is not UTF-8");
+  return dumped;
 }
 
 void reject_model(const std::string& where, const std::string& fault) {
