@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <map>
 #include <mutex>
 #include <set>
 #include <vector>
@@ -22,7 +23,8 @@ namespace fs = std::filesystem;
 
 struct Claims {
   std::mutex mutex;
-  std::set<fs::path> files, ours;
+  std::map<fs::path, bool (*)(const fs::path&)> files;
+  std::set<fs::path> ours;
   std::vector<std::pair<fs::path, std::string>> patterns;  // of a folder
 };
 
@@ -40,11 +42,11 @@ fs::path one_name(const fs::path& path) {
 
 }  // namespace
 
-void claim_new(const fs::path& path) {
+void claim_new(const fs::path& path, bool (*own)(const fs::path&)) {
   const Target target = target_of(path);
   if (target.descriptor >= 0) return;
   const std::lock_guard lock(claims().mutex);
-  claims().files.insert(one_name(target.file));
+  claims().files.insert_or_assign(one_name(target.file), own);
 }
 
 void claim_new(const fs::path& folder, const std::string& pattern) {
@@ -57,7 +59,9 @@ bool must_be_new(const fs::path& file) {
   if (claims().files.empty() && claims().patterns.empty()) return false;
   const fs::path path = one_name(file);
   if (claims().ours.count(path) != 0) return false;
-  if (claims().files.count(path) != 0) return true;
+  if (const auto claim = claims().files.find(path); claim != claims().files.end()) {
+    return claim->second == nullptr || !fs::exists(file) || !claim->second(file);
+  }
   for (const auto& [folder, pattern] : claims().patterns) {
     if (folder == path.parent_path() &&
         ::fnmatch(pattern.c_str(), path.filename().c_str(), 0) == 0) {

@@ -58,9 +58,12 @@ void replace_file(const fs::path& path, std::string_view bytes) {
   check_call(written, Exit::kFailure, path, "cannot write");
   try {
     const bool is_new = must_be_new(path);
-    const bool renamed =
-        is_new ? rename_new(temporary, path) : ::rename(temporary.c_str(), path.c_str()) == 0;
-    if (!renamed && is_new && errno == EEXIST) keep_both(temporary, path);
+    bool renamed = is_new && rename_new(temporary, path);
+    if (!renamed && is_new) {
+      check_call(errno == EEXIST, Exit::kFailure, path, "cannot replace");
+      if (must_be_new(path)) keep_both(temporary, path);  // else what came may be replaced
+    }
+    if (!renamed) renamed = ::rename(temporary.c_str(), path.c_str()) == 0;
     check_call(renamed, Exit::kFailure, path, "cannot replace");
     is_ours(path);
   } catch (const Error&) {

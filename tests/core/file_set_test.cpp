@@ -204,6 +204,19 @@ TEST(Claims, OfNewNamesReplaceNothingAndKeepBoth) {
   EXPECT_EQ(test::slurp(folder / "a.csv"), "again: it is ours");
 }
 
+TEST(Claims, OfResultsThatMayBeReplacedHoldAgainstOthersAlone) {
+  const test::TemporaryFolder folder;
+  const auto is_short = +[](const fs::path& file) { return fs::file_size(file) < 10; };
+  claim_new(folder / "a", is_short);
+  claim_new(folder / "b", is_short);
+  std::ofstream(folder / "a") << "made";
+  std::ofstream(folder / "b") << "somebody's own text";
+  write_file(folder / "a", "made again");
+  EXPECT_EQ(test::slurp(folder / "a"), "made again");
+  EXPECT_NE(error_of([&] { write_file(folder / "b", "made"); }).find("is kept"), std::string::npos);
+  EXPECT_EQ(test::slurp(folder / "b"), "somebody's own text");
+}
+
 TEST(NameLock, IsHeldByOneAtATimeAndLeavesNothing) {
   const test::TemporaryFolder folder;
   {

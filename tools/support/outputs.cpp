@@ -142,7 +142,7 @@ void Outputs::claim_file(const Output::Rule& rule, bool keep) {
   expect_writable(folder);
   sweep_temporaries(folder.empty() ? Path(".") : folder, path.filename());
   if (!existing) {
-    if (keep) claim_new(path);
+    if (keep) claim_new(path, rule.own);
     return;
   }
   refuse_input(*existing);

@@ -10,8 +10,9 @@
 namespace dcnn {
 
 /// Nothing was at `path`: the first write_file() of it makes a file and replaces none that somebody
-/// else has made since.
-void claim_new(const std::filesystem::path& path);
+/// else has made since, but those of which `own` says that they may be.
+void claim_new(const std::filesystem::path& path,
+               bool (*own)(const std::filesystem::path&) = nullptr);
 /// The same for all files of a folder whose names match `pattern` (with *, ? and [ ]).
 void claim_new(const std::filesystem::path& folder, const std::string& pattern);
 
