@@ -44,6 +44,26 @@ TEST(CleanLogs, MillisecondsAreStillFound) {
   EXPECT_EQ(report.stopping({})->id, "clock_unit");
 }
 
+// A robot that turns its wrist about one point: columns that never vary are in no order.
+TEST(CleanLogs, PosesAboutOnePointAreNoMotion) {
+  Table table{{"x", "y", "z", "alpha", "beta", "gamma", "fx", "fy", "fz"}, Eigen::MatrixXd(50, 9)};
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, 0.02);
+  std::uniform_real_distribution<double> angle(-1.0, 1.0);
+  for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+    const Eigen::Vector3d angles(angle(random), angle(random), angle(random));
+    const Eigen::Vector3d force =
+        rotation_from_euler(angles).transpose() * Eigen::Vector3d(0.0, 0.0, -9.81);
+    table.values.row(i) << 0.37, 0.5, -0.69, angles.transpose(), force[0] + noise(random),
+        force[1] + noise(random), force[2] + noise(random);
+  }
+  check::Declared declared;
+  declared.model = ToolModel();
+  declared.model->mass = 1.0;
+  const check::Report report = check::check(check::make_log("poses.csv", table, declared));
+  EXPECT_TRUE(report.faults.empty()) << check::to_text(report);
+}
+
 // A list of poses without a clock, several rows of each: nothing is held at a rate.
 TEST(CleanLogs, RowsOfOnePoseAfterAnotherAreNotHeld) {
   constexpr Eigen::Index kPoses = 200, kRowsEach = 5;
