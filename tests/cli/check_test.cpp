@@ -56,6 +56,21 @@ TEST(CheckTool, ACertainFaultStopsATrainingUnlessItIsAccepted) {
   EXPECT_EQ(with({"--position-unit", "mm"}).exit_code, 0);
 }
 
+TEST(CheckTool, AMountingThatNobodyDeclaredIsLearnedInSilence) {
+  const test::TemporaryFolder folder;
+  make_log(folder, "mounting");
+  const std::string log = (folder / "log.csv").string(), sim = (folder / "sim.json").string();
+  const auto trained = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--preset", "quick", "--epochs", "1", "--train", log});
+    const auto result = run("train", more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.err;
+  };
+  EXPECT_FALSE(contains(trained({"--model", "rigid", "--out", folder / "rigid.dcnn"}), "mounting"));
+  EXPECT_TRUE(contains(trained({"--model", "mlp", "--base", sim, "--out", folder / "mlp.dcnn"}),
+                       "likely: log.csv: mounting"));
+}
+
 TEST(CheckTool, ForcesInTheBaseFrameAreNotIdentifiedInSilence) {
   const test::TemporaryFolder folder;
   make_log(folder, "base_frame");
