@@ -9,6 +9,7 @@
 #include "diagnosis/evidence/marginal.h"
 #include "diagnosis/evidence/posterior.h"
 #include "diagnosis/evidence/priors.h"
+#include "diagnosis/exchanges.h"
 
 namespace dcnn {
 namespace {
@@ -142,8 +143,10 @@ std::vector<double> masses_of(const Search& search, const std::vector<Alternativ
 
 std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldOut& holdout) {
   constexpr int kMostRounds = 6;  // a limit of computation: each round searches all places again
+  Exchanges exchanges;
   for (int round = 0;; ++round) {
     auto alternatives = search.alternatives();
+    exchanges.make_symmetric(search.fit().members, alternatives);
     add_support(search, holdout, alternatives);
     double most = 0.0;
     const Alternative* best = nullptr;
@@ -163,6 +166,7 @@ std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldO
     }
     const std::vector<Member> before = search.fit().members;
     const bool remained = search.remains();
+    exchanges.made(before, *best);
     search.adopt(best->members);
     if (remained || !search.remains()) continue;
     search.adopt(before);  // the likelier one leaves what no noise explains
@@ -186,11 +190,11 @@ double together(const Search& search, const HoldOut& holdout) {
                         holdout.prediction(fit.members, fit.base), none);
 }
 
-/// Probability of a machine's names beside the scale of its simulator in their place: names that
-/// predict what was held out no better than that are none. (A tool's simulator has thirteen
-/// numbers, which follow slow laws that begin anyhow.)
+/// Probability of names beside other numbers of the simulator in their place, a machine's scale or
+/// a tool's mass and centre of mass: names that predict what was held out no better than that are
+/// none. (In motion a tool's thirteen numbers follow slow laws that begin anyhow.)
 double beside_own_numbers(const Search& search, const HoldOut& holdout) {
-  if (!search.study().axis) return 1.0;
+  if (!search.study().axis && !search.study().is_static()) return 1.0;
   const std::vector<Member> numbers = own_parameters(search.study());
   const std::vector<Member>& members = search.fit().members;
   const bool has_all = std::all_of(numbers.begin(), numbers.end(), [&](const Member& own) {

@@ -16,8 +16,9 @@ constexpr double kUnit =
 // effect that is alone: chi-square that noise exceeds in 3 of a million trials (21.8, 25.4, 28.5,
 // 31.1 for 1 to 4). Beside others, which may be a little wrong, each number must pay its price.
 constexpr double kNone = 1.2, kFirst = 1.0, kFurtherAlone = 0.35;
-// On a machine, where a price is a share of what is left, laws are only nearly true.
-constexpr double kNoneOfMachine = 3.0;
+// On a machine, where a price is a share of what is left, laws are only nearly true; and held-out
+// data decide.
+constexpr double kNoneOfMachine = 2.0;
 
 /// Amplitudes an effect cannot have without being another one.
 bool is_itself(const Case& study, const Member& member) {

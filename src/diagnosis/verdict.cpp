@@ -175,6 +175,7 @@ void Search::judge() {
     forget_places();
     if (rest.size() < fit_.members.size()) {
       settle(rest);
+      begin_again();
       explore();
     }
   }

@@ -220,5 +220,36 @@ TEST(PositionBins, OfNoMotionAreNone) {
   EXPECT_EQ(PositionBins(0.4, 0.4, 0.0).size(), 1);
 }
 
+/// A motor's voltage in proportion to acceleration and speed, and a bend of that line which is a
+/// seventh of what is left beside them; 60 s at 50 Hz.
+Table bent(std::uint64_t seed) {
+  constexpr double kRowSeconds = 0.02, kBend = 0.67, kNoise = 0.05;
+  Rng rng({seed});
+  Table table;
+  table.columns = {"t", "q", "dq", "current"};
+  table.values.resize(3000, 4);
+  for (Index k = 0; k < table.values.rows(); ++k) {
+    const double t = static_cast<double>(k) * kRowSeconds;
+    const double w[3] = {kTurn * 0.11, kTurn * 0.27, kTurn * 0.53};
+    double q = 0.0, v = 0.0, a = 0.0;
+    for (const double each : w) {
+      q -= std::cos(each * t + each) / each;
+      v += std::sin(each * t + each), a += each * std::cos(each * t + each);
+    }
+    // v |v| less its line: the odd shape that base coefficients do not take.
+    table.values.row(k) << t, q, v,
+        0.3 * a + 0.5 * v + kBend * kNoise * (v * std::abs(v) - 1.9 * v) + kNoise * rng.normal();
+  }
+  return table;
+}
+
+TEST(RestAndTurns, ALawThatTakesOffASeventhOfWhatIsLeftIsNamed) {
+  const Machine machine(axis_with({{"base", Json::array({"acceleration", "velocity"})}}), bent(1),
+                        bent(2));
+  const auto names = effects_in(diagnose(machine.request(), nullptr).report);
+  ASSERT_FALSE(names.empty());
+  EXPECT_EQ(names.front(), "quadratic_drag");
+}
+
 }  // namespace
 }  // namespace dcnn
