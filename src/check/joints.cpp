@@ -134,8 +134,8 @@ double angles_weight(const Log& log, const Sampled& rows, const Reading& reading
   for (const Joint& joint : log.joints) {
     if (!joint.turns || joint.position.empty()) continue;
     const VectorXd q = log.column(joint.position);
+    if (!varies(q) || turns_endlessly(q)) continue;
     const double size = rms_of(q.array() - q.mean());
-    if (size <= 0.0 || turns_endlessly(q)) continue;
     limb += plausibility(reading.angle * size, kTurn);
     drive += plausibility(reading.angle * size, kDriveTurn) +
              elementary::log(kTurn.above / kDriveTurn.above);

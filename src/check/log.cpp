@@ -66,8 +66,8 @@ double neighbours_ratio(const Log& log) {
   std::vector<double> ratios;
   for (const std::string& name : log.positions()) {
     const Eigen::VectorXd x = log.column(name);
+    if (!varies(x)) continue;
     const double spread = (x.array() - x.mean()).square().sum();
-    if (spread <= 0.0) continue;
     // Angles and quaternions may jump by a turn or a sign: the few largest steps are left out.
     Eigen::VectorXd steps = steps_of(x).cwiseAbs2();
     std::sort(steps.begin(), steps.end());

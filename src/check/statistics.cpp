@@ -13,6 +13,10 @@ double median(const Eigen::VectorXd& values) {
   return values.size() == 0 ? 0.0 : dcnn::median({values.begin(), values.end()});
 }
 
+bool varies(const Eigen::VectorXd& values) {
+  return values.size() > 0 && values.maxCoeff() > values.minCoeff();
+}
+
 double robust_deviation(const Eigen::VectorXd& values) {
   return kDeviationOfMedian * median((values.array() - median(values)).abs());
 }

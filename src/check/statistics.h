@@ -9,6 +9,8 @@
 namespace dcnn::check {
 
 double median(const Eigen::VectorXd& values);  ///< 0 for none
+/// Not one value throughout, of which the mean differs by rounding.
+bool varies(const Eigen::VectorXd& values);
 /// Standard deviation of normal values by their median absolute deviation.
 double robust_deviation(const Eigen::VectorXd& values);
 /// Of white noise, from second differences, in which a slow signal cancels.

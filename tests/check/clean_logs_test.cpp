@@ -60,7 +60,9 @@ TEST(CleanLogs, PosesAboutOnePointAreNoMotion) {
   check::Declared declared;
   declared.model = ToolModel();
   declared.model->mass = 1.0;
-  const check::Report report = check::check(check::make_log("poses.csv", table, declared));
+  const check::Log log = check::make_log("poses.csv", table, declared);
+  EXPECT_FALSE(log.smooth);
+  const check::Report report = check::check(log);
   EXPECT_TRUE(report.faults.empty()) << check::to_text(report);
 }
 

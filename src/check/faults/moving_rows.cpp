@@ -33,7 +33,7 @@ std::vector<Fault> find_moving_rows(const Evidence& e) {
   bool moves = false;
   for (const std::string& name : e.log.positions()) {
     const Eigen::VectorXd x = e.log.column(name), steps = steps_of(x);
-    if (x.maxCoeff() == x.minCoeff()) continue;  // poses about one point: it says nothing
+    if (!varies(x)) continue;
     const double spread = (x.array() - x.mean()).square().sum();
     log_odds += motion_log_odds(steps.squaredNorm() / spread);
     // Dwells with several rows each are at rest most of the time: then steps are noise, or nothing
