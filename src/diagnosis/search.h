@@ -192,12 +192,6 @@ class Search {
   /// one effect takes, so that a search among laws none of which fits ends too.
   static constexpr double kMostPasses = 50'000.0;
   bool is_spent() const { return passes() - begun_ >= kMostPasses; }
-  /// Without names that were taken back the search goes on, for half as long at least: what they
-  /// had stood for is still to be found.
-  void begin_again() {
-    ended_early_ = ended_early_ || is_spent();
-    begun_ = std::max(begun_, passes() - 0.5 * kMostPasses);
-  }
 
   Case study_;
   std::vector<Case>

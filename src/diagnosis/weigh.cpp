@@ -91,7 +91,6 @@ void Search::leave_out(const std::vector<std::size_t>& members) {
 
 bool Search::look_again() {
   const auto before = places_of(fit_.members);
-  begin_again();
   explore();
   conclude();
   return places_of(fit_.members) != before;
