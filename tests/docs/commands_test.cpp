@@ -120,7 +120,7 @@ class Clone {
         "cd '" + folder_.path().string() +
         "' && env OMP_WAIT_POLICY=passive PATH=" DCNN_BIN_DIR ":$PATH CPATH=" DCNN_SOURCE_DIR
         "/include LIBRARY_PATH=" DCNN_BINARY_DIR "/lib LD_LIBRARY_PATH=" DCNN_BINARY_DIR
-        "/lib timeout 120 bash command > printed 2>&1";
+        "/lib timeout 400 bash command > printed 2>&1";
     if (std::system(line.c_str()) == 0) return testing::AssertionSuccess();
     return testing::AssertionFailure() << test::slurp(folder_ / "printed");
   }
