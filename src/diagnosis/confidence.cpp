@@ -190,11 +190,11 @@ double together(const Search& search, const HoldOut& holdout) {
                         holdout.prediction(fit.members, fit.base), none);
 }
 
-/// Probability of names beside other numbers of the simulator in their place, a machine's scale or
-/// a tool's mass and centre of mass: names that predict what was held out no better than that are
-/// none. (In motion a tool's thirteen numbers follow slow laws that begin anyhow.)
+/// Probability of a machine's names beside the scale of its simulator in their place: names that
+/// predict what was held out no better than that are none. (A tool's simulator has thirteen
+/// numbers, which are names themselves and follow slow laws that begin anyhow.)
 double beside_own_numbers(const Search& search, const HoldOut& holdout) {
-  if (!search.study().axis && !search.study().is_static()) return 1.0;
+  if (!search.study().axis) return 1.0;
   const std::vector<Member> numbers = own_parameters(search.study());
   const std::vector<Member>& members = search.fit().members;
   const bool has_all = std::all_of(numbers.begin(), numbers.end(), [&](const Member& own) {
