@@ -61,15 +61,18 @@ void check_encoding(std::string_view line, const std::string& place) {
   require(is_utf8(line), Exit::kData, place, ": is not UTF-8 text; save as UTF-8");
 }
 
+// Other dialects of text are read by dcnn-import.
+constexpr const char* kToImport = "; dcnn-import makes a recording of such a text";
+
 void check_separator(std::string_view line, const std::string& place) {
   const bool comma = contains(line, ",");
-  require(comma || !contains(line, ";"), Exit::kData, place,
-          ": columns are separated by ';'; separate them by ',' and write decimals with '.'");
-  require(comma || !contains(line, "\t"), Exit::kData, place,
-          ": columns are separated by tabs; separate them by ','");
+  require(comma || !contains(line, ";"), Exit::kData, place, ": columns are separated by ';'",
+          kToImport);
+  require(comma || !contains(line, "\t"), Exit::kData, place, ": columns are separated by tabs",
+          kToImport);
   require(comma || !contains(trimmed(line), " "), Exit::kData, place,
-          ": columns are separated by spaces; separate them by ','");
-  require(!contains(line, "\""), Exit::kData, place, ": quotes are not accepted; remove them");
+          ": columns are separated by spaces", kToImport);
+  require(!contains(line, "\""), Exit::kData, place, ": quotes are not accepted", kToImport);
   require(!contains(line, "\r"), Exit::kData, place,
           ": carriage return inside the line; end lines with \\n or \\r\\n");
 }
@@ -97,7 +100,8 @@ std::vector<std::string> parse_header(std::string_view line, const std::string& 
     names.emplace_back(name);
   }
   require(!numbers, Exit::kData, place,
-          ": there is no header row, only numbers; put the column names in the first line");
+          ": there is no header row, only numbers; put the column names in the first line, or give "
+          "them to dcnn-import --columns");
   return names;
 }
 
@@ -107,10 +111,9 @@ std::string fault_of(std::string_view cell) {
   if (text.empty()) return "is empty; write a number or remove the row";
   const std::string found = ": " + shown(text);
   if (contains(text, std::string_view("\0", 1))) return "contains a NUL byte; the file is damaged";
-  if (contains(text, "\"") || contains(text, "'"))
-    return "is quoted" + found + "; remove the quotes";
-  if (contains(text, ";")) return "contains ';'" + found + "; separate columns by ','";
-  if (contains(text, "\t")) return "contains a tab" + found + "; separate columns by ','";
+  if (contains(text, "\"") || contains(text, "'")) return "is quoted" + found + kToImport;
+  if (contains(text, ";")) return "contains ';'" + found + kToImport;
+  if (contains(text, "\t")) return "contains a tab" + found + kToImport;
   double value = 0.0;
   const std::string_view digits =
       text[0] == '+' && text.substr(0, 2) != "+-" ? text.substr(1) : text;
@@ -216,7 +219,8 @@ class Rows {
     const bool commas = count == 2 * wanted || count == 2 * wanted - 1;  // t may be a whole number
     fail(Exit::kData, reader_.place(), ": ", count, " cells where the header has ", wanted,
          " columns",
-         commas ? "; decimal commas? write decimals with '.'" : "; repair or remove this row");
+         commas ? "; decimal commas? write decimals with '.', or read the log with dcnn-import"
+                : "; repair or remove this row");
   }
   [[noreturn]] void fail_ragged(std::string_view line) const {
     check_count(line);
