@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "check/statistics.h"
+#include "data/near_names.h"
 
 namespace dcnn::check {
 namespace {
@@ -59,6 +60,18 @@ std::vector<Joint> recognised_joints(const Log& log) {
   }
   add_named_joints(log, joints);
   return joints;
+}
+
+/// Columns of joints have names of their own: q_x is no qx of a quaternion.
+Names columns_without_joints(const Log& log) {
+  Names columns;
+  for (const std::string& column : log.table.columns) {
+    const bool joint = std::any_of(log.joints.begin(), log.joints.end(), [&](const Joint& one) {
+      return column == one.position || column == one.velocity || column == one.measured;
+    });
+    if (!joint) columns.push_back(column);
+  }
+  return columns;
 }
 
 /// Von Neumann's ratio of the pose's columns, the median of those that move.
@@ -184,7 +197,9 @@ void describe_arm(Log& log, const JointChain& chain) {
 }
 
 Log read_log(const std::filesystem::path& path, const Declared& declared) {
-  return make_log(path.filename().string(), read_table(path).table, declared);
+  Log log = make_log(path.filename().string(), read_table(path).table, declared);
+  refuse_near_names(columns_without_joints(log), declared.system, path.string());
+  return log;
 }
 
 }  // namespace dcnn::check

@@ -39,6 +39,28 @@ TEST(CheckTool, NamesTheFaultAndWritesItsPage) {
   test::expect_usable_page(page);
 }
 
+/// What a reader of recordings refuses, since it would be left out of every result.
+TEST(CheckTool, RefusesColumnsThatAreKnownUnderAnotherSpelling) {
+  const test::TemporaryFolder folder;
+  const auto checked = [&](const std::string& header) {
+    std::ofstream file(folder / "log.csv");
+    file << header << "\n";
+    for (int k = 0; k < 60; ++k) file << 0.01 * k << "," << 0.1 * k << "," << k % 7 << ",1\n";
+    file.close();
+    return run("check", {(folder / "log.csv").string()});
+  };
+  const auto refused = checked("t,alpha,Fx [N],fy");
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_TRUE(contains(refused.err, ":1: column 'Fx [N]': did you mean fx?") &&
+              contains(refused.err, "dcnn-import"))
+      << refused.err;
+  EXPECT_EQ(checked("Time,alpha,fx,fy").exit_code, 3);
+  EXPECT_EQ(checked("t,alpha,fx,fy").exit_code, 0);
+  // q_x is the position of a joint called x, no part of a quaternion.
+  const auto joint = checked("t,q_x,qd_x,tau_x");
+  EXPECT_EQ(joint.exit_code, 0) << joint.err;
+}
+
 TEST(CheckTool, ACertainFaultStopsATrainingUnlessItIsAccepted) {
   const test::TemporaryFolder folder;
   make_log(folder, "position_mm");
