@@ -30,6 +30,16 @@ constexpr const char* kExamples =
     "The\n"
     "toolkit is no medical device.";
 
+/// HOST:PORT of what may be PORT alone, which is on the loopback.
+std::string with_host(const std::string& address) {
+  return address.find(':') == std::string::npos ? "127.0.0.1:" + address : address;
+}
+
+std::string listening(const ServeOptions& serve) {
+  return "listening    " + with_host(serve.listen) + " (UDP), for packets of " +
+         with_host(serve.peer) + (serve.seconds > 0.0 ? "" : "; Ctrl-C ends it");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -129,7 +139,12 @@ int main(int argc, char** argv) {
     if (recipe) read_by_recipe(*recipe);
     if (rehearsal.empty()) {
       catch_interrupts();
-      serve.stop = interrupted;
+      bool is_told = false;
+      serve.stop = [&] {  // asked first when the address is had and nothing has been received
+        if (!is_told) tool.note(listening(serve));
+        is_told = true;
+        return interrupted();
+      };
       report = serve_udp(compensator, serve);
     } else {
       report =

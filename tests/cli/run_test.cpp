@@ -150,6 +150,9 @@ TEST(RunTool, AnswersItsPeerAndNobodyElse) {
   process.signal(SIGTERM);
   const auto done = process.wait();
   ASSERT_EQ(done.exit_code, 128 + SIGTERM) << done.err;
+  EXPECT_NE(("\n" + done.err).find("\nlistening    " + server + " (UDP), for packets of " + robot),
+            std::string::npos)
+      << done.err;
   const Json report = parse_json(done.out, "report", Exit::kFailure);
   EXPECT_EQ(report["packets"]["accepted"], 300);
   EXPECT_EQ(report["packets"]["tag"], 0);  // the kernel dropped them
