@@ -45,13 +45,17 @@ struct Command {
   std::vector<std::string> formats, reading;  ///< reading: the options of ReadFlags
 };
 
-void export_payload(const Command& command, const ToolModel& model, const Tool& tool) {
-  const PayloadBody payload = payload_of(model);
+void export_payload(const Command& command, const ToolModel& model,
+                    const std::vector<std::string>& assumed, const Tool& tool) {
+  PayloadBody payload = payload_of(model);
+  payload.assumed = assumed;
   for (const std::string& format : command.formats) {
     const Path file = command.export_to / payload_file(format);
     write_file(file, payload_text(format, payload));
     tool.note("payload     " + file.string());
   }
+  const std::string caution = not_identified(payload);
+  if (!caution.empty() && !tool.common().json) std::cout << caution << "\n";
 }
 
 /// The command that goes on from what was found; the logs are read as they were here.
@@ -93,9 +97,12 @@ Exit identify(Command& command, const Doctor& doctor, const Tool& tool) {
   }
   const ToolIdentification result = identify_tool(command.request);
   FileSet files(command.out.parent_path());
-  write_file(command.out, to_json(Simulator{result.model, {}}).dump(2) + "\n");
+  Json simulator = to_json(Simulator{result.model, {}});
+  const std::vector<std::string> guesses = assumed(result);
+  if (!guesses.empty()) simulator["tool"]["assumed"] = guesses;
+  write_file(command.out, simulator.dump(2) + "\n");
   write_report(command, result);
-  if (!command.formats.empty()) export_payload(command, result.model, tool);
+  if (!command.formats.empty()) export_payload(command, result.model, guesses, tool);
   files.commit();
   for (const auto& note : result.notes) tool.note(note);
   const std::string next = diagnosis_of(command, "--sim", command.out, command.request.logs);
@@ -208,7 +215,10 @@ int main(int argc, char** argv) {
     if (from.given()) {
       require(!logs.given() && !out.given() && !command.formats.empty(), Exit::kUsage,
               "--from takes --export and --export-to, and no recordings");
-      export_payload(command, read_simulator(command.from).model, tool);
+      const Simulator simulator = read_simulator(command.from);
+      const Json body = read_json(command.from, Exit::kData)["tool"];
+      export_payload(command, simulator.model, body.value("assumed", std::vector<std::string>{}),
+                     tool);
       return Exit::kDone;
     }
     require(logs.given() && out.given(), Exit::kUsage,

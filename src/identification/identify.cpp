@@ -118,6 +118,15 @@ void add_notes(const std::vector<WristLog>& logs, const WristState& point, bool 
 
 }  // namespace
 
+std::vector<std::string> assumed(const ToolIdentification& identification) {
+  std::vector<std::string> keys;
+  for (const auto& [stem, key] : {std::pair("mass_", "mass_kg"), std::pair("com_", "com_m"),
+                                  std::pair("inertia_", "inertia_kgm2")}) {
+    if (!all_shown(identification.parameters, stem)) keys.emplace_back(key);
+  }
+  return keys;
+}
+
 ToolIdentification identify_tool(const IdentifyRequest& request) {
   std::vector<WristLog> logs = identification::read_wrist_logs(request.logs, request.read);
   identification::FitOptions options;

@@ -37,6 +37,10 @@ void read_tool(Options tool, ToolModel& model) {
                   "has a negative moment of inertia; its order is ixx,iyy,izz,ixy,ixz,iyz");
     }
   }
+  // Keys whose values no recording showed, as dcnn-identify writes them: a note to readers.
+  for (const auto& key : tool.get("assumed", std::vector<std::string>{})) {
+    if (!tool.has(key)) tool.reject("assumed", "lists '", key, "', which is no key beside it");
+  }
   tool.finish();
 }
 

@@ -36,6 +36,28 @@ TEST(IdentifyTool, WritesASimulatorAPayloadAndTheNextCommand) {
   EXPECT_TRUE(std::filesystem::exists(folder / "ur" / "payload.script"));
 }
 
+/// An inertia that the motion does not show is a guess: the files for others say so, also those
+/// that are made of sim.json.
+TEST(IdentifyTool, MarksWhatItExportsAndDidNotIdentify) {
+  const test::TemporaryFolder folder;
+  identification_tests::Setting setting;
+  setting.path = identification_tests::trajectory(0.1);  // hardly any acceleration
+  setting.noise_nm = 0.02;
+  write_csv(folder / "log.csv", identification_tests::simulated(setting).recordings[0].noisy.table);
+  const auto out = (folder / "sim.json").string();
+  const std::string caution = "NOT IDENTIFIED: the recordings do not show the inertia;";
+  const auto found = run("identify", {(folder / "log.csv").string(), "--out", out, "--export", "ur",
+                                      "--export-to", (folder / "a").string()});
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  EXPECT_TRUE(contains(found.out, caution)) << found.out;
+  EXPECT_TRUE(contains(test::slurp(folder / "a/payload.script"), caution));
+  const auto again =
+      run("identify", {"--from", out, "--export", "ur", "--export-to", (folder / "b").string()});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_TRUE(contains(again.out, caution)) << again.out;
+  EXPECT_EQ(test::slurp(folder / "a/payload.script"), test::slurp(folder / "b/payload.script"));
+}
+
 TEST(IdentifyTool, MistakesAreOneLineWithTheirExitCode) {
   const test::TemporaryFolder folder;
   const auto out = (folder / "sim.json").string();

@@ -173,6 +173,7 @@ TEST(Identify, ABodyThatNoMotionShowsCanStillExist) {
   EXPECT_TRUE(contains(number(id, "inertia_zz_kgm2").motion, "rad/s^2"));
   EXPECT_TRUE(number(id, "com_z_m").shown);
   EXPECT_GT(number(id, "inertia_zz_kgm2").low, 0.0);
+  EXPECT_EQ(assumed(id), std::vector<std::string>{"inertia_kgm2"});
   ASSERT_TRUE(id.model.inertia.has_value());
   EXPECT_GT(id.model.inertia->determinant(), 0.0);
 }

@@ -130,6 +130,18 @@ TEST(Payload, WithoutAnInertiaEveryFormatSaysSo) {
   }
 }
 
+TEST(Payload, WhatNoMotionShowedIsMarkedInEveryFormat) {
+  PayloadBody p = some_payload();
+  EXPECT_EQ(not_identified(p), "");
+  p.assumed = {"inertia_kgm2"};
+  const std::string words = not_identified(p);
+  EXPECT_TRUE(words.starts_with("NOT IDENTIFIED: the recordings do not show the inertia;"))
+      << words;
+  for (const std::string& format : payload_formats()) {
+    EXPECT_TRUE(contains(payload_text(format, p), words)) << format;
+  }
+}
+
 TEST(Payload, UrdfdomReadsTheUrdf) {
 #ifdef DCNN_WITH_URDFDOM
   const PayloadBody p = some_payload();
@@ -181,7 +193,8 @@ TEST(Payload, PyYamlReadsTheParameters) {
   std::ofstream(in) << payload_text("ros2-yaml", p);
   const std::string command =
       "/usr/bin/python3 -c 'import json,sys,yaml; json.dump(yaml.safe_load(open(sys.argv[1])), "
-      "open(sys.argv[2], \"w\"))' " + in.string() + " " + out.string();
+      "open(sys.argv[2], \"w\"))' " +
+      in.string() + " " + out.string();
   ASSERT_EQ(std::system(command.c_str()), 0);
   const Json json = read_json(out, Exit::kData);
   const Json cog = json["admittance_controller"]["ros__parameters"]["gravity_compensation"]["CoG"];

@@ -51,6 +51,10 @@ struct ToolIdentification {
 /// estimate restricted to bodies that can exist (docs/use/identify.md). Faults are Error(kData).
 ToolIdentification identify_tool(const IdentifyRequest& request);
 
+/// Keys of sim.json's tool whose values the recordings do not show: of mass_kg, com_m,
+/// inertia_kgm2.
+std::vector<std::string> assumed(const ToolIdentification& identification);
+
 Json to_json(const ToolIdentification& identification);
 /// What a person reads: numbers with intervals, what is not shown, what acts beside the tool.
 std::string to_text(const ToolIdentification& identification);
