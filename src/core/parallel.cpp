@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "dcnn/core/interruptible.h"
+
 // ThreadSanitizer does not see the locks of an OpenMP runtime: under it the pieces run on threads
 // whose beginning and end it knows.
 #ifdef __has_feature
@@ -91,9 +93,19 @@ void on_threads(Index count, const std::function<void(Index)>& work) {
 }
 #endif
 
+std::atomic<const std::function<bool()>*> wish_to_stop{nullptr};
+
 }  // namespace
 
+Interruptible::Interruptible(std::function<bool()> wish) : wish_(std::move(wish)) {
+  if (wish_) wish_to_stop = &wish_;
+}
+
+Interruptible::~Interruptible() { wish_to_stop = nullptr; }
+
 void for_each_piece(Index count, const std::function<void(Index)>& work) {
+  const std::function<bool()>* wish = wish_to_stop;
+  if (wish != nullptr && (*wish)()) throw Interrupted();
   // What leaves a parallel region as an exception ends the program.
   std::exception_ptr thrown;
   Index thrown_by = count;

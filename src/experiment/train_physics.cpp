@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dcnn/core/file.h"
+#include "dcnn/core/interruptible.h"
 #include "dcnn/data/csv.h"
 #include "dcnn/diagnosis/diagnose.h"
 #include "dcnn/identification/identify.h"
@@ -35,15 +36,8 @@ void write_training_rows(const TrainingRequest& request, const fs::path& folder,
   }
 }
 
-}  // namespace
-
-bool can_be_physics(const TrainingRequest& request) {
-  return !request.configuration.online &&
-         resolve(as_simulator(request).configuration).system.kind == System::Kind::kWrist;
-}
-
-TrainingOutcome train_physics(const TrainingRequest& request, const fs::path& folder,
-                              const TrainingObserver& observer) {
+TrainingOutcome corrected_tool(const TrainingRequest& request, const fs::path& folder,
+                               const TrainingObserver& observer) {
   fs::create_directories(folder);
   TrainingRequest corrected = as_simulator(request);
   DiagnosisRequest wanted;
@@ -54,11 +48,28 @@ TrainingOutcome train_physics(const TrainingRequest& request, const fs::path& fo
     wanted.simulator = folder / "sim.json";
     write_file(*wanted.simulator, to_json(Simulator{tool.model, {}}).dump(2) + "\n");
   }
-  const Diagnosis diagnosis = diagnose(wanted, {});
+  const Diagnosis diagnosis = diagnose(wanted, observer.note);
   if (observer.note) observer.note(headline(diagnosis.report));
   corrected.base = folder / "model.json";
   write_file(*corrected.base, diagnosis.model.dump(2) + "\n");
   return train(corrected, observer);
+}
+
+}  // namespace
+
+bool can_be_physics(const TrainingRequest& request) {
+  return !request.configuration.online &&
+         resolve(as_simulator(request).configuration).system.kind == System::Kind::kWrist;
+}
+
+TrainingOutcome train_physics(const TrainingRequest& request, const fs::path& folder,
+                              const TrainingObserver& observer) {
+  const Interruptible scope(observer.stop_wanted);
+  try {
+    return corrected_tool(request, folder, observer);
+  } catch (const Interrupted&) {  // a diagnosis has no state: --resume begins it anew
+    return {false, {{"run_directory", run_directory(request.out).string()}}};
+  }
 }
 
 }  // namespace dcnn

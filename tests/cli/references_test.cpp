@@ -127,6 +127,30 @@ TEST(References, AutoKeepsTheBestAndSaysWhy) {
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1 + 2900);
 }
 
+TEST(References, AutoAnswersASignalInItsDiagnosisAndGoesOn) {
+  const test::TemporaryFolder folder;
+  const std::string model = folder / "best.dcnn";
+  const std::vector<std::string> words{"--model", "auto",    "--preset", "quick", "--epochs",
+                                       "1",       "--train", kTrain,     "--out", model};
+  const test::Process process("train", words);
+  // The identification has written its simulator: the diagnosis has begun.
+  while (!std::filesystem::exists(folder / "best.run/physics/sim.json")) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  process.signal(SIGINT);
+  const auto stopped = process.wait();
+  EXPECT_EQ(stopped.exit_code, 75) << stopped.err;
+  EXPECT_FALSE(std::filesystem::exists(model));
+  EXPECT_FALSE(std::filesystem::exists(folder / "best.run/physics/model.json"));
+  EXPECT_NE(stopped.err.find("go on with the same command and --resume"), std::string::npos)
+      << stopped.err;
+  auto again = words;
+  again.emplace_back("--resume");
+  const auto done = test::run("train", again);
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(done.out.starts_with("chosen: physics")) << done.out;
+}
+
 TEST(References, AutoForUseOnlineSaysWhyPhysicsIsLeftOut) {
   const test::TemporaryFolder folder;
   const std::string model = folder / "best.dcnn";

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "dcnn/core/interruptible.h"
+
 namespace dcnn {
 namespace {
 
@@ -31,6 +33,21 @@ TEST(Pieces, EveryPieceIsWorkedOnOnce) {
   std::vector<std::atomic<int>> seen(100);
   for_each_piece(100, [&](Index k) { ++seen[static_cast<std::size_t>(k)]; });
   for (const auto& count : seen) EXPECT_EQ(count, 1);
+}
+
+TEST(Pieces, AreGivenUpWhereThatIsWished) {
+  int begun = 0;
+  bool wish = false;
+  const auto piece = [&](Index) { ++begun; };
+  {
+    const Interruptible scope([&] { return wish; });
+    for_each_piece(1, piece);
+    wish = true;
+    EXPECT_THROW(for_each_piece(1, piece), Interrupted);
+  }
+  EXPECT_EQ(begun, 1);
+  for_each_piece(1, piece);  // the wish ended with its scope
+  EXPECT_EQ(begun, 2);
 }
 
 TEST(Pieces, WhatThePieceOfLeastNumberThrowsComesOut) {
