@@ -35,6 +35,17 @@ Names matches(const std::string& text, const std::string& pattern) {
 /// Long names at the beginning of a help's line: "  --out FILE" or "  -q, --quiet".
 Names in_help(const std::string& text) { return matches(text, "\n  (?:-[a-z], )?(--[a-z-]+)"); }
 
+/// Long names that a fish completion has for this command.
+Names in_fish(const std::string& text, const std::string& command) {
+  Names names;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("complete -c " + command + " ")) continue;
+    for (const auto& word : matches(line, "^[^\\[]*? -l ([a-z-]+)")) names.insert("--" + word);
+  }
+  return names;
+}
+
 TEST(Help, NamesTheSameOptionsAsManualAndCompletions) {
   for (const std::string& verb : verbs()) {
     SCOPED_TRACE(verb);
@@ -53,12 +64,9 @@ TEST(Help, NamesTheSameOptionsAsManualAndCompletions) {
     const std::string words = bash.substr(bash.rfind("compgen -W"));
     EXPECT_EQ(matches(words, "(--[a-z][a-z-]*)"), options);
     EXPECT_EQ(matches(test::slurp(folder / ("zsh/_" + name)), "\n  '\\*?(--[a-z-]+)\\["), options);
-    Names fish;
-    for (const auto& word :
-         matches(test::slurp(folder / ("fish/" + name + ".fish")), " -l ([a-z-]+)")) {
-      fish.insert("--" + word);
-    }
-    EXPECT_EQ(fish, options);
+    const std::string fish = test::slurp(folder / ("fish/" + name + ".fish"));
+    EXPECT_EQ(in_fish(fish, name), options);
+    EXPECT_EQ(in_fish(fish, "dcnn -n '__fish_seen_subcommand_from " + verb + "'"), options);
   }
 }
 

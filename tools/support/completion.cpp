@@ -34,16 +34,18 @@ std::string identifier(std::string name) {
 
 std::string bash_completion(const OptionTable& table) {
   const std::string function = identifier(table.name);
-  std::string text = function +
-                     "() {\n"
-                     "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
-                     "  COMPREPLY=()\n"
-                     "  case $previous in\n";
+  std::string text =
+      function +
+      "() {\n"
+      "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
+      "  COMPREPLY=()\n"
+      "  case $previous in\n";
   for (const OptionRow& row : table.rows) {
     if (row.is_argument() || row.value.empty()) continue;
     text += "    " + joined(row.names, "|") + ") ";
     if (!row.choices.empty()) {
-      text += "COMPREPLY=($(compgen -W '" + joined(row.choices, " ") + "' -- \"$current\")); return ;;\n";
+      text += "COMPREPLY=($(compgen -W '" + joined(row.choices, " ") +
+              "' -- \"$current\")); return ;;\n";
     } else if (row.is_path()) {
       text += "compopt -o default; return ;;\n";
     } else {
@@ -76,26 +78,42 @@ std::string zsh_completion(const OptionTable& table) {
     }
     for (const std::string& name : row.names) {
       const std::string value = row.value.empty() ? "" : ":" + row.value + ":" + action;
-      text += " \\\n  '" + std::string(row.many ? "*" : "") + name + "[" + brief(row) + "]" + value + "'";
+      text += " \\\n  '" + std::string(row.many ? "*" : "") + name + "[" + brief(row) + "]" +
+              value + "'";
     }
   }
   return text + "\n";
 }
 
-std::string fish_completion(const OptionTable& table) {
+namespace {
+
+/// Every option for one command line: `command` is "dcnn-train", or "dcnn -n CONDITION".
+std::string fish_options(const OptionTable& table, const std::string& command) {
   std::string text;
   for (const OptionRow& row : table.rows) {
     if (row.is_argument()) continue;
-    text += "complete -c " + table.name;
+    text += "complete -c " + command;
     for (const std::string& name : row.names) {
       text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
     }
-    if (!row.choices.empty()) text += " -x -a '" + joined(row.choices, " ") + "'";
-    else if (row.is_path()) text += " -r -F";
-    else if (!row.value.empty()) text += " -x";
+    if (!row.choices.empty())
+      text += " -x -a '" + joined(row.choices, " ") + "'";
+    else if (row.is_path())
+      text += " -r -F";
+    else if (!row.value.empty())
+      text += " -x";
     text += " -d '" + brief(row) + "'\n";
   }
   return text;
+}
+
+}  // namespace
+
+/// For "dcnn-train" and for "dcnn train": dcnn.fish reads the files of all verbs.
+std::string fish_completion(const OptionTable& table) {
+  const std::string verb = table.name.substr(table.name.find('-') + 1);
+  return fish_options(table, table.name) +
+         fish_options(table, "dcnn -n '__fish_seen_subcommand_from " + verb + "'");
 }
 
 }  // namespace dcnn
