@@ -27,10 +27,20 @@ constexpr const char* kExamples =
 struct Request {
   std::vector<Path> logs;
   std::optional<Path> out, recipe;
+  std::string command;  ///< as it was given, to be given again with more
   bool dry_run = false, join = false, assume = false;
   double resample_hz = 0.0;
   std::optional<Option> resample;
 };
+
+/// The command line that writes what this one finds, as a shell takes it.
+std::string command_for_more(int argc, char** argv) {
+  std::string command = "dcnn-import";
+  for (int k = 1; k < argc; ++k) {
+    if (std::string(argv[k]) != "--dry-run") command += " " + quoted_argument(argv[k]);
+  }
+  return command;
+}
 
 /// The logs of one recording each.
 std::vector<std::vector<Path>> recordings_of(const Request& request) {
@@ -106,6 +116,7 @@ class Importer {
   void propose_for(const std::vector<Path>& paths) {
     const ImportWishes wishes = flags_.wishes();
     ReadLogOptions read = flags_.read();
+    read.command = request_.command;
     read.wanted = worth_keeping(wishes);
     const ForeignLog& log = first_.emplace(read_log(paths, read));
     proposal_ = propose(log, wishes);
@@ -227,17 +238,21 @@ int main(int argc, char** argv) {
   Request request;
   tool.option("logs", request.logs, "logs: " + known_formats());
   tool.flag("--dry-run", request.dry_run, "print what is found and write nothing");
-  tool.option("--recipe", request.recipe, "import.json of an earlier log of the same robot")
-      .holds({FileKind::kRecipe});
+  const Option recipe =
+      tool.option("--recipe", request.recipe, "import.json of an earlier log of the same robot")
+          .holds({FileKind::kRecipe});
   tool.flag("--join", request.join, "all logs are parts of one recording");
-  tool.flag("--assume", request.assume, "take units and clocks as guessed by size");
+  tool.flag("--assume", request.assume, "take units and clocks as guessed by size")
+      .excludes(recipe);
   request.resample = tool.option("--resample", request.resample_hz,
                                  "put rows on a regular clock [Hz; default: the log's rate]")
                          .value_optional()
-                         .not_negative();
+                         .not_negative()
+                         .excludes(recipe);
   tool.output("--out", request.out, "folder for recordings and import.json",
               {"*.csv", "import.json", "system.json", "clock-offset.svg"});
-  const ImportFlags flags(tool);
+  const ImportFlags flags(tool, recipe);
+  request.command = command_for_more(argc, argv);
 
   return tool.run(argc, argv, [&] { return Importer(tool, request, flags).run(); });
 }

@@ -56,6 +56,13 @@ std::string by_groups(const std::vector<Names>& groups) {
   return map_of("q:1", more[0]->front()) + map_of("tau:1", more.back()->front());
 }
 
+/// Whether a command line has this option, as a word of its own or with "=VALUE".
+bool is_given(const std::string& command, const std::string& option) {
+  const std::string padded = command + " ";
+  return padded.find(" " + option + " ") != std::string::npos ||
+         padded.find(" " + option + "=") != std::string::npos;
+}
+
 }  // namespace
 
 std::string quoted_argument(const std::string& word) {
@@ -90,9 +97,15 @@ std::string how_to_name(const ForeignLog& log) {
     if (moving.size() < 2) return begin;
     maps = map_of("q:1", moving.front()) + map_of("tau:1", moving.back());
   }
-  return begin + "; such as, beside what was given: dcnn-import " + quoted_argument(log.file) +
-         maps + (clock.empty() ? " --rate HZ" : " --clock " + quoted_argument(clock)) +
-         " --out imported (q, qd, tau: an arm's joints; fx, tx, x, qw: a wrench and its pose)";
+  const std::string command =
+      log.command.empty() ? "dcnn-import " + quoted_argument(log.file) : log.command;
+  std::string more = maps;
+  if (!is_given(command, "--clock") && !is_given(command, "--rate")) {
+    more += clock.empty() ? " --rate HZ" : " --clock " + quoted_argument(clock);
+  }
+  if (!is_given(command, "--out")) more += " --out imported";
+  return begin + "; such as: " + command + more +
+         " (q, qd, tau: an arm's joints; fx, tx, x, qw: a wrench and its pose)";
 }
 
 }  // namespace dcnn

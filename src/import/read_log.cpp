@@ -89,6 +89,7 @@ void read_one(const fs::path& path, std::size_t number, LogBuilder& builder) {
 
 ForeignLog read_log(const std::vector<fs::path>& paths, const ReadLogOptions& options) {
   ForeignLog log;
+  log.command = options.command;
   LogBuilder builder(log, options);
   std::size_t number = 0;
   std::string formats;

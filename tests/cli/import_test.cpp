@@ -66,6 +66,27 @@ TEST(ImportTool, EveryToolReadsALogByItsRecipe) {
   EXPECT_EQ(test::slurp(folder / "again/import.json"), test::slurp(folder / "out/import.json"));
 }
 
+TEST(ImportTool, WhatARecipeSaysIsNotSaidAgain) {
+  const test::TemporaryFolder folder;
+  const std::string out = (folder / "out").string(), recipe = out + "/import.json";
+  ASSERT_EQ(run("import", {kSample + "log.txt", "--out", out, "-q"}).exit_code, 0);
+  const std::vector<std::vector<std::string>> given{
+      {"--map", "fx=Fz"}, {"--unit", "fx=mN"},  {"--gain", "fx=-1"}, {"--also", "Fx"},
+      {"--use", "file1"}, {"--decimal", ","},   {"--rate", "100"},   {"--zeroed"},
+      {"--assume"},       {"--resample", "50"}, {"--clock", "t"},    {"--payload", "1"}};
+  for (const auto& option : given) {
+    std::vector<std::string> words{kSample + "log.txt", "--recipe", recipe, "--dry-run"};
+    words.insert(words.end(), option.begin(), option.end());
+    const auto result = run("import", words);
+    EXPECT_EQ(result.exit_code, 2) << option[0];
+    EXPECT_NE(result.err.find(option[0]), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("--recipe"), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(run("import", {kSample + "log.txt", "--recipe", recipe, "--dry-run", "--truncated"})
+                .exit_code,
+            0);
+}
+
 TEST(ImportTool, DryRunWritesNothingAndJsonIsOneDocument) {
   const test::TemporaryFolder folder;
   const auto result = run("import", {kSample + "log.mcap", "--dry-run", "--json", "-q"});
@@ -107,8 +128,19 @@ TEST(ImportTool, SaysHowToNameTheChannelsOfAnAxis) {
   const std::vector<std::string> named{log, "--columns", "time_ms", "a", "b"};
   auto dry = named;
   dry.push_back("--dry-run");
-  EXPECT_NE(run("import", dry).out.find("--map q:1=a --map tau:1=b --clock time_ms"),
-            std::string::npos);
+  const std::string proposed = run("import", dry).out;
+  EXPECT_NE(proposed.find("such as: dcnn-import " + log +
+                          " --columns time_ms a b --map q:1=a --map tau:1=b --clock time_ms "
+                          "--out imported ("),
+            std::string::npos)
+      << proposed;
+  auto with_rate = named;
+  with_rate.insert(with_rate.end(), {"--rate", "100", "--out", (folder / "other").string()});
+  const std::string refused = run("import", with_rate).err;
+  EXPECT_NE(refused.find("b --rate 100 --out " + (folder / "other").string() +
+                         " --map q:1=a --map tau:1=b ("),
+            std::string::npos)
+      << refused;
   auto said = named;
   said.insert(said.end(), {"--clock", "time_ms", "--clock-unit", "ms", "--map", "q:1=a", "--map",
                            "tau:1=b", "--out", (folder / "out").string()});

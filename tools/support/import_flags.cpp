@@ -43,88 +43,95 @@ constexpr const char* kFrames = "Frames";
 
 }  // namespace
 
-ImportFlags::ImportFlags(Tool& tool) {
-  add_text(tool);
-  add_channels(tool);
-  add_clocks(tool);
-  add_frames(tool);
-}
-
-void ImportFlags::add_text(Tool& tool) {
-  tool.option("--columns", columns_, "names of the columns of a text without a header")
-      .separated_by_commas()
-      .group(kText);
-  tool.option("--separator", separator_, "what separates columns (else found)")
-      .one_of({",", ";", "|", "tab", "space"})
-      .group(kText);
-  tool.option("--decimal", decimal_, "decimal mark (else found)").one_of({".", ","}).group(kText);
+ImportFlags::ImportFlags(Tool& tool, const Option& recipe) {
+  for (const auto& add :
+       {&ImportFlags::text, &ImportFlags::channels, &ImportFlags::clocks, &ImportFlags::frames}) {
+    for (const Option& option : (this->*add)(tool)) option.excludes(recipe);
+  }
   tool.flag("--truncated", truncated_, "take what is whole of a log that ends in the middle")
       .group(kText);
 }
 
-void ImportFlags::add_channels(Tool& tool) {
-  tool.option("--use", use_, "topics or variables to take, where several would do")
-      .group(kChannels);
-  tool.option("--map", map_, "COLUMN=CHANNEL: fx=Fz_raw, or x=/pose:pose.position.x")
-      .group(kChannels);
-  tool.option("--also", also_, "channels to keep under their own names").group(kChannels);
-  tool.option("--unit", units_, "COLUMN,…=UNIT: fx,fy,fz=mN, alpha,beta,gamma=deg")
-      .group(kChannels);
-  tool.option("--gain", gains_, "COLUMN,…=FACTOR before the unit: counts, turned signs (-1)")
-      .group(kChannels);
-  tool.option("--offset", offsets_, "COLUMN,…=NUMBER taken from the raw value").group(kChannels);
-  tool.option("--wrap", wraps_, "COLUMN,…=COUNTS after which a register begins anew: 65536")
-      .group(kChannels);
+std::vector<Option> ImportFlags::text(Tool& tool) {
+  return {tool.option("--columns", columns_, "names of the columns of a text without a header")
+              .separated_by_commas()
+              .group(kText),
+          tool.option("--separator", separator_, "what separates columns (else found)")
+              .one_of({",", ";", "|", "tab", "space"})
+              .group(kText),
+          tool.option("--decimal", decimal_, "decimal mark (else found)")
+              .one_of({".", ","})
+              .group(kText)};
 }
 
-void ImportFlags::add_clocks(Tool& tool) {
-  tool.option("--clock", clock_, "channel of the time, one for each stream (else found)")
-      .group(kClocks);
-  tool.option("--clock-unit", clock_unit_, "its unit")
-      .one_of({"s", "ms", "us", "ns"})
-      .group(kClocks);
-  tool.option("--rate", rate_hz_, "rows per second of a log without times [Hz]")
-      .positive()
-      .group(kClocks);
-  tool.option("--stamps", stamps_, "times of messages: in their headers, or of their receipt")
-      .one_of({"header", "receive"})
-      .with_default()
-      .group(kClocks);
-  tool.option("--clock-offset", clock_offsets_,
-              "STREAM=SECONDS to add to its times; auto: as estimated from the motion")
-      .group(kClocks);
+std::vector<Option> ImportFlags::channels(Tool& tool) {
+  return {
+      tool.option("--use", use_, "topics or variables to take, where several would do")
+          .group(kChannels),
+      tool.option("--map", map_, "COLUMN=CHANNEL: fx=Fz_raw, or x=/pose:pose.position.x")
+          .group(kChannels),
+      tool.option("--also", also_, "channels to keep under their own names").group(kChannels),
+      tool.option("--unit", units_, "COLUMN,…=UNIT: fx,fy,fz=mN, alpha,beta,gamma=deg")
+          .group(kChannels),
+      tool.option("--gain", gains_, "COLUMN,…=FACTOR before the unit: counts, turned signs (-1)")
+          .group(kChannels),
+      tool.option("--offset", offsets_, "COLUMN,…=NUMBER taken from the raw value")
+          .group(kChannels),
+      tool.option("--wrap", wraps_, "COLUMN,…=COUNTS after which a register begins anew: 65536")
+          .group(kChannels)};
 }
 
-void ImportFlags::add_frames(Tool& tool) {
-  tool.option("--quaternion-order", quaternion_order_, "of a quaternion given by index")
-      .one_of({"wxyz", "xyzw"})
-      .group(kFrames);
-  tool.option("--euler-order", euler_order_,
-              "turns of three angles: ZYX about moving axes, xyz about fixed ones, any other")
-      .group(kFrames);
-  tool.flag("--inverse-pose", inverse_, "the log has the pose of the base in the tool")
-      .group(kFrames);
-  tool.option("--wrench-frame", wrench_frame_, "frame of the logged wrench")
-      .one_of({"sensor", "base"})
-      .with_default()
-      .group(kFrames);
-  tool.option("--wrench-turn", turn_, "logged frame in the sensor's: rx ry rz [rad]")
-      .values(3, "numbers rx ry rz [rad]")
-      .group(kFrames);
-  tool.option("--wrench-origin", origin_, "logged origin in the sensor's frame: x y z [m]")
-      .values(3, "numbers x y z [m]")
-      .group(kFrames);
-  tool.flag("--zeroed", zeroed_, "the sensor was set to zero when each recording began")
-      .group(kFrames);
-  tool.option("--payload", payload_,
-              "KG [X Y Z]: mass and centre [m] of a body whose weight the robot's controller has "
-              "subtracted from the force; it is added back")
-      .group(kFrames);
-  tool.option("--urdf", urdf_, "robot description: joint angles become the pose of --link")
-      .called("FILE")
-      .group(kFrames);
-  tool.option("--link", link_, "link that carries the sensor").group(kFrames);
-  tool.option("--base-link", base_link_, "link that is the base (else the root)").group(kFrames);
+std::vector<Option> ImportFlags::clocks(Tool& tool) {
+  return {
+      tool.option("--clock", clock_, "channel of the time, one for each stream (else found)")
+          .group(kClocks),
+      tool.option("--clock-unit", clock_unit_, "its unit")
+          .one_of({"s", "ms", "us", "ns"})
+          .group(kClocks),
+      tool.option("--rate", rate_hz_, "rows per second of a log without times [Hz]")
+          .positive()
+          .group(kClocks),
+      tool.option("--stamps", stamps_, "times of messages: in their headers, or of their receipt")
+          .one_of({"header", "receive"})
+          .with_default()
+          .group(kClocks),
+      tool.option("--clock-offset", clock_offsets_,
+                  "STREAM=SECONDS to add to its times; auto: as estimated from the motion")
+          .group(kClocks)};
+}
+
+std::vector<Option> ImportFlags::frames(Tool& tool) {
+  return {
+      tool.option("--quaternion-order", quaternion_order_, "of a quaternion given by index")
+          .one_of({"wxyz", "xyzw"})
+          .group(kFrames),
+      tool.option("--euler-order", euler_order_,
+                  "turns of three angles: ZYX about moving axes, xyz about fixed ones, any other")
+          .group(kFrames),
+      tool.flag("--inverse-pose", inverse_, "the log has the pose of the base in the tool")
+          .group(kFrames),
+      tool.option("--wrench-frame", wrench_frame_, "frame of the logged wrench")
+          .one_of({"sensor", "base"})
+          .with_default()
+          .group(kFrames),
+      tool.option("--wrench-turn", turn_, "logged frame in the sensor's: rx ry rz [rad]")
+          .values(3, "numbers rx ry rz [rad]")
+          .group(kFrames),
+      tool.option("--wrench-origin", origin_, "logged origin in the sensor's frame: x y z [m]")
+          .values(3, "numbers x y z [m]")
+          .group(kFrames),
+      tool.flag("--zeroed", zeroed_, "the sensor was set to zero when each recording began")
+          .group(kFrames),
+      tool.option("--payload", payload_,
+                  "KG [X Y Z]: mass and centre [m] of a body whose weight the robot's controller "
+                  "has subtracted from the force; it is added back")
+          .group(kFrames),
+      tool.option("--urdf", urdf_, "robot description: joint angles become the pose of --link")
+          .called("FILE")
+          .group(kFrames),
+      tool.option("--link", link_, "link that carries the sensor").group(kFrames),
+      tool.option("--base-link", base_link_, "link that is the base (else the root)")
+          .group(kFrames)};
 }
 
 ReadLogOptions ImportFlags::read() const {

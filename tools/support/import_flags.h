@@ -8,17 +8,18 @@ namespace dcnn {
 
 class ImportFlags {
  public:
-  explicit ImportFlags(Tool& tool);
+  /// What a recipe says is not said again: all but --truncated exclude `recipe`.
+  ImportFlags(Tool& tool, const Option& recipe);
   ReadLogOptions read() const;
   ImportWishes wishes() const;
   /// Streams of --clock-offset STREAM=auto.
   std::vector<std::string> estimated_offsets() const;
 
  private:
-  void add_text(Tool& tool);
-  void add_channels(Tool& tool);
-  void add_clocks(Tool& tool);
-  void add_frames(Tool& tool);
+  std::vector<Option> text(Tool& tool);
+  std::vector<Option> channels(Tool& tool);
+  std::vector<Option> clocks(Tool& tool);
+  std::vector<Option> frames(Tool& tool);
 
   std::string separator_, decimal_;
   std::vector<std::string> columns_, use_, map_, units_, gains_, offsets_, wraps_, also_;

@@ -64,6 +64,7 @@ struct ForeignLog {
   std::string format;  ///< "text, separated by ';', decimal comma"
   std::vector<LogStream> streams;
   std::vector<std::string> notes;  ///< what was left out or changed, for the user
+  std::string command;             ///< ReadLogOptions::command
 };
 
 /// How a text is written; what is not given is found from the text itself.
@@ -79,6 +80,8 @@ struct ReadLogOptions {
   /// recipe costs no memory. Empty: all are kept.
   std::function<bool(const LogStream&, const std::string& channel)> wanted;
   bool accept_truncated = false;  ///< take what is whole of a log that ends in the middle
+  std::string
+      command;  ///< command line that reads the log, for proposals; empty: of its name alone
 };
 
 /// Reads any known format, by its content; several files are one log (a split bag, one file per
