@@ -68,7 +68,7 @@ TrainingOutcome train_physics(const TrainingRequest& request, const fs::path& fo
   try {
     return corrected_tool(request, folder, observer);
   } catch (const Interrupted&) {  // a diagnosis has no state: --resume begins it anew
-    return {false, {{"run_directory", run_directory(request.out).string()}}};
+    return {false, {{"run_directory", request.out.parent_path().string()}}};
   }
 }
 

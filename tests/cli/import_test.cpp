@@ -136,7 +136,9 @@ TEST(ImportTool, SaysHowToNameTheChannelsOfAnAxis) {
       << proposed;
   auto with_rate = named;
   with_rate.insert(with_rate.end(), {"--rate", "100", "--out", (folder / "other").string()});
-  const std::string refused = run("import", with_rate).err;
+  const auto refusal = run("import", with_rate);
+  EXPECT_EQ(refusal.exit_code, 3);
+  const std::string refused = refusal.out + refusal.err;
   EXPECT_NE(refused.find("b --rate 100 --out " + (folder / "other").string() +
                          " --map q:1=a --map tau:1=b ("),
             std::string::npos)
