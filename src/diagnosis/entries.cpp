@@ -11,7 +11,8 @@ namespace dcnn {
 namespace {
 
 constexpr double kHeldDeviations =
-    1.96 * 1.2;  // 95 %, wider by what selection costs (intervals.cpp)
+    1.96 * 1.2;                  // 95 %, wider by what selection costs (intervals.cpp)
+constexpr double kBetter = 0.2;  // of a price: as an exchange must gain
 
 /// The simulator's own numbers, which come before faults of the sensor that change the same forces.
 constexpr const char* kOwnNumbers[] = {"mass", "com", "gravity_tilt", "bias"};
@@ -158,7 +159,6 @@ double priced(const JointFit& fit, double price) {
 /// simulator's own numbers where with one of them a sensor's fault needs fewer: a common part of a
 /// gain is a mass. A number counts that gains its price.
 void Search::hold_untold() {
-  constexpr double kBetter = 0.2;  // of a price: as an exchange must gain
   if (study_.axis) return;
   const double price = setting_->price * rest_loudness();
   JointFit fitted = joint_fit(*setting_, Holding(fit_, price).sparser().members);
@@ -185,6 +185,24 @@ void Search::hold_untold() {
   settle(std::vector<Member>(fitted.members));
   bands_ = band_tests(*setting_, fit_.residual);
   if (!same_names) weigh_once();
+}
+
+/// Begins with the simulator's own numbers, without those that are not told, where they alone are
+/// likelier than all names that were found one by one: of several numbers that are wrong together
+/// none need stand out, and a law that imitates their sum is found first.
+bool Search::begin_with_own_numbers() {
+  if (study_.axis) return false;
+  std::vector<Member> members = apart_;
+  for (Member& own : own_parameters(study_)) {
+    if (is_listed(study_, *own.kind)) members.push_back(std::move(own));
+  }
+  const double price = setting_->price;
+  const JointFit all = joint_fit(*setting_, std::move(members));
+  const JointFit told = joint_fit(*setting_, Holding(all, price).sparser().members);
+  if (priced(told, price) >= priced(fit_, price) - kBetter * price) return false;
+  say("beginning again with the simulator's own numbers");
+  settle(std::vector<Member>(told.members));
+  return true;
 }
 
 void Search::leave_bounded_lags() {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <numeric>
 
-#include "core/linear_algebra.h"
 #include "diagnosis/beginning.h"
 #include "diagnosis/passed_base.h"
 #include "physics/effect_law.h"
@@ -15,7 +15,6 @@ namespace {
 
 constexpr int kMostSteps = 12;
 constexpr double kSettled = 0.02;   // of chi-square: far below what decides anything
-constexpr double kImitated = 1e-6;  // of a column's norm: what rounding leaves of it off a basis
 constexpr double kStraight = 1e-4;  // of chi-square: how far a step may end from its tangent
 
 /// One number of one member, on the scale it is searched on.
@@ -50,6 +49,18 @@ void move(Member& member, const Coordinate& c, double step) {
   const ShapeParameter& shape = member.shape(c.index);
   member.shapes(c.index) =
       from_search_scale(member, c.index, search_scale(shape, member.shapes(c.index)) + step);
+}
+
+/// How far from zero the rest of a tool's spring may be: one that is turns away is a constant,
+/// which other effects are (scan.cpp). The amplitude that belongs to it [N]; infinity for others.
+double most_at_rest(const Case& study, const Member& member) {
+  if (study.axis || member.driver || member.name() != "cable_spring") return kInfinity;
+  return 2.0 * std::numbers::pi * std::abs(member.amplitudes(0));
+}
+
+void hold_rest(const Case& study, Member& member) {
+  const double most = most_at_rest(study, member);
+  if (most < kInfinity) member.amplitudes(1) = std::clamp(member.amplitudes(1), -most, most);
 }
 
 /// A shape may not leap out of the region its derivative tells of: a factor of e, or a part of its
@@ -181,42 +192,16 @@ std::vector<Signals> own_offsets(const Case& study) {
   return columns;
 }
 
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
-  if (A.cols() == 0) return Eigen::VectorXd(0);
-  return solve_gram(A.transpose() * A, A.transpose() * b, 1e-11);
-}
-
-Eigen::MatrixXd appended(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  Eigen::MatrixXd both(b.rows(), a.cols() + b.cols());
-  both << a, b;
-  return both;
-}
-
-Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
-  Eigen::MatrixXd basis(columns.rows(), columns.cols());
-  Index count = 0;
-  for (Index k = 0; k < columns.cols(); ++k) {
-    Eigen::VectorXd c = columns.col(k);
-    const double before = c.norm();
-    for (int pass = 0; pass < 2; ++pass) {  // twice is enough (Kahan and Parlett)
-      c -= basis.leftCols(count) * (basis.leftCols(count).transpose() * c);
-    }
-    if (c.norm() > kImitated * before && before > 0.0) basis.col(count++) = c.normalized();
-  }
-  return basis.leftCols(count);
-}
-
-Eigen::MatrixXd off_basis(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& basis) {
-  Eigen::MatrixXd off = columns - basis * (basis.transpose() * columns);
-  for (Index k = 0; k < off.cols(); ++k) {
-    if (off.col(k).norm() <= kImitated * columns.col(k).norm()) off.col(k).setZero();
-  }
-  return off;
+bool rests_at_bound(const Case& study, const Member& member) {
+  constexpr double kRounding = 1e-9;
+  const double most = most_at_rest(study, member);
+  return most < kInfinity && std::abs(member.amplitudes(1)) >= (1.0 - kRounding) * most;
 }
 
 JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   for (Member& m : members) {
     for (double& amplitude : m.amplitudes) amplitude = m.form->bounded(amplitude);
+    hold_rest(setting.study, m);
   }
   const Eigen::VectorXd wanted = setting.whitened(setting.measured);
   const auto coordinates = coordinates_of(members);
@@ -264,6 +249,7 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
         whole = whole && std::abs(change(k)) <= most;
         move(moved[c.member], c, length * std::clamp(change(k), -most, most));
       }
+      for (Member& m : moved) hold_rest(setting.study, m);
       if (passing) nuisance_columns.leftCols(linear) = passed_base(setting, moved);
       auto next = std::make_unique<Chain>(setting.study, std::move(moved));
       const Eigen::VectorXd there = setting.whitened(next->prediction());

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dcnn/diagnosis/decision.h"
+#include "diagnosis/columns.h"
 #include "diagnosis/whitener.h"
 
 namespace dcnn {
@@ -45,18 +46,7 @@ struct JointFit {
 /// fixed, by differences through the chain, with step halving.
 JointFit joint_fit(const Setting& setting, std::vector<Member> members);
 
-/// Coefficients x that minimise |Ax - b|, columns scaled, with a ridge that only decides what the
-/// data leave open.
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
-
-/// The columns of a, then those of b.
-Eigen::MatrixXd appended(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
-
-/// An orthonormal basis of the columns.
-Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns);
-
-/// Columns without their part along an orthonormal basis; one that the basis imitates to rounding
-/// is zero, so that nothing is fitted along it.
-Eigen::MatrixXd off_basis(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& basis);
+/// Whether the rest of a tool's spring is as far as it goes: no estimate, but a constant.
+bool rests_at_bound(const Case& study, const Member& member);
 
 }  // namespace dcnn

@@ -8,23 +8,17 @@
 #include "diagnosis/candidates.h"
 #include "diagnosis/detectors.h"
 #include "diagnosis/events.h"
-#include "diagnosis/evidence/priors.h"
 #include "diagnosis/outlying.h"
 #include "diagnosis/rest.h"
 
 namespace dcnn {
 namespace {
 
-using evidence::prior::kModelError;
-
-constexpr double kLeastGrowth = 0.001;     // of what the model explains already
 constexpr int kMostRounds = 6;             // of exchanges
 constexpr int kMostGrowth = 30;            // of growth: what is added may be left out again
 constexpr double kLinearError = 0.01;      // of a gain that is estimated along a tangent
 constexpr double kRoundedError = 0.4;      // the same where rounding bends every tangent
 constexpr double kDegenerateError = 0.05;  // the same beside a law whose shape is at its bound
-// More only ever fed what is not in the catalogue; but friction acts in every direction.
-constexpr int kMostMembers = 5, kMostFrictions = 14;
 
 }  // namespace
 
@@ -118,73 +112,6 @@ double Search::doubt(const Trial& trial) const {
   return (study_.rounding_step > 0.0 ? kRoundedError : kLinearError) * trial.gain;
 }
 
-/// Adds the effect that gains most, if it gains enough.
-bool Search::grow() {
-  const auto frictions =
-      std::count_if(fit_.members.begin(), fit_.members.end(),
-                    [](const Member& m) { return m.kind->axis == AxisRule::kLine; });
-  const auto others = static_cast<std::ptrdiff_t>(fit_.members.size()) - frictions;
-  if (others >= kMostMembers || frictions >= kMostFrictions) return false;
-  say("looking for what is missing beside " + std::to_string(fit_.members.size()) + " effects");
-  const auto trials = additions();
-  const bool alone = fit_.members.empty();
-  const auto best = std::find_if(trials.begin(), trials.end(), [&](const Trial& trial) {
-    return trial.gain >= least_gain(*setting_, trial.member.parameters(), alone);
-  });
-  if (best == trials.end()) return false;
-  // Poses at rest have no error of the motion, but that of the law.
-  const double share = study_.is_static() ? kModelError * kModelError : kLeastGrowth;
-  if (best->gain < share * explained(false)) return false;
-  if (may_be_slow_noise(best->member) && admit_slow_noise()) return true;
-  settle(with_member(fit_.members, best->member));
-  return true;
-}
-
-/// Of members whose forces cancel each other, so that each is a multiple of what all make together,
-/// the one that gains least: the recordings tell of such a pair the sum alone.
-std::optional<std::size_t> Search::cancelled() const {
-  constexpr double kMultiple = 5.0;  // of two equal forces 11 degrees from cancelling
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(fit_.residual.size());
-  std::vector<Eigen::VectorXd> forces;
-  Eigen::VectorXd sum = zero;
-  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
-    const Member& member = fit_.members[m];
-    const Index first = tangent_columns(fit_, m).first, numbers = member.amplitudes.size();
-    const bool tells = !member.fixed && numbers > 0;
-    forces.push_back(tells ? fit_.tangent.middleCols(first, numbers) * member.amplitudes : zero);
-    sum += forces.back();
-  }
-  std::optional<std::size_t> least;
-  for (std::size_t m = 0; m < forces.size(); ++m) {
-    if (stays(fit_.members[m]) || forces[m].norm() <= kMultiple * sum.norm()) continue;
-    if (!least || gain(m) < gain(*least)) least = m;
-  }
-  return least;
-}
-
-/// Leaves out members that no longer earn their numbers, or cancel each other.
-bool Search::simplify() {
-  bool changed = false;
-  while (const auto member = cancelled()) {
-    settle(std::vector<Member>(without(*member).members));
-    changed = true;
-  }
-  for (std::size_t m = 0; m < fit_.members.size() && fit_.members.size() > 1;) {
-    if (stays(fit_.members[m])) {
-      ++m;
-      continue;
-    }
-    if (gain(m) >= least_gain(*setting_, fit_.members[m].parameters(), false)) {
-      ++m;
-      continue;
-    }
-    settle(std::vector<Member>(without(m).members));
-    changed = true;
-    m = 0;
-  }
-  return changed;
-}
-
 /// Exchanges a member for another effect that serves better in its place.
 bool Search::swap() {
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
@@ -268,8 +195,8 @@ void Search::run() {
   settle(apart_);
   mask_outlying();
   explore();
-  if (mask_outlying())
-    explore();  // what a law explains is not outlying, and beside it other things are
+  if (begin_with_own_numbers()) explore();
+  if (mask_outlying()) explore();  // beside a law other things are outlying
   if (hums_no_more()) explore();
   // After larger effects: what is left of a mode that is not in the model resembles impacts.
   if (hear_knocks()) {

@@ -172,6 +172,7 @@ class Search {
   void judge();
   void conclude();
   void hold_untold();
+  bool begin_with_own_numbers();
   void leave_bounded_lags();
   void straighten_drifts();
   bool keep_what_carries_over();

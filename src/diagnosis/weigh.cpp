@@ -86,6 +86,17 @@ void Search::leave_out(const std::vector<std::size_t>& members) {
       refuted_.push_back(fit_.members[m]);
     }
   }
+  const bool held =
+      std::any_of(rest.begin(), rest.end(), [](const Member& m) { return !m.held.empty(); });
+  if (held) {  // what was not told beside the others may be told now
+    for (Member& m : rest) m.held.clear();
+    settle(rest);
+    while (simplify()) {
+    }
+    bands_ = band_tests(*setting_, fit_.residual);
+    hold_untold();
+    rest = fit_.members;
+  }
   adopt(rest);
 }
 

@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "dcnn/data/rotation.h"
 #include "physics/effect_law.h"
 
@@ -21,6 +23,7 @@ const EffectKind effect{
     .interval = IntervalRule::kNever,
     .change = change,
     .fits = {{.amplitudes = 2,
+              .most_strength = std::numbers::pi,  // no turn is longer
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"tilt_x_rad", a(0)}, {"tilt_y_rad", a(1)}};

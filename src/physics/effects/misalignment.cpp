@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "dcnn/data/rotation.h"
 #include "physics/effect_law.h"
 
@@ -32,6 +34,7 @@ const EffectKind effect{
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 3,
+              .most_strength = std::numbers::pi,  // no turn is longer
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"rot_x_rad", a(0)}, {"rot_y_rad", a(1)}, {"rot_z_rad", a(2)}};

@@ -1,0 +1,12 @@
+// How likely an effect with such numbers is, before the recordings.
+#pragma once
+
+#include "diagnosis/joint_fit.h"
+
+namespace dcnn::evidence {
+
+/// ln of the prior density of the numbers of member `m` of a fit at their estimates, with the
+/// probability of its name (priors.h).
+double log_prior(const Setting& setting, const JointFit& fit, std::size_t m);
+
+}  // namespace dcnn::evidence
