@@ -129,10 +129,33 @@ Signals senses(const Case& study) {
   return signals;
 }
 
+/// Share of sines of any phase at this frequency that is linear in what moves.
+double share_in_motion(const Case& study, double hz) {
+  double explained = 0.0, power = 0.0;
+  for (const Log& log : study.logs) {
+    const Motion& motion = log.motion;
+    Eigen::MatrixXd moves(motion.samples(), 0);
+    for (const Eigen::MatrixXd* part : {&motion.euler, &motion.w_S, &motion.v_B, &motion.a_B}) {
+      if (part->rows() == motion.samples()) moves = appended(moves, *part);
+    }
+    Eigen::MatrixXd waves(motion.samples(), 2);
+    for (Index i = 0; i < motion.samples(); ++i) {
+      const double turns = 2.0 * std::numbers::pi * hz * motion.t(i);
+      waves.row(i) << elementary::cos(turns), elementary::sin(turns);
+    }
+    waves.rowwise() -= waves.colwise().mean().eval();
+    moves.rowwise() -= moves.colwise().mean().eval();
+    explained += (orthonormal(moves).transpose() * waves).squaredNorm();
+    power += waves.squaredNorm();
+  }
+  return explained / std::max(power, 1e-300);
+}
+
 void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& floors,
              std::vector<Member>& list) {
   constexpr int kLines = 4;
   constexpr std::size_t kTried = 2;
+  constexpr double kMostly = 0.5;  // of a line: any law of such a motion is a hum as well
   const Case& study = scan.setting().study;
   const EffectKind& kind = *find_effect("hum");  // a periodic motion has lines of its own
   const Signals prediction = scan.chain().prediction();
@@ -142,7 +165,10 @@ void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& fl
     if (!line.stands_out() || tried == kTried) break;
     const bool in_motion = has_line(study, prediction, floors, line.hz) ||
                            (study.axis && has_line(study, sense, floors, line.hz));
-    if (in_motion && line.excess < least_excess_in_motion(line.terms)) continue;
+    if (in_motion && (line.excess < least_excess_in_motion(line.terms) ||
+                      share_in_motion(study, line.hz) > kMostly)) {
+      continue;
+    }
     list.push_back(
         make_member(study, kind, kind.fits[0], "", Eigen::VectorXd::Constant(1, line.hz)));
     ++tried;

@@ -42,17 +42,19 @@ void leave_out_improbable(const Search& search,
 }
 
 /// Whether another effect is named rather than a member: the likelier by far, held-out data
-/// included; or of two that make the same force the one that the catalogue has first, so that
-/// rounding decides nothing.
+/// included; of two that make the same force the one that is likelier beforehand, or that the
+/// catalogue has first, so that rounding decides nothing.
 bool goes_before(const Alternative& other, const Member& own, double odds) {
-  constexpr double kLikelier = 2.0;  // odds
-  constexpr double kSame = 1e-3;     // of odds of 1: rounding, and where a fit ends
+  constexpr double kLikelier = 2.0;    // odds
+  constexpr double kSame = 1e-3;       // of odds of 1: rounding, and where a fit ends
+  constexpr double kSameForce = 1e-3;  // of chi-square: the same
   const auto place = [](const std::string& name) {
     const auto& kinds = effect_kinds();
     return std::find(kinds.begin(), kinds.end(), find_effect(name)) - kinds.begin();
   };
-  return odds > kLikelier ||
-         (std::abs(odds - 1.0) < kSame && place(other.name) < place(own.name()));
+  if (odds > kLikelier) return true;
+  if (std::abs(odds - 1.0) < kSame) return place(other.name) < place(own.name());
+  return odds > 1.0 && std::abs(other.chi2_above) < kSameForce;
 }
 
 /// What a probability from the fitted rows counts where held-out data say something. A machine

@@ -80,7 +80,7 @@ bool Search::admit_slow_noise() {
   const double plain = unlikely();
   in_slow_noise_ = true;
   events_allowed_ = false;  // an event has the spectrum of such noise
-  settle(apart_);
+  settle(to_begin_with());
   explore();
   if (unlikely() < plain && are_constant() && is_independent()) return true;
   const std::vector<Member> found = fit_.members;

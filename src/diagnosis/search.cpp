@@ -188,6 +188,8 @@ bool Search::mask_outlying() {
   return true;
 }
 
+std::vector<Member> Search::to_begin_with() const { return is_spent() ? fit_.members : apart_; }
+
 void Search::run() {
   choose_cutoff({});
   settle({});
@@ -200,7 +202,7 @@ void Search::run() {
   if (hums_no_more()) explore();
   // After larger effects: what is left of a mode that is not in the model resembles impacts.
   if (hear_knocks()) {
-    settle(apart_);
+    settle(to_begin_with());
     explore();
     if (!still_knocks()) {
       settle(fit_.members);

@@ -73,6 +73,8 @@ class Search {
   /// Searches beside what is left for other names than those that were left out: whether there are
   /// other members than before.
   bool look_again();
+  /// Searches beside these members, for a fifth of a search's limit where that is spent.
+  void begin_with(const std::vector<Member>& members);
   /// Takes another model, whose members were fitted, and judges what it leaves.
   void adopt(const std::vector<Member>& members);
   /// Leaves out levers and lags that gain less than their price, and lags at their bound, which are
@@ -193,6 +195,11 @@ class Search {
   /// one effect takes, so that a search among laws none of which fits ends too.
   static constexpr double kMostPasses = 50'000.0;
   bool is_spent() const { return passes() - begun_ >= kMostPasses; }
+  /// What a search beside other noise begins with: what tests of their own found; all that was
+  /// found where it is spent, for it would find nothing again.
+  std::vector<Member> to_begin_with() const;
+  /// Lets a search that is spent go on for a fifth of its limit.
+  void go_on();
 
   Case study_;
   std::vector<Case>

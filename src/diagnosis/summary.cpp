@@ -182,18 +182,20 @@ std::string consistent(const Json& report) {
 std::string what_does_better(const Json& report) {
   const Json& fit = report["fit"];
   const std::pair<const char*, const char*> rivals[] = {
-      {"holdout_rms_measured", "a constant"},
-      {"holdout_rmse_parameters", "the simulator with its own numbers refitted"}};
+      {"holdout_rms_measured", "A constant"},
+      {"holdout_rmse_parameters", "The simulator with its own numbers refitted"}};
   std::string text;
   for (const auto& [key, words] : rivals) {
     const Json errors = fit.value(key, Json());
+    std::string channels;
     for (std::size_t j = 0; j < errors.size(); ++j) {
       const double rival = errors[j], after = fit["holdout_rmse_after"][j];
       if (rival >= after || brief(rival) == brief(after)) continue;
-      text += " Of " + report["targets"][j].get<std::string>() + ' ' + words +
-              " leaves less: " + brief(rival) + ' ' +
-              unit_text(report["units"][j].get<std::string>()) + '.';
+      channels += (channels.empty() ? "" : ", ") + brief(rival) + ' ' +
+                  unit_text(report["units"][j].get<std::string>()) + " of " +
+                  report["targets"][j].get<std::string>();
     }
+    if (!channels.empty()) text += std::string(" ") + words + " leaves less: " + channels + '.';
   }
   return text;
 }

@@ -28,12 +28,17 @@ bool is_untold(const Member& member, const std::vector<Estimate>& numbers) {
   for (std::size_t i = 0; i < member.form->shapes.size(); ++i) {
     const ShapeParameter& shape = member.form->shapes[i];
     const auto at = static_cast<Index>(i);
-    // Fitted to an end of its range: a constant settles at once, a line never.
+    // Fitted to an end of its range, or one that its interval holds: a constant settles at once, a
+    // line never.
     const double ratio = member.shapes(at) / member.least_shapes(at);
     if (shape.low > 0.0 && (ratio < 1.0 + kAtEnd || is_degenerate(member))) return true;
     for (const Estimate& number : numbers) {
       const bool own = number.name.starts_with(std::string(shape.name) + "_");
-      if (own && shape.low > 0.0 && spans_decades(number)) return true;
+      if (!own || shape.low <= 0.0) continue;
+      if (spans_decades(number) || number.low <= member.least_shapes(at) ||
+          number.high >= member.most_shapes(at)) {
+        return true;
+      }
     }
   }
   return false;

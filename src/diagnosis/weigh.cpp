@@ -107,6 +107,13 @@ bool Search::look_again() {
   return places_of(fit_.members) != before;
 }
 
+void Search::begin_with(const std::vector<Member>& members) {
+  say("beginning again with the simulator's own numbers");
+  hold(members);
+  go_on();
+  look_again();
+}
+
 void Search::adopt(const std::vector<Member>& members) {
   settle(members);
   leave_bounded_lags();  // beside fewer names a lag may go as far as it can

@@ -69,10 +69,10 @@ TEST(Headline, SaysWhatIsBetterThanAllThatWasFound) {
   report["fit"]["holdout_rmse_after"] = {0.04, 0.45};
   report["fit"]["holdout_rmse_parameters"] = {0.9, 0.42};
   EXPECT_TRUE(headline(report).ends_with(
-      "Of fy the simulator with its own numbers refitted leaves less: 0.42 N."))
+      "The simulator with its own numbers refitted leaves less: 0.42 N of fy."))
       << headline(report);
   report["fit"]["holdout_rms_measured"] = {2.0, 0.3};
-  EXPECT_NE(headline(report).find("Of fy a constant leaves less: 0.3 N."), std::string::npos)
+  EXPECT_NE(headline(report).find("A constant leaves less: 0.3 N of fy."), std::string::npos)
       << headline(report);
 }
 
