@@ -6,6 +6,22 @@
 #include "diagnosis/confidence.h"
 
 namespace dcnn {
+namespace {
+
+constexpr double kSmallRest = 0.05;  // of what was missing: the rest may be another effect
+
+/// Mean square error on what was held out, in variances of each channel's noise.
+double error_of(const Search& search, const HoldOut& holdout, const JointFit& fit) {
+  const std::vector<double> rmse = holdout.rmse(fit.members, fit.base);
+  double sum = 0.0;
+  for (std::size_t j = 0; j < rmse.size(); ++j) {
+    const double noise = std::max(search.floors()[j].deviation(), 1e-300);
+    sum += rmse[j] * rmse[j] / (noise * noise);
+  }
+  return sum / static_cast<double>(rmse.size());
+}
+
+}  // namespace
 
 Json begin_with_own_numbers(Search& search, const HoldOut& holdout) {
   const Case& study = search.study();
@@ -13,16 +29,18 @@ Json begin_with_own_numbers(Search& search, const HoldOut& holdout) {
   std::vector<Member> own = own_parameters(study);
   std::erase_if(own, [&](const Member& m) { return !is_listed(study, *m.kind); });
   const std::vector<Member> found = search.fit().members;
-  const bool others = std::any_of(found.begin(), found.end(), [&](const Member& m) {
-    return std::none_of(own.begin(), own.end(), [&](const Member& o) { return o.kind == m.kind; });
-  });
-  if (own.empty() || !others) return Json::array();
+  if (own.empty()) return Json::array();
+  const JointFit alone = joint_fit(search.setting(), std::move(own));
+  const JointFit given = joint_fit(search.setting(), {});
+  // A law that is none of them they imitate in part.
+  if (error_of(search, holdout, alone) > kSmallRest * error_of(search, holdout, given)) {
+    return Json::array();
+  }
   const Signals by_found = holdout.prediction(found, search.fit().base);
   const auto is_better = [&](const JointFit& fit) {
     const Signals predicted = holdout.prediction(fit.members, fit.base);
     return holdout.log_support(predicted, by_found, search.floors()) > 0.0;
   };
-  const JointFit alone = joint_fit(search.setting(), std::move(own));
   if (!is_better(alone)) return Json::array();
   search.begin_with(alone.members);
   Json refuted = leave_refuted(search, holdout);

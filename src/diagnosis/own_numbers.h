@@ -5,10 +5,11 @@
 
 namespace dcnn {
 
-/// Of a tool whose simulator's own numbers alone (mass, centre, tilt of gravity, offset) predict
-/// what was held out better than all that was found: searches again beside them, and keeps what
-/// the held-out data bear out better. Of several laws that each fit a little of what they leave,
-/// none needs to be true. What it refutes on the way: names as leave_refuted() has them.
+/// Of a tool whose simulator's own numbers alone (mass, centre, tilt of gravity, offset) explain
+/// nearly all of what was missing in what was held out, and more than all that was found: takes
+/// them. Of several laws that each fit a little of what they leave, none needs to be true, and that
+/// they leave something refutes none of them. Returns what it refutes on the way, as
+/// leave_refuted() does.
 Json begin_with_own_numbers(Search& search, const HoldOut& holdout);
 
 }  // namespace dcnn

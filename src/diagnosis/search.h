@@ -73,7 +73,7 @@ class Search {
   /// Searches beside what is left for other names than those that were left out: whether there are
   /// other members than before.
   bool look_again();
-  /// Searches beside these members, for a fifth of a search's limit where that is spent.
+  /// Takes these members, but for those that do not earn their numbers.
   void begin_with(const std::vector<Member>& members);
   /// Takes another model, whose members were fitted, and judges what it leaves.
   void adopt(const std::vector<Member>& members);

@@ -110,8 +110,11 @@ bool Search::look_again() {
 void Search::begin_with(const std::vector<Member>& members) {
   say("beginning again with the simulator's own numbers");
   hold(members);
-  go_on();
-  look_again();
+  while (simplify()) {
+  }
+  bands_ = band_tests(*setting_, fit_.residual);
+  hold_untold();
+  adopt(std::vector<Member>(fit_.members));
 }
 
 void Search::adopt(const std::vector<Member>& members) {
