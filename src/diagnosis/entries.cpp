@@ -169,7 +169,11 @@ void Search::hold_untold() {
     const EffectKind& kind = *find_effect(name);
     const bool there = std::any_of(fit_.members.begin(), fit_.members.end(),
                                    [&](const Member& m) { return m.kind == &kind; });
-    if (!faulty || there || !is_listed(study_, kind) || !is_testable(study_, kind)) continue;
+    const bool refuted = std::any_of(refuted_.begin(), refuted_.end(),
+                                     [&](const Member& m) { return m.kind == &kind; });
+    if (!faulty || there || refuted || !is_listed(study_, kind) || !is_testable(study_, kind)) {
+      continue;
+    }
     std::vector<Member> members = fit_.members;
     for (Member& m : members) m.held.clear();
     members.push_back(make_member(study_, kind, kind.fits[0], "", Eigen::VectorXd(0)));
