@@ -8,7 +8,7 @@
 namespace dcnn {
 namespace {
 
-constexpr double kSmallRest = 0.05;  // of what was missing: the rest may be another effect
+constexpr double kLeftByOwn = 0.05;  // of what was missing: the rest may be another effect
 
 /// Mean square error on what was held out, in variances of each channel's noise.
 double error_of(const Search& search, const HoldOut& holdout, const JointFit& fit) {
@@ -33,7 +33,7 @@ Json begin_with_own_numbers(Search& search, const HoldOut& holdout) {
   const JointFit alone = joint_fit(search.setting(), std::move(own));
   const JointFit given = joint_fit(search.setting(), {});
   // A law that is none of them they imitate in part.
-  if (error_of(search, holdout, alone) > kSmallRest * error_of(search, holdout, given)) {
+  if (error_of(search, holdout, alone) > kLeftByOwn * error_of(search, holdout, given)) {
     return Json::array();
   }
   const Signals by_found = holdout.prediction(found, search.fit().base);
