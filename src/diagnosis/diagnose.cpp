@@ -160,7 +160,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
     more = leave_refuted(search, holdout);
     for (const Json& name : more) refuted_names.push_back(name);
   }
-  for (const Json& name : begin_with_own_numbers(search, holdout)) refuted_names.push_back(name);
+  for (const Json& name : take_own_numbers(search, holdout)) refuted_names.push_back(name);
   const std::vector<BandTest> bands = search.bands();
   const double unnamed = search.posterior().unknown + search.posterior().named_and_unknown;
   const std::vector<Member> names = search.names();

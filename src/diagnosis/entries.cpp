@@ -193,7 +193,7 @@ void Search::hold_untold() {
 
 /// Begins with the simulator's own numbers, without those that are not told, where they alone are
 /// likelier than all names that were found one by one: of several numbers that are wrong together
-/// none need stand out, and a law that imitates their sum is found first.
+/// none need stand out, and a law that makes nearly the same forces is found first.
 bool Search::begin_with_own_numbers() {
   if (study_.axis) return false;
   std::vector<Member> members = apart_;

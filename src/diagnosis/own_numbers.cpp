@@ -23,7 +23,7 @@ double error_of(const Search& search, const HoldOut& holdout, const JointFit& fi
 
 }  // namespace
 
-Json begin_with_own_numbers(Search& search, const HoldOut& holdout) {
+Json take_own_numbers(Search& search, const HoldOut& holdout) {
   const Case& study = search.study();
   if (study.axis || holdout.empty()) return Json::array();
   std::vector<Member> own = own_parameters(study);
@@ -32,7 +32,7 @@ Json begin_with_own_numbers(Search& search, const HoldOut& holdout) {
   if (own.empty()) return Json::array();
   const JointFit alone = joint_fit(search.setting(), std::move(own));
   const JointFit given = joint_fit(search.setting(), {});
-  // A law that is none of them they imitate in part.
+  // Of a law that is none of them they explain a part.
   if (error_of(search, holdout, alone) > kLeftByOwn * error_of(search, holdout, given)) {
     return Json::array();
   }
@@ -45,7 +45,6 @@ Json begin_with_own_numbers(Search& search, const HoldOut& holdout) {
   search.begin_with(alone.members);
   Json refuted = leave_refuted(search, holdout);
   if (is_better(search.fit())) return refuted;
-  search.hold(found);
   search.adopt(found);
   return Json::array();
 }

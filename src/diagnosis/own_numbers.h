@@ -10,6 +10,6 @@ namespace dcnn {
 /// them. Of several laws that each fit a little of what they leave, none needs to be true, and that
 /// they leave something refutes none of them. Returns what it refutes on the way, as
 /// leave_refuted() does.
-Json begin_with_own_numbers(Search& search, const HoldOut& holdout);
+Json take_own_numbers(Search& search, const HoldOut& holdout);
 
 }  // namespace dcnn

@@ -73,7 +73,7 @@ class Search {
   /// Searches beside what is left for other names than those that were left out: whether there are
   /// other members than before.
   bool look_again();
-  /// Takes these members, but for those that do not earn their numbers.
+  /// Takes these members, but for those that do not earn their numbers, and judges what is left.
   void begin_with(const std::vector<Member>& members);
   /// Takes another model, whose members were fitted, and judges what it leaves.
   void adopt(const std::vector<Member>& members);
@@ -198,8 +198,6 @@ class Search {
   /// What a search beside other noise begins with: what tests of their own found; all that was
   /// found where it is spent, for it would find nothing again.
   std::vector<Member> to_begin_with() const;
-  /// Lets a search that is spent go on for a fifth of its limit.
-  void go_on();
 
   Case study_;
   std::vector<Case>

@@ -144,16 +144,11 @@ void Search::drop_unconfirmed() {
   }
 }
 
-void Search::go_on() {
-  constexpr double kFurther = 0.2;  // of a search's limit
-  ended_early_ = ended_early_ || is_spent();
-  begun_ = std::max(begun_, passes() - (1.0 - kFurther) * kMostPasses);
-}
-
 /// Takes back what a remainder nobody can name makes doubtful: events, but for those of which only
 /// the shape is a little off, and members that fit in some places and not in others.
 void Search::judge() {
-  constexpr double kPlain = 20.0;  // times what is left, that an event explains
+  constexpr double kPlain = 20.0;         // times what is left, that an event explains
+  constexpr double kWithoutEvents = 0.2;  // of a search's limit, at least
   drop_coincidences();
   drop_unconfirmed();
   if (study_.axis) keep_what_is_confirmed();
@@ -182,7 +177,8 @@ void Search::judge() {
     if (rest.size() < fit_.members.size()) {
       settle(rest);
       // What the events stood for is still to be found, though the search be spent on them.
-      go_on();
+      ended_early_ = ended_early_ || is_spent();
+      begun_ = std::max(begun_, passes() - (1.0 - kWithoutEvents) * kMostPasses);
       explore();
     }
   }

@@ -88,16 +88,9 @@ void Search::leave_out(const std::vector<std::size_t>& members) {
   }
   const bool held =
       std::any_of(rest.begin(), rest.end(), [](const Member& m) { return !m.held.empty(); });
-  if (held) {  // what was not told beside the others may be told now
-    for (Member& m : rest) m.held.clear();
-    settle(rest);
-    while (simplify()) {
-    }
-    bands_ = band_tests(*setting_, fit_.residual);
-    hold_untold();
-    rest = fit_.members;
-  }
-  adopt(rest);
+  if (!held) return adopt(rest);
+  for (Member& m : rest) m.held.clear();  // what was not told beside the others may be told now
+  begin_with(rest);
 }
 
 bool Search::look_again() {
@@ -108,8 +101,7 @@ bool Search::look_again() {
 }
 
 void Search::begin_with(const std::vector<Member>& members) {
-  say("beginning again with the simulator's own numbers");
-  hold(members);
+  settle(members);
   while (simplify()) {
   }
   bands_ = band_tests(*setting_, fit_.residual);
