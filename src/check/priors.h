@@ -6,6 +6,11 @@ namespace dcnn::check {
 
 /// Probability of each kind of fault in somebody's log, shared by its variants.
 constexpr double kFaultPrior = 0.004;
+/// Probability that a joint's measured column is what its drive was told, a constant for a while.
+constexpr double kCommanded = 0.05;
+/// Probability that a sensor's reading has at most two significant digits: of four that are written
+/// 90 of 9000.
+constexpr double kTwoDigits = 0.01;
 /// Probability that a sensor was zeroed in some pose before the recording.
 constexpr double kZeroedBefore = 0.01;
 /// Independent residuals at most: what physics beyond the rigid tool leaves is alike for seconds.

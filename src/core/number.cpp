@@ -15,6 +15,12 @@ std::string brief(double value) {
   return text;
 }
 
+bool has_two_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1e", value);
+  return std::strtod(text, nullptr) == value;
+}
+
 std::string unit_text(const std::string& unit) {
   std::string text;
   for (std::size_t i = 0; i < unit.size(); ++i) {

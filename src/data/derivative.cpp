@@ -144,7 +144,14 @@ DerivativeSpec parse_derivative(Options options) {
   spec.window_s = options.number("window_s", spec.window_s, 0.0, 100.0);
   spec.cutoff_hz = options.number("cutoff_hz", spec.cutoff_hz, 1e-3, 1e6);
   spec.subtraction = options.number("subtraction", spec.subtraction, 0.0, 100.0);
-  spec.most_noise = options.number("most_noise", spec.most_noise, 0.0, 1e300);
+  if (options.raw("most_noise").is_array()) {
+    spec.most_noise = options.get<std::vector<double>>("most_noise");
+    for (const double most : spec.most_noise) {
+      if (!(most >= 0.0)) options.reject("most_noise", "must hold no negative number");
+    }
+  } else if (const double most = options.number("most_noise", 0.0, 0.0, 1e300); most > 0.0) {
+    spec.most_noise = {most};
+  }
   spec.fastest_hz = options.number("fastest_hz", spec.fastest_hz, 0.0, 1e6);
   spec.order = options.get("order", spec.kind == Kind::kCausalSavitzkyGolay ? 2 : 3);
   if (spec.order < 2 || spec.order > 7) options.reject("order", "must be between 2 and 7");
@@ -156,7 +163,7 @@ Json to_json(const DerivativeSpec& spec) {
   if (spec.kind == Kind::kSpectral) {
     Json json{{"kind", "spectral"}, {"cutoff_hz", spec.cutoff_hz}};
     if (spec.subtraction > 0.0) json["subtraction"] = spec.subtraction;
-    if (spec.most_noise > 0.0) json["most_noise"] = spec.most_noise;
+    if (!spec.most_noise.empty()) json["most_noise"] = spec.most_noise;
     if (spec.fastest_hz != DerivativeSpec().fastest_hz) json["fastest_hz"] = spec.fastest_hz;
     return json;
   }

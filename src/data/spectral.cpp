@@ -8,76 +8,13 @@
 
 #include "core/elementary.h"
 #include "core/linear_algebra.h"
+#include "data/reflected.h"
 #include "dcnn/data/fourier.h"
 
 namespace dcnn {
 namespace {
 
-constexpr double kPadSeconds = 2.0;
-constexpr double kEndSeconds = 1.0;     // in which what is taken out at an end decays
 constexpr double kFlankSamples = 50.0;  // at least, of the taper at an end
-
-/// The second derivative [1/s^2] at the first of some samples: of the quartic through them.
-double bend(const Eigen::VectorXd& x, double dt) {
-  const Index n = x.size();
-  if (n < 8) return 0.0;
-  const Eigen::ArrayXd u = Eigen::ArrayXd::LinSpaced(n, 0.0, 1.0);
-  Eigen::MatrixXd A(n, 5);
-  A.col(0).setOnes();
-  for (Index k = 1; k < A.cols(); ++k) A.col(k) = A.col(k - 1).cwiseProduct(u.matrix());
-  const Eigen::VectorXd c = solve_symmetric(A.transpose() * A, A.transpose() * x);
-  const double seconds = dt * static_cast<double>(n - 1);
-  return 2.0 * c(2) / (seconds * seconds);
-}
-
-/// Decaying curves that have the signal's second derivative at its two ends. An odd reflection has
-/// none there; without them the smoothed acceleration would begin and end at zero.
-struct Ends {
-  double first = 0.0, last = 0.0;  // second derivatives, 1/s^2
-  Eigen::VectorXd decay;           // exp(-t/T) of the time from the first sample
-
-  Ends(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, double cutoff_hz) : decay(x.size()) {
-    const Index window = std::min<Index>(x.size() / 3, std::llround(2.5 / (cutoff_hz * dt)));
-    first = bend(x.head(window), dt);
-    last = bend(x.tail(window).reverse(), dt);
-    for (Index i = 0; i < decay.size(); ++i) {
-      decay(i) = elementary::exp(-dt * static_cast<double>(i) / kEndSeconds);
-    }
-  }
-  /// Their k-th derivative.
-  Eigen::VectorXd derivative(int k) const {
-    const double scale = elementary::pow(kEndSeconds, 2 - k);
-    return scale * ((k % 2 ? -first : first) * decay + last * decay.reverse());
-  }
-};
-
-/// The signal with its odd reflections at both ends, less the line through the first and last of
-/// all these samples, and zeros up to a length that transforms fast: continuous around the circle.
-struct Padded {
-  Eigen::VectorXd values;
-  Index pad = 0;
-  double level = 0.0, slope = 0.0;  // of the line, at the first sample of the signal and per sample
-};
-
-Padded pad_oddly(const Eigen::Ref<const Eigen::VectorXd>& x, double dt) {
-  const Index n = x.size();
-  Padded padded;
-  padded.pad = std::min<Index>(n - 1, std::llround(kPadSeconds / dt));
-  const Index length = n + 2 * padded.pad;
-  padded.values.setZero(fast_length(length));
-  padded.values.segment(padded.pad, n) = x;
-  for (Index k = 1; k <= padded.pad; ++k) {
-    padded.values(padded.pad - k) = 2.0 * x(0) - x(k);
-    padded.values(padded.pad + n - 1 + k) = 2.0 * x(n - 1) - x(n - 1 - k);
-  }
-  const double first = padded.values(0), last = padded.values(length - 1);
-  padded.slope = length > 1 ? (last - first) / static_cast<double>(length - 1) : 0.0;
-  for (Index k = 0; k < length; ++k) {
-    padded.values(k) -= first + padded.slope * static_cast<double>(k);
-  }
-  padded.level = first + padded.slope * static_cast<double>(padded.pad);
-  return padded;
-}
 
 /// Means of `power` over 2 half + 1 bins, fewer at the ends.
 Eigen::VectorXd running_mean(const Eigen::VectorXd& power, Index half) {
@@ -185,11 +122,16 @@ double slow_hz(double cutoff_hz) { return std::min(3.0, cutoff_hz / 3.0); }
 /// but a ten thousandth off the slow motion, of which a taper would leave more than moves.
 double fast_hz(double cutoff_hz) { return 0.6 * cutoff_hz; }
 
+/// Which of so many hertz, the last of which has no end, holds a frequency.
+std::size_t hertz_of(double hz, std::size_t count) {
+  return std::min(static_cast<std::size_t>(hz), count - 1);
+}
+
 /// The transform of a signal, its ends and reflections taken care of.
 struct Transformed {
   Index n;
   double dt;
-  Ends ends;
+  EndCurves ends;
   Padded padded;
   Fourier transform;
   Eigen::VectorXcd spectrum;
@@ -235,11 +177,13 @@ Filtered filtered(const Transformed& x, const LowPass& filter) {
     out.spectrum(k) *= passed;
     out.gain(k) *= passed;
   }
-  if (filter.most_noise == 0.0) return out;
+  if (filter.most_noise.empty()) return out;
   const Rest rest = x.above(fast_hz(filter.cutoff_hz));
   const Relative relative = relative_of(rest, x.dt, x.length());
-  const double least = filter.most_noise * least_motion(relative.chance);
+  const double chance = least_motion(relative.chance);
   for (Index k = 0; k < bins && x.hz(k) < filter.fastest_hz; ++k) {
+    const std::size_t hertz = hertz_of(x.hz(k), filter.most_noise.size());
+    const double least = filter.most_noise[hertz] * chance;
     if (relative.power(k) == kSlow || relative.power(k) < least) continue;
     const double more = wiener_gain(relative.power(k), relative.chance) - out.gain(k);
     if (more <= 0.0) continue;
@@ -287,12 +231,16 @@ Eigen::VectorXd gain_of(const Eigen::Ref<const Eigen::VectorXd>& x, double dt,
   return out;
 }
 
-double most_noise(const Eigen::Ref<const Eigen::VectorXd>& signal, double dt, double cutoff_hz) {
-  const Transformed x(signal, dt, cutoff_hz);
-  double most = 0.0;
-  for (const double power : relative_of(x.above(fast_hz(cutoff_hz)), dt, x.length()).power) {
-    if (power < kSlow) most = std::max(most, power);
+std::vector<double> most_noise(const Eigen::Ref<const Eigen::VectorXd>& signal, double dt,
+                               const LowPass& filter) {
+  const Transformed x(signal, dt, filter.cutoff_hz);
+  const Relative relative = relative_of(x.above(fast_hz(filter.cutoff_hz)), dt, x.length());
+  std::vector<double> most(static_cast<std::size_t>(std::max(1.0, std::ceil(filter.fastest_hz))));
+  for (Index k = 0; k < relative.power.size() && x.hz(k) < filter.fastest_hz; ++k) {
+    double& here = most[hertz_of(x.hz(k), most.size())];
+    if (relative.power(k) < kSlow) here = std::max(here, relative.power(k));
   }
+  for (std::size_t k = most.size() - 1; k-- > 0;) most[k] = std::max(most[k], most[k + 1]);
   return most;
 }
 

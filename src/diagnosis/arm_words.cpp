@@ -4,6 +4,7 @@
 #include <map>
 
 #include "dcnn/diagnosis/diagnose.h"
+#include "diagnosis/plain_findings.h"
 
 namespace dcnn {
 namespace {
@@ -22,7 +23,12 @@ std::string noun_of(const std::string& effect) {
       {"step_bias", "an offset that jumps"},
       {"time_delay", "a delay"},
       {"quadratic_drag", "drag"},
-      {"cogging", "a torque periodic in the position"}};
+      {"cogging", "a torque periodic in the position"},
+      {"thermal_drift", "an offset that settles"},
+      {"linear_drift", "a drift"},
+      {"flexible_resonance", "a resonance"},
+      {"hum", "a hum"},
+      {"discovered", "a law without a name"}};
   const auto found = kNouns.find(effect);
   if (found != kNouns.end()) return found->second;
   std::string noun = effect;
@@ -84,7 +90,8 @@ Json joints_json(const std::vector<Json>& reports, const System& system) {
   for (std::size_t k = 0; k < reports.size(); ++k) {
     std::string words;
     for (const Json& line : in_lines(reports[k]["findings"])) {
-      words += (words.empty() ? "" : "; ") + line["words"].get<std::string>();
+      words += (words.empty() ? "" : "; ") + line["words"].get<std::string>() +
+               (is_doubtful(line) ? " (not established)" : "");
     }
     const Json& unnamed = reports[k]["unnamed"]["words"];
     if (!unnamed.is_null()) words += (words.empty() ? "" : "; and ") + unnamed.get<std::string>();
@@ -101,6 +108,7 @@ Json arm_json(const Json& report, const System& system) {
   std::vector<std::string> effects;  // in the order in which they are met
   std::map<std::string, std::vector<std::size_t>> joints;
   for (const Json& finding : report["findings"]) {
+    if (is_doubtful(finding)) continue;
     const std::string effect = called(finding);
     const std::size_t joint = joint_of(finding["axis"], system);
     if (joint == system.axes.size()) {

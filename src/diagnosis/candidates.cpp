@@ -129,7 +129,8 @@ Signals senses(const Case& study) {
   return signals;
 }
 
-/// Share of sines of any phase at this frequency that is linear in what moves.
+/// Share of sines of any phase at this frequency that is linear in what moves, or on an axis in the
+/// even and odd laws of it, whose harmonics a repeated motion has.
 double share_in_motion(const Case& study, double hz) {
   double explained = 0.0, power = 0.0;
   for (const Log& log : study.logs) {
@@ -137,6 +138,12 @@ double share_in_motion(const Case& study, double hz) {
     Eigen::MatrixXd moves(motion.samples(), 0);
     for (const Eigen::MatrixXd* part : {&motion.euler, &motion.w_S, &motion.v_B, &motion.a_B}) {
       if (part->rows() == motion.samples()) moves = appended(moves, *part);
+    }
+    if (study.axis && motion.v_B.rows() == motion.samples()) {
+      const Eigen::ArrayXd q = motion.euler.col(0), v = motion.v_B.col(0);
+      Eigen::MatrixXd laws(motion.samples(), 5);
+      laws << q.square(), q.cube(), v.square(), v.sign(), v.sign() * q;
+      moves = appended(moves, laws);
     }
     Eigen::MatrixXd waves(motion.samples(), 2);
     for (Index i = 0; i < motion.samples(); ++i) {
@@ -237,6 +244,7 @@ std::vector<Member> candidates(const Scan& scan, const Signals& left,
                           kind->interval == IntervalRule::kOnset ||
                           kind->stage == Stage::kSaturation || kind->stage == Stage::kQuantisation;
     if (own_test || !is_listed(study, *kind) || !is_testable(study, *kind)) continue;
+    if (is_in_base(study, *kind)) continue;
     for (const EffectFit& form : kind->fits) {
       const bool follows = !form.shapes.empty() && std::string(form.shapes[0].name) == "t_ref";
       if (follows && !has_temperature(study)) continue;

@@ -177,6 +177,8 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   for (auto& r : fit) study.logs.push_back(make_log(std::move(r), study, !request.simulator));
   for (auto& r : holdout) {
     loaded.holdout.logs.push_back(make_log(std::move(r), loaded.holdout, !request.simulator));
+    // Where every fitted recording was zeroed none of them tells the offset of another.
+    loaded.holdout.logs.back().zeroed |= has_own_offsets(study);
   }
   return loaded;
 }

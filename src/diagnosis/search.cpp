@@ -198,6 +198,7 @@ void Search::run() {
   mask_outlying();
   explore();
   if (begin_with_own_numbers()) explore();
+  search_beside_common_laws();
   if (mask_outlying()) explore();  // beside a law other things are outlying
   if (hums_no_more()) explore();
   // After larger effects: what is left of a mode that is not in the model resembles impacts.

@@ -175,6 +175,10 @@ class Search {
   void conclude();
   void hold_untold();
   bool begin_with_own_numbers();
+  /// How much worse a model is beside the noise at hand than that at hand, in prices of a number.
+  double worse(const std::vector<Member>& members) const;
+  bool put_common_laws();
+  void search_beside_common_laws();
   void leave_bounded_lags();
   void straighten_drifts();
   bool keep_what_carries_over();

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "dcnn/physics/axis_machine.h"
+#include "diagnosis/arm_senses.h"
 #include "diagnosis/axis_case.h"
 #include "diagnosis/given_arm.h"
 
@@ -43,35 +44,6 @@ void set_sense(LoadedCase& joint, double sense) {
   }
 }
 
-/// Links of one arm beside an offset and friction of each joint. The torque of one joint, which
-/// others drive as well, may look like a reaction beside its own motion alone: joints whose
-/// friction then resists are turned, the likeliest first, while the arm predicts pieces of time
-/// that were left out better.
-ArmModel turned_model(const ArmSums& sums, const MatrixXd& told, const VectorXd& senses) {
-  std::vector<Index> friction;
-  for (Index k = 0; k < kOwnFriction; ++k) friction.push_back(k);
-  ArmModel model{told, std::vector<std::vector<Index>>(sums.joints(), friction),
-                 VectorXd::Ones(senses.size())};
-  while (true) {
-    ArmRegression now(sums, model);
-    now.reweight();
-    double most = 0.0;
-    Index best = -1;
-    for (Index j = 0; j < senses.size(); ++j) {
-      if (model.turned(j) < 0.0) continue;
-      ArmModel other = model;
-      other.turned(j) = -1.0;
-      ArmRegression then(sums, std::move(other));
-      then.set_variances(now.variances());
-      if (then.resisted()(j) * senses(j) >= 0.0) continue;
-      const double support = then.log_support_against(now);
-      if (support > most) most = support, best = j;
-    }
-    if (best < 0) return model;
-    model.turned(best) = -1.0;
-  }
-}
-
 void fit_links(std::vector<LoadedCase>& cases) {
   const std::vector<JointRows> rows = all_rows(cases, VectorXd());
   const ArmSums sums(rows);
@@ -80,7 +52,7 @@ void fit_links(std::vector<LoadedCase>& cases) {
   for (std::size_t j = 0; j < cases.size(); ++j) {
     senses(static_cast<Index>(j)) = cases[j].fit.axis->sense;
   }
-  const ArmModel model = turned_model(sums, told, senses);
+  const ArmModel model = with_likeliest_senses(sums, told, senses);
   ArmRegression regression(sums, model);
   regression.reweight();
   std::vector<Index> columns;

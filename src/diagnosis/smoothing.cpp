@@ -22,7 +22,7 @@ constexpr int kMostTunings = 6;
 /// A hand trembles at up to 14 Hz; a machine turns within some hundredths of a second, and what
 /// lines the steps of its encoder make above that would be no motion.
 DerivativeSpec low_pass_spec(const Case& study, double cutoff_hz, double subtraction,
-                             double most_noise = 0.0) {
+                             const std::vector<double>& most_noise = {}) {
   constexpr double kFastestMachine = 50.0;  // Hz; a low-pass that is declared ends the motion
   const double machine = study.lowpass_hz > 0.0 ? study.lowpass_hz : kFastestMachine;
   return {.kind = DerivativeSpec::Kind::kSpectral,
@@ -32,16 +32,20 @@ DerivativeSpec low_pass_spec(const Case& study, double cutoff_hz, double subtrac
           .fastest_hz = study.axis ? machine : DerivativeSpec().fastest_hz};
 }
 
-/// The most that poses, or positions of an axis, hold beyond the cut-off, in units of their noise's
-/// power.
-double most_noise_of(const Case& study) {
-  double most = 0.0;
+/// The most that poses, or positions of an axis, hold beyond the cut-off in each hertz or anywhere
+/// above, in units of their noise's power.
+std::vector<double> most_noise_of(const Case& study) {
+  const LowPass filter{.cutoff_hz = study.derivative.cutoff_hz,
+                       .fastest_hz = study.derivative.fastest_hz};
+  std::vector<double> most;
   const auto add = [&](const Eigen::MatrixXd& pose, const Recording& recording) {
     const Bridged even = bridged(pose, recording);
     for (const Segment& s : even.segments) {
       for (Index j = 0; j < pose.cols(); ++j) {
         const auto x = even.columns.col(j).segment(s.begin, s.size());
-        most = std::max(most, most_noise(x, recording.dt, study.derivative.cutoff_hz));
+        const std::vector<double> here = most_noise(x, recording.dt, filter);
+        most.resize(here.size());
+        for (std::size_t k = 0; k < most.size(); ++k) most[k] = std::max(most[k], here[k]);
       }
     }
   };
@@ -158,7 +162,7 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
   const auto first = all.begin() + static_cast<std::ptrdiff_t>(kind * grid.size());
   const std::vector<double> misfit(first, first + static_cast<std::ptrdiff_t>(grid.size()));
   study_.derivative.subtraction = kind == 0 ? 0.0 : 1.0;
-  study_.derivative.most_noise = 0.0;
+  study_.derivative.most_noise.clear();
   other_filter_.reset();
   if (kinds == 2) {  // the best of the other kind
     const auto others = all.begin() + static_cast<std::ptrdiff_t>((1 - kind) * grid.size());
@@ -182,11 +186,11 @@ void Search::pass_motion(const std::vector<Member>& members) {
   const Misfit least = linear_misfit(study_, members);
   for (const double times : {1.0, 10.0, 100.0}) {
     Case trial = study_;
-    trial.derivative.most_noise = times;
+    trial.derivative.most_noise = {times};
     set_derivative(trial, trial.derivative);
     if (linear_misfit(trial, members).square > least.square + kNumberPrice * least.variance())
       continue;
-    study_.derivative.most_noise = times;
+    study_.derivative.most_noise = {times};
     smooth(study_.derivative.cutoff_hz);
     return;
   }

@@ -88,15 +88,16 @@ struct Missing {
 };
 
 Missing what_is_missing(const Json& report) {
-  if (report.contains("arm"))
-    return {capitalised(report["arm"]["words"].get<std::string>()), "", ""};
+  const bool arm = report.contains("arm");  // which says in a few words what is on many joints
   std::string text, others, doubtful;
   for (const Json& finding : in_lines(report["findings"])) {
+    if (arm && !is_doubtful(finding)) continue;
     std::string& list = is_doubtful(finding)         ? doubtful
                         : is_without_effect(finding) ? others
                                                      : text;
     list += (list.empty() ? "" : "; ") + finding["words"].get<std::string>() + against(finding);
   }
+  if (arm) return {capitalised(report["arm"]["words"].get<std::string>()), "", doubtful};
   if (!report["unnamed"]["words"].is_null()) {
     text += (text.empty() ? "" : "; and ") + report["unnamed"]["words"].get<std::string>();
   }

@@ -1,4 +1,6 @@
 // Which effects the signals of a log can show.
+#include <algorithm>
+
 #include "diagnosis/candidates.h"
 #include "physics/effect_law.h"
 
@@ -63,6 +65,12 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
     return because("each recording has an offset of its own (zeroed)");
   }
   return true;
+}
+
+bool is_in_base(const Case& study, const EffectKind& kind) {
+  if (!study.axis || std::string(kind.name) != "cable_spring") return false;
+  const std::vector<std::string>& base = study.axis->axis().base;
+  return std::find(base.begin(), base.end(), "position") != base.end();
 }
 
 std::vector<Member> own_parameters(const Case& study) {

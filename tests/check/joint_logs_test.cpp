@@ -54,6 +54,15 @@ TEST(JointLogs, FrozenRowsAreFoundBesideADriveThatIsOff) {
   EXPECT_GE(probability_of(report_of(table), "frozen", "tau_2"), check::kCertain);
 }
 
+// A step of the voltage that a drive was told to hold, for the whole of a recording.
+TEST(JointLogs, ARoundCommandThatIsHeldIsNotFrozen) {
+  Table table = two_joints();
+  table.values.col(4).setConstant(-7.0);
+  EXPECT_LT(probability_of(report_of(table), "frozen", "tau_2"), check::kLikely);
+  table.values.col(4).setConstant(-7.0413);
+  EXPECT_GE(probability_of(report_of(table), "frozen", "tau_2"), check::kCertain);
+}
+
 TEST(JointLogs, ALimitIsFoundBesideADriveThatIsOff) {
   Table table = two_joints();
   auto tau = table.values.col(4);

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "data/sample_recording.h"
 #include "data/spectral.h"
 #include "data/testing.h"
+#include "dcnn/core/error.h"
 #include "dcnn/core/json.h"
 #include "dcnn/core/random.h"
 
@@ -224,8 +226,9 @@ TEST(Smooth, PassesMotionBeyondTheCutoffOfARecordingWithoutIt) {
     }
     return x;
   };
-  LowPass filter{5.0, 0.0, most_noise(slow(), 0.0025, 5.0)};
-  EXPECT_GT(filter.most_noise, 1.0);
+  LowPass filter{.cutoff_hz = 5.0};
+  filter.most_noise = most_noise(slow(), 0.0025, filter);
+  EXPECT_GT(filter.most_noise.back(), 1.0);
   const auto mean = [&](const Eigen::VectorXd& x, double from, double to) {
     const auto first = static_cast<Index>(2.0 * from), end = static_cast<Index>(2.0 * to);
     return gain_of(x, 0.0025, filter, 400).segment(first, end - first).mean();
@@ -233,8 +236,48 @@ TEST(Smooth, PassesMotionBeyondTheCutoffOfARecordingWithoutIt) {
   for (int draw = 0; draw < 20; ++draw) EXPECT_LT(mean(slow(), 12.0, 200.0), 1e-3);
   EXPECT_GT(mean(trembling(1e-5), 9.0, 10.0), 0.9);
   EXPECT_LT(mean(trembling(1e-5), 12.0, 200.0), 1e-3);
-  filter.most_noise = 0.0;
+  filter.most_noise.clear();
   EXPECT_LT(mean(trembling(1e-5), 9.0, 10.0), 0.02);
+}
+
+/// Motion that slows as its frequency rises: what one recording holds at 4 Hz, another may hold
+/// less of at 9 Hz, where the first has nothing.
+TEST(Smooth, PassesWhatExceedsAnotherRecordingAtItsFrequencyAndAbove) {
+  Rng rng({4});
+  const auto swinging = [&](double hz, double size) {
+    Eigen::VectorXd x(16'000);
+    for (Index i = 0; i < x.size(); ++i) {
+      const double turn = 2.0 * std::numbers::pi * 0.0025 * double(i);
+      x(i) = size * std::sin(hz * turn) + 1e-5 * rng.normal();
+    }
+    return x;
+  };
+  LowPass filter{.cutoff_hz = 5.0};
+  filter.most_noise = most_noise(swinging(4.2, 0.1), 0.0025, filter);
+  ASSERT_EQ(filter.most_noise.size(), 25u);
+  EXPECT_TRUE(std::is_sorted(filter.most_noise.rbegin(), filter.most_noise.rend()));
+  const auto at_nine = [&](const LowPass& other) {
+    return gain_of(swinging(9.2, 0.01), 0.0025, other, 400).segment(18, 1).mean();
+  };
+  EXPECT_GT(at_nine(filter), 0.5);
+  LowPass as_much_everywhere = filter;
+  as_much_everywhere.most_noise = {filter.most_noise.front()};
+  EXPECT_LT(at_nine(as_much_everywhere), 0.05);
+}
+
+TEST(DerivativeSpec, KeepsHowMuchPasses) {
+  DerivativeSpec spec;
+  spec.kind = DerivativeSpec::Kind::kSpectral;
+  for (const std::vector<double>& most : {std::vector<double>{}, {10.0}, {3.0, 2.0, 1.0}}) {
+    spec.most_noise = most;
+    const Json json = to_json(spec);
+    EXPECT_EQ(parse_derivative(Options(json, "model", Exit::kData)).most_noise, most);
+  }
+  const Json number{{"kind", "spectral"}, {"most_noise", 10.0}};
+  EXPECT_EQ(parse_derivative(Options(number, "model", Exit::kData)).most_noise,
+            std::vector<double>{10.0});
+  const Json negative{{"kind", "spectral"}, {"most_noise", {1.0, -1.0}}};
+  EXPECT_THROW(parse_derivative(Options(negative, "model", Exit::kData)), Error);
 }
 
 }  // namespace

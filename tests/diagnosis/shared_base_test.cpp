@@ -6,6 +6,7 @@
 
 #include "dcnn/core/file.h"
 #include "dcnn/core/random.h"
+#include "diagnosis/arm_senses.h"
 #include "diagnosis/axis_case.h"
 #include "diagnosis/axis_sense.h"
 #include "support/process.h"
@@ -116,6 +117,56 @@ TEST_F(SharedBase, TellsTheSenseOfAJointThatOthersDrive) {
   EXPECT_LT(sense_of(logs, system, system.axes[1], {}), 0.0);
   for (const LoadedCase& joint : load_axes(against).cases) {
     EXPECT_EQ(joint.fit.axis->sense, 1.0) << joint.fit.axis->index;
+  }
+}
+
+/// Rows of six joints that four parameters of the links couple, the last by a thousandth, each with
+/// dry friction. `truth`: 1 where a joint measures its drive's torque, -1 the reaction; `taken`:
+/// what its rows are taken for.
+std::vector<JointRows> coupled_joints(const Eigen::VectorXd& truth, const Eigen::VectorXd& taken,
+                                      const Eigen::MatrixXd& told) {
+  constexpr Index kJointRows = 240, kTimePieces = 6;
+  Rng rng({77});
+  const auto noise = [&](Index rows, Index columns) {
+    Eigen::MatrixXd values(rows, columns);
+    for (double& x : values.reshaped()) x = rng.normal();
+    return values;
+  };
+  const Eigen::VectorXd links = told * noise(told.cols(), 1);
+  std::vector<JointRows> joints;
+  for (Index j = 0; j < truth.size(); ++j) {
+    JointRows rows;
+    const double coupled = j + 1 == truth.size() ? 1e-3 : 1.0;
+    const Eigen::MatrixXd arm = coupled * noise(kJointRows, told.rows());
+    const Eigen::ArrayXd v = noise(kJointRows, 1).array();
+    rows.arm = taken(j) * arm;
+    rows.own.resize(kJointRows, kOwnFriction);
+    rows.own << Eigen::VectorXd::Ones(kJointRows), v.matrix(), (v / 0.02).tanh().matrix(),
+        (v / 0.1).tanh().matrix(), (v / 0.4).tanh().matrix();
+    rows.target = truth(j) * (arm * links + rows.own.col(3)) + 0.1 * noise(kJointRows, 1);
+    for (Index i = 0; i < kJointRows; ++i) rows.piece.push_back(i * kTimePieces / kJointRows);
+    joints.push_back(std::move(rows));
+  }
+  return joints;
+}
+
+/// How joints are coupled says which are alike, friction which of the two they are: also of a joint
+/// that no other drives.
+TEST(ArmSenses, AreThoseOfAllJointsWhateverEachWasTakenFor) {
+  const Eigen::VectorXd drives = Eigen::VectorXd::Ones(6);
+  Eigen::VectorXd every_other = drives, one = drives;
+  every_other(1) = every_other(3) = every_other(5) = -1.0;
+  one(2) = -1.0;
+  Rng rng({78});
+  Eigen::MatrixXd told(60, 4);
+  for (double& x : told.reshaped()) x = rng.normal();
+  for (const Eigen::VectorXd& truth : {drives, Eigen::VectorXd(-drives), one}) {
+    for (const Eigen::VectorXd& taken : {drives, Eigen::VectorXd(-drives), every_other, one}) {
+      const ArmSums sums(coupled_joints(truth, taken, told));
+      const ArmModel model = with_likeliest_senses(sums, told, taken);
+      EXPECT_EQ(Eigen::VectorXd(model.turned.cwiseProduct(taken)), truth)
+          << truth.transpose() << " taken for " << taken.transpose();
+    }
   }
 }
 

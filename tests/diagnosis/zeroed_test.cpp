@@ -44,6 +44,17 @@ TEST(ZeroedRecordings, OfASimulatorThatIsRightLackNothing) {
   EXPECT_EQ(report["verdict"], "consistent") << report["findings"];
 }
 
+/// A fitted recording that was zeroed tells nothing of the offset of another.
+TEST(ZeroedRecordings, TellNoOffsetOfWhatIsHeldOut) {
+  const Bench bench(configuration(Json::array()));
+  test::change(bench, [](Recording& log) { log.set("fx", log.column("fx").array() + 5.0); });
+  DiagnosisRequest request = bench.request();
+  request.zeroed = {bench / "fit.csv"};
+  const Json report = diagnose(request, nullptr).report;
+  EXPECT_EQ(report["verdict"], "consistent") << report["findings"];
+  EXPECT_EQ(report["zeroed"], (Json{"fit.csv", "hold.csv"}));
+}
+
 TEST(SubtractedPayload, IsAddedBackInTheSensorsFrame) {
   const Bench bench(configuration(Json::array()));
   const Recording raw = read_recording(bench / "fit.csv", ReadOptions(), System());

@@ -20,9 +20,9 @@ struct DerivativeSpec {
   /// spectral: 0 for W = 1; else W is the Wiener gain of every column's own spectrum, its noise
   /// taken this many times.
   double subtraction = 0.0;
-  /// spectral: how many times its noise a column holds beyond the cut-off at most; more is motion
-  /// and passes. 0: nothing passes.
-  double most_noise = 0.0;
+  /// spectral: how many times its noise a column holds beyond the cut-off at most, in each hertz
+  /// from 0 on (the last also above); more is motion and passes. Empty: nothing passes.
+  std::vector<double> most_noise = {};
   double fastest_hz = 25.0;  ///< spectral: up to which motion beyond the cut-off passes
 
   /// Number of samples in the window: 2·round(window_s/(2·dt)) + 1, at least order + 4 (odd).
@@ -38,7 +38,7 @@ inline DerivativeSpec causal_derivative() {
 }
 
 /// Keys: kind (sg|sg_causal|central|spline|spectral), window_s, order, cutoff_hz, subtraction,
-/// most_noise, fastest_hz.
+/// most_noise (a number or a list), fastest_hz.
 DerivativeSpec parse_derivative(Options options);
 Json to_json(const DerivativeSpec& spec);
 

@@ -144,6 +144,8 @@ struct EffectKind {
   bool of_load = false;        ///< needs Wrench::load
   /// A relative of a commoner law, which it must outdo by the price of a number (prior::kSpecial).
   bool special = false;
+  /// Nearly every machine has it (prior::kCommon).
+  bool common = false;
   /// Its state at the first sample of a recording is one that nobody knows: fitted beside it.
   bool begins_anywhere = false;
   /// A constant: no error of a law or of the motion comes with it, however large it is.

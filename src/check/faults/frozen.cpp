@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "check/priors.h"
 #include "check/rows.h"
 #include "core/elementary.h"
 
@@ -16,6 +17,14 @@ double run_p(double n, double length, double q) {
 
 bool at_an_end(const Eigen::VectorXd& x, double value) {
   return value == x.maxCoeff() || value == x.minCoeff();
+}
+
+/// Of a value that stands still: that it is a fault's, where a command may be round as well.
+double fault_at(const Log& log, double value, double p) {
+  const double fault = posterior_of_p(p);
+  if (log.joints.empty() || !has_two_digits(value)) return fault;
+  const double round = kFaultPrior * kTwoDigits;
+  return std::min(fault, round / (round + kCommanded));
 }
 
 void find_frozen_column(const Log& log, const std::string& name, std::vector<Fault>& out) {
@@ -43,7 +52,7 @@ void find_frozen_column(const Log& log, const std::string& name, std::vector<Fau
   const double n = static_cast<double>(x.size());
   const double q = whole ? 0.0 : others / std::max(1.0, n - static_cast<double>(longest->length));
   const double p = run_p(n, static_cast<double>(longest->length) / second, q);
-  Fault fault = fault_of(frozen_fault, posterior_of_p(p), name,
+  Fault fault = fault_of(frozen_fault, fault_at(log, longest->value, p), name,
                          name + " is exactly " + brief(longest->value) + " for " +
                              std::to_string(longest->length) + " rows while the robot moves");
   set_interval(log, longest->begin, end, fault);

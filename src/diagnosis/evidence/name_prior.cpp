@@ -48,11 +48,16 @@ double log_calibration(const Setting& setting, const Member& member) {
 
 }  // namespace
 
+double log_odds_of_name(const Case& study, const EffectKind& kind) {
+  const double name = study.axis && kind.common ? prior::kCommon : prior::kName;
+  return elementary::log(name / (1.0 - name)) +
+         (kind.special ? elementary::log(prior::kSpecial) : 0.0);
+}
+
 double log_prior(const Setting& setting, const JointFit& fit, std::size_t m) {
   const Member& member = fit.members[m];
   const auto axes = std::max<std::size_t>(1, axes_of(setting.study, *member.kind).size());
-  double sum = elementary::log(prior::kName / (1.0 - prior::kName)) - elementary::log(double(axes));
-  if (member.kind->special) sum += elementary::log(prior::kSpecial);
+  double sum = log_odds_of_name(setting.study, *member.kind) - elementary::log(double(axes));
   if (member.interval_s) {
     const double edges = member.kind->interval == IntervalRule::kRequired ? 2.0 : 1.0;
     sum += edges * elementary::log(prior::kEdge / std::max(1.0, span_seconds(setting.study)));

@@ -7,6 +7,9 @@ constexpr double kName = 0.04;  ///< probability of each listed effect, shared b
 /// Of a law that bends a commoner one, as a share of the latter's; in a search it costs one number
 /// more.
 constexpr double kSpecial = 0.1;
+/// On a machine, of a law that nearly every one has (dry and viscous friction): even odds, for what
+/// resists may be small, or in its simulator.
+constexpr double kCommon = 0.5;
 constexpr double kUnknown = 0.12;   ///< of physics that no effect of the catalogue describes
 constexpr double kSlowNoise = 0.1;  ///< of noise that grows below the floor's band
 /// Density of a sensor's slow noise over its floor at most, in any octave.

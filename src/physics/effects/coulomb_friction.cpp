@@ -22,6 +22,7 @@ const EffectKind effect{
     .equation = "-fc tanh(v/v0) n",
     .example = R"({"fc_n": 0.4, "v0_mps": 0.01})",
     .axis = AxisRule::kLine,
+    .common = true,
     .strength = "fc_n",
     .apply = resisted<law>,
     .stream = resisting<law>,

@@ -18,6 +18,7 @@ const EffectKind effect{
     .equation = "-c v n",
     .example = R"({"c_nspm": 2.0})",
     .axis = AxisRule::kLine,
+    .common = true,
     .strength = "c_nspm",
     .apply = resisted<law>,
     .stream = resisting<law>,

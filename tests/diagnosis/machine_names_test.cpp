@@ -1,0 +1,102 @@
+// What is a name on a machine: laws that all machines have, that its base has, that nobody
+// commands.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "core/elementary.h"
+#include "dcnn/core/error.h"
+#include "dcnn/core/file.h"
+#include "dcnn/core/random.h"
+#include "dcnn/diagnosis/diagnose.h"
+#include "diagnosis/candidates.h"
+#include "diagnosis/evidence/name_prior.h"
+#include "diagnosis/evidence/priors.h"
+#include "support/process.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kNamesRate = 250.0, kNamesNoise = 0.05;
+constexpr Index kNamesRows = 5000;
+
+/// A motion of four sines; the drive's torque is 3 a + 1.5 q + 4, or held at a command.
+void write_log(const std::filesystem::path& path, double begin, std::optional<double> command) {
+  Rng rng({static_cast<std::uint64_t>(begin) + 1});
+  Table table{{"t", "pos", "vel", "acc", "torque"}, Eigen::MatrixXd(kNamesRows, 5)};
+  for (Index k = 0; k < kNamesRows; ++k) {
+    const double t = begin + static_cast<double>(k) / kNamesRate;
+    double q = 0.0, v = 0.0, a = 0.0;
+    for (const double hz : {0.11, 0.27, 0.53, 0.97}) {
+      const double w = 2.0 * std::numbers::pi * hz, size = 0.03 / hz;
+      q += size * std::sin(w * t + 9.0 * hz);
+      v += size * w * std::cos(w * t + 9.0 * hz);
+      a -= size * w * w * std::sin(w * t + 9.0 * hz);
+    }
+    const double torque = command.value_or(3.0 * a + 1.5 * q + 4.0 + kNamesNoise * rng.normal());
+    table.values.row(k) << t, q, v, a, torque;
+  }
+  write_csv(path, table);
+}
+
+Json machine(const Json& base) {
+  return {{"kind", "axes"},
+          {"axes", Json::array({{{"name", "wheel"},
+                                 {"measured", "torque"},
+                                 {"unit", "N*m"},
+                                 {"position", "pos"},
+                                 {"velocity", "vel"},
+                                 {"acceleration", "acc"},
+                                 {"base", base}}})}};
+}
+
+class MachineNames : public testing::Test {
+ protected:
+  DiagnosisRequest request(const Json& base) const {
+    write_file(folder_ / "machine.json", machine(base).dump());
+    write_log(folder_ / "fit.csv", 0.0, {});
+    write_log(folder_ / "hold.csv", 30.0, {});
+    DiagnosisRequest request;
+    request.system = folder_ / "machine.json";
+    request.fit = {folder_ / "fit.csv"};
+    request.holdout = {folder_ / "hold.csv"};
+    return request;
+  }
+  test::TemporaryFolder folder_;
+};
+
+// Beside a stiffness that is fitted a spring with another rest is an offset.
+TEST_F(MachineNames, ASpringInTheBaseIsNoSecondOne) {
+  const Json report = diagnose(request({"acceleration", "position"}), nullptr).report;
+  ASSERT_EQ(report["findings"].size(), 1U) << report["findings"].dump(1);
+  EXPECT_EQ(report["findings"][0]["effect"], "bias");
+  EXPECT_NEAR(report["findings"][0]["parameters"]["delta_bias"]["value"].get<double>(), 4.0, 0.02);
+}
+
+TEST_F(MachineNames, ACommandMayBeConstantASensorMayNot) {
+  DiagnosisRequest both = request({"acceleration", "velocity"});
+  both.fit.push_back(folder_ / "step.csv");
+  write_log(both.fit.back(), 60.0, -7.0);
+  EXPECT_NO_THROW(diagnose(both, nullptr));
+  write_log(both.fit.back(), 60.0, -7.0413);
+  EXPECT_THROW(diagnose(both, nullptr), Error);
+}
+
+TEST(NamePrior, FrictionIsTheRuleOnAMachineAlone) {
+  const auto rare = [](double p) { return elementary::log(p / (1.0 - p)); };
+  Case tool, axis;
+  axis.axis = std::make_shared<const AxisPlan>();
+  for (const char* name : {"coulomb_friction", "viscous_friction"}) {
+    const EffectKind& kind = *find_effect(name);
+    EXPECT_EQ(evidence::log_odds_of_name(axis, kind), rare(evidence::prior::kCommon)) << name;
+    EXPECT_EQ(evidence::log_odds_of_name(tool, kind), rare(evidence::prior::kName)) << name;
+  }
+  EXPECT_EQ(evidence::log_odds_of_name(axis, *find_effect("hum")), rare(evidence::prior::kName));
+  EXPECT_LT(evidence::log_odds_of_name(axis, *find_effect("gear_friction")),
+            rare(evidence::prior::kName));
+}
+
+}  // namespace
+}  // namespace dcnn
