@@ -244,10 +244,10 @@ std::vector<Member> candidates(const Scan& scan, const Signals& left,
                           kind->interval == IntervalRule::kOnset ||
                           kind->stage == Stage::kSaturation || kind->stage == Stage::kQuantisation;
     if (own_test || !is_listed(study, *kind) || !is_testable(study, *kind)) continue;
-    if (is_in_base(study, *kind)) continue;
     for (const EffectFit& form : kind->fits) {
       const bool follows = !form.shapes.empty() && std::string(form.shapes[0].name) == "t_ref";
       if (follows && !has_temperature(study)) continue;
+      if (form.amplitudes > 1 && is_in_base(study, *kind)) continue;
       if (form.use == (study.axis ? EffectFit::Use::kTools : EffectFit::Use::kMachines) ||
           form.use == EffectFit::Use::kDriven) {
         continue;

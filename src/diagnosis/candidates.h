@@ -30,7 +30,8 @@ std::vector<std::string> axes_of(const Case& study, const EffectKind& kind);
 /// Whether the recordings hold the signals that the effect needs; if not, why, in words.
 bool is_testable(const Case& study, const EffectKind& kind, std::string* why = nullptr);
 
-/// Whether the axis' base simulator has this law, with a coefficient that is fitted.
+/// Whether the axis' base simulator has this law, with a coefficient that is fitted: a spring with
+/// another rest is then an offset.
 bool is_in_base(const Case& study, const EffectKind& kind);
 
 /// Members that are the simulator's own numbers.

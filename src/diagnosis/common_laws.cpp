@@ -1,24 +1,24 @@
 // A second beginning on a machine: beside the laws that nearly every machine has.
 #include <algorithm>
 
+#include "core/elementary.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/evidence/name_prior.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/search.h"
 
 namespace dcnn {
 namespace {
 
-/// Prices of a number that the names of a model cost: one for each number, and what makes a name
-/// likelier than others, or less likely, before the recordings (a number costs half of
-/// kNumberPrice nats).
+/// Prices of a number that the names of a model cost: one for each number, less what makes a law
+/// likelier than others before the recordings (a number costs half of kNumberPrice nats).
 double prices(const Case& study, const std::vector<Member>& members) {
-  const EffectKind& any = *find_effect("bias");
+  const double other = elementary::log(evidence::prior::kName / (1.0 - evidence::prior::kName));
   double sum = 0.0;
   for (const Member& m : members) {
-    const double likelier = m.kind->common ? evidence::log_odds_of_name(study, *m.kind) -
-                                                 evidence::log_odds_of_name(study, any)
-                                           : 0.0;
-    sum += m.parameters() - 2.0 * likelier / kNumberPrice;
+    sum += m.parameters();
+    if (!m.kind->common) continue;
+    sum -= (evidence::log_odds_of_name(study, *m.kind) - other) / (0.5 * kNumberPrice);
   }
   return sum;
 }
@@ -35,7 +35,7 @@ double Search::worse(const std::vector<Member>& members) const {
 bool Search::put_common_laws() {
   const std::size_t before = fit_.members.size();
   for (const EffectKind* kind : effect_kinds()) {
-    if (!kind->common) continue;
+    if (!kind->common || is_in_base(study_, *kind)) continue;
     const Scan scan(*setting_, fit_);
     Trial best;
     for (const Member& member : candidates(scan, left_, floors_)) {
@@ -56,8 +56,9 @@ void Search::search_beside_common_laws() {
   if (!study_.axis || fit_.members.size() == apart_.size()) return;
   const auto kinds = effect_kinds();
   const bool are_there = std::all_of(kinds.begin(), kinds.end(), [&](const EffectKind* kind) {
-    return !kind->common || std::any_of(fit_.members.begin(), fit_.members.end(),
-                                        [&](const Member& m) { return m.kind == kind; });
+    return !kind->common || is_in_base(study_, *kind) ||
+           std::any_of(fit_.members.begin(), fit_.members.end(),
+                       [&](const Member& m) { return m.kind == kind; });
   });
   if (are_there) return;
   say("looking again beside dry and viscous friction");

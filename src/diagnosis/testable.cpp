@@ -1,5 +1,6 @@
 // Which effects the signals of a log can show.
 #include <algorithm>
+#include <map>
 
 #include "diagnosis/candidates.h"
 #include "physics/effect_law.h"
@@ -68,9 +69,15 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
 }
 
 bool is_in_base(const Case& study, const EffectKind& kind) {
-  if (!study.axis || std::string(kind.name) != "cable_spring") return false;
+  static const std::map<std::string, std::string> kLaws{{"position", "cable_spring"},
+                                                        {"velocity", "viscous_friction"},
+                                                        {"acceleration", "inertia"}};
+  if (!study.axis) return false;
   const std::vector<std::string>& base = study.axis->axis().base;
-  return std::find(base.begin(), base.end(), "position") != base.end();
+  return std::any_of(base.begin(), base.end(), [&](const std::string& signal) {
+    const auto law = kLaws.find(signal);
+    return law != kLaws.end() && law->second == kind.name;
+  });
 }
 
 std::vector<Member> own_parameters(const Case& study) {

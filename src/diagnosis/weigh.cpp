@@ -113,7 +113,11 @@ void Search::adopt(const std::vector<Member>& members) {
   settle(members);
   leave_bounded_lags();  // beside fewer names a lag may go as far as it can
   weigh_once();
-  if (!study_.axis) judge_rest();
+  if (study_.axis) {
+    remains_ = is_alarming_now();
+  } else {
+    judge_rest();
+  }
 }
 
 void Search::begin_anew() {
