@@ -69,9 +69,8 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
 }
 
 bool is_in_base(const Case& study, const EffectKind& kind) {
-  static const std::map<std::string, std::string> kLaws{{"position", "cable_spring"},
-                                                        {"velocity", "viscous_friction"},
-                                                        {"acceleration", "inertia"}};
+  static const std::map<std::string, std::string> kLaws{
+      {"position", "cable_spring"}, {"velocity", "viscous_friction"}, {"acceleration", "inertia"}};
   if (!study.axis) return false;
   const std::vector<std::string>& base = study.axis->axis().base;
   return std::any_of(base.begin(), base.end(), [&](const std::string& signal) {
