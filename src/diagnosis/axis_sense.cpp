@@ -120,17 +120,19 @@ double sense_of(const std::vector<Recording>& recordings, const System& system, 
   }
   if (logs.empty()) return 1.0;
   const double turns = turns_of(logs);
-  const double delayed =
-      elementary::log(evidence::prior::kName / (1.0 - evidence::prior::kName) / (2.0 * kDelays));
+  constexpr double kStep = kLongestDelay / kDelays, kUsual = evidence::prior::kUsualDelay;
+  const double delayed = elementary::log(evidence::prior::kName / (1.0 - evidence::prior::kName) *
+                                         kStep / (2.0 * kUsual));
   double sense = 1.0, most = -1e300;
   for (int k = -kDelays; k <= kDelays; ++k) {
     LaggedSums sums;
     for (const LaggedRows& log : logs) {
-      sums.add(log, std::llround(kLongestDelay * k / kDelays / log.dt));
+      sums.add(log, std::llround(kStep * k / log.dt));
     }
     const SenseFit fit = sense_fit(sums);
-    const double likely =
-        -0.5 * turns * elementary::log(std::max(fit.left, 1e-12)) + (k == 0 ? 0.0 : delayed);
+    // Of a motion to and fro half a period later is the opposite: the shorter delay is likelier.
+    const double prior = k == 0 ? 0.0 : delayed - kStep * std::abs(k) / kUsual;
+    const double likely = -0.5 * turns * elementary::log(std::max(fit.left, 1e-12)) + prior;
     if (likely > most) most = likely, sense = fit.sense;
   }
   return sense;
