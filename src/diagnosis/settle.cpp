@@ -171,12 +171,9 @@ void Search::settle(const std::vector<Member>& members) {
   if (choose_rounding_noise()) fit_beside_base(fit_.members);
   left_ = difference(study_, predict(study_, fit_.members));
   // A machine always leaves something that no effect explains, far above its sensor's noise: there
-  // a number counts that takes off a share of what is left beyond that noise.
+  // a number counts that takes off a share of what is left.
   constexpr double kSlowNoisePrice = 20.0;
-  if (study_.axis) {
-    const double noise = setting_->mask.dot(setting_->whitener.expected_square());
-    setting_->price = std::max(kNumberPrice, kMachineShare * (fit_.chi2 - noise));
-  }
+  if (study_.axis) setting_->price = std::max(kNumberPrice, kMachineShare * fit_.chi2);
   // Of noise that rises as 1/f the next recording would show another slope.
   if (!slow_.empty()) setting_->price = kSlowNoisePrice;
   forget_places();

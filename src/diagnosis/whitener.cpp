@@ -102,7 +102,6 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors, const Si
     }
   }
   inverse_level_.resize(rows_);
-  expected_square_ = Eigen::VectorXd::Ones(rows_);
   info_.reserve(static_cast<std::size_t>(rows_));
   Index row = 0;
   for (const Run& run : runs_) {
@@ -133,10 +132,8 @@ void Whitener::allow_for_error(const Signals& left, const Eigen::VectorXd& mask)
     const double error = rows > 0.0 ? std::max(0.0, square / rows - 1.0) : 0.0;
     for (Index row = 0; row < rows_; ++row) {
       if (info_[static_cast<std::size_t>(row)].channel != static_cast<std::uint32_t>(j)) continue;
-      const double inverse = inverse_level_(row);
-      inverse_level_(row) = std::sqrt((1.0 + error) / (1.0 / (inverse * inverse) + error));
-      const double weight = inverse_level_(row) / inverse;
-      expected_square_(row) *= weight * weight;
+      double& inverse = inverse_level_(row);
+      inverse = std::sqrt((1.0 + error) / (1.0 / (inverse * inverse) + error));
     }
   }
 }

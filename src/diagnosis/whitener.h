@@ -21,9 +21,6 @@ class Whitener {
   /// breaks loose: by their noise alone such rows would outweigh all others. Rows whose `mask` is 0
   /// say nothing.
   void allow_for_error(const Signals& left, const Eigen::VectorXd& mask);
-  /// What the square of each number is expected to be where noise alone is left: 1, but for rows
-  /// that are weighed by errors of the laws as well.
-  const Eigen::VectorXd& expected_square() const { return expected_square_; }
 
   /// The same map for signals seen at every stride-th sample (thinned()).
   Whitener at_stride(Index stride) const;
@@ -71,8 +68,8 @@ class Whitener {
   std::vector<Filter> filters_;  // per channel
   std::vector<Floor> floors_;
   std::vector<Row> info_;
-  Eigen::VectorXd inverse_level_, expected_square_;  // per row
-  Eigen::MatrixXd decorrelate_;  // (channels, channels), lower triangular; empty: none
+  Eigen::VectorXd inverse_level_;  // per row
+  Eigen::MatrixXd decorrelate_;    // (channels, channels), lower triangular; empty: none
   Eigen::VectorXd block_deviation_;
   Index block_ = 1, rows_ = 0, channels_ = 0;
   double block_seconds_ = 0.0;

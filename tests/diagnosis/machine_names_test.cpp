@@ -11,6 +11,7 @@
 #include "dcnn/core/file.h"
 #include "dcnn/core/random.h"
 #include "dcnn/diagnosis/diagnose.h"
+#include "diagnosis/axis_sense.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/evidence/name_prior.h"
 #include "diagnosis/evidence/priors.h"
@@ -82,6 +83,32 @@ TEST_F(MachineNames, ACommandMayBeConstantASensorMayNot) {
   EXPECT_NO_THROW(diagnose(both, nullptr));
   write_log(both.fit.back(), 60.0, -7.0413);
   EXPECT_THROW(diagnose(both, nullptr), Error);
+}
+
+// Of a motion to and fro at one frequency half a period later is the opposite: only that long
+// delays are rare tells a drive from its reaction.
+TEST(AxisSense, OfAMotionToAndFroIsToldAtTheShorterDelay) {
+  constexpr double kTurns = 4.0 * std::numbers::pi, kSwing = 8.0;  // rad/s, rad
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "sine.csv";
+  write_file(folder / "machine.json", machine({"acceleration"}).dump());
+  System system = read_system(folder / "machine.json");
+  system.axes[0].velocity = system.axes[0].acceleration = "";
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    for (const double sense : {1.0, -1.0}) {
+      Rng rng({seed});
+      Table table{{"t", "pos", "torque"}, Eigen::MatrixXd(2000, 3)};
+      for (Index k = 0; k < table.values.rows(); ++k) {
+        const double t = 0.004 * static_cast<double>(k), v = kSwing * kTurns * std::cos(kTurns * t);
+        const double q = kSwing * std::sin(kTurns * t), a = -kTurns * kTurns * q;
+        const double drive = 1.9e-4 * a + 1.5e-4 * v + 0.075 * std::tanh(v / 10.0);
+        table.values.row(k) << t, q + 1e-3 * rng.normal(), sense * drive + 0.0155 * rng.normal();
+      }
+      write_csv(path, table);
+      const std::vector<Recording> logs{read_recording(path, {}, system)};
+      EXPECT_EQ(sense_of(logs, system, system.axes[0], {}), sense) << seed;
+    }
+  }
 }
 
 TEST(NamePrior, FrictionIsTheRuleOnAMachineAlone) {
