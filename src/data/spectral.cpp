@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "core/elementary.h"
-#include "core/linear_algebra.h"
 #include "data/reflected.h"
 #include "dcnn/data/fourier.h"
 
