@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -39,33 +40,57 @@ std::atomic<int> made_threads{1};             // at once, so far
 
 int wanted_threads() { return std::min(omp_get_max_threads(), most_threads.load()); }
 
-/// As many threads at once, each of which waits for the last one; how many there are with this one.
-int threads_at_once(int wanted) {
+/// Whether `bytes` can be had at this moment; a compiler may not leave the question out.
+bool has_room(std::size_t bytes) {
+  void* volatile block = std::malloc(bytes);
+  const bool had = block != nullptr;
+  std::free(block);
+  return had;
+}
+
+/// Whether as many threads, this one among them, can be there at once and have a heap each: the
+/// C library gives a thread its own at its first allocation (up to 128 MiB of addresses), and one
+/// that it gave keeps it for later threads. What is left must hold one more, so that none was
+/// refused.
+bool can_be_made(int wanted) {
+  constexpr std::size_t kHeap = std::size_t{256} << 20;
   std::vector<std::thread> others;
+  std::atomic<int> ready{0};
   std::atomic<bool> go{false};
   try {
     others.reserve(static_cast<std::size_t>(wanted));
     while (static_cast<int>(others.size()) + 1 < wanted) {
-      others.emplace_back([&go] { go.wait(false); });
+      others.emplace_back([&] {
+        has_room(1);
+        ++ready;
+        ready.notify_one();
+        go.wait(false);
+      });
     }
   } catch (const std::exception&) {  // a limit of threads or of memory
   }
+  const int made = static_cast<int>(others.size());
+  for (int now = ready; now < made; now = ready) ready.wait(now);
+  const bool enough = made + 1 == wanted && has_room(kHeap);
   go = true;
   go.notify_all();
   for (std::thread& other : others) other.join();
-  return static_cast<int>(others.size()) + 1;
+  return enough;
 }
 
-/// A runtime that cannot make a thread ends the program: what cannot be made is not asked for. The
-/// pieces are the same for any number of threads.
+/// A runtime that cannot make a thread ends the program: where threads or memory run short, this
+/// one does all the work. The pieces are the same for any number of threads.
 int possible_threads() {
   const int wanted = wanted_threads();
   if (wanted <= made_threads) return wanted;
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
-  const int made = threads_at_once(wanted);
-  if (made < wanted) most_threads = std::max(1, made - 1);  // one thread's memory stays free
-  made_threads = std::min(wanted, most_threads.load());
+  if (wanted <= made_threads) return wanted;
+  if (can_be_made(wanted)) {
+    made_threads = wanted;
+  } else {
+    most_threads = made_threads.load();
+  }
   return made_threads;
 }
 
