@@ -1,6 +1,7 @@
 // Logs with nothing wrong in them that a check may take for faulty ones.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -205,6 +206,63 @@ TEST(CleanLogs, AJointThatAnotherOneDrivesHasTheRightSign) {
   }
   const check::Report report = check::check(check::make_log("driven.csv", table, {}));
   for (const check::Fault& fault : report.faults) EXPECT_NE(fault.id, "power_sign") << fault.words;
+}
+
+// Three joints for 7 s, of whose torques much is no column of the check: gravity of sums of angles,
+// inertia that depends on them.
+TEST(CleanLogs, JointsOfWhichMuchIsNotDescribedHaveTheRightSigns) {
+  constexpr double kPi = 3.14159265358979;
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  for (int log = 0; log < 30; ++log) {
+    Table table{{"t", "q_1", "q_2", "q_3", "tau_1", "tau_2", "tau_3"}, Eigen::MatrixXd(700, 7)};
+    std::array<std::array<double, 10>, 3> sizes;
+    for (auto& joint : sizes) {
+      for (double& size : joint) size = 0.35 * normal(random);
+    }
+    for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+      const double t = 0.01 * static_cast<double>(i);
+      std::array<double, 3> q{}, v{}, a{};
+      for (std::size_t j = 0; j < 3; ++j) {
+        for (int k = 1; k <= 5; ++k) {
+          const double w = 0.2 * kPi * k;
+          const double s = sizes[j][std::size_t(2 * k - 2)] / k,
+                       c = sizes[j][std::size_t(2 * k - 1)] / k;
+          q[j] += s * std::sin(w * t) + c * std::cos(w * t);
+          v[j] += w * (s * std::cos(w * t) - c * std::sin(w * t));
+          a[j] -= w * w * (s * std::sin(w * t) + c * std::cos(w * t));
+        }
+      }
+      table.values(i, 0) = t;
+      for (std::size_t j = 0; j < 3; ++j) {
+        const std::size_t o = (j + 1) % 3;
+        const auto column = static_cast<Eigen::Index>(j);
+        table.values(i, 1 + column) = q[j];
+        table.values(i, 4 + column) = 0.3 * a[j] + 2.0 * v[j] + 4.0 * std::cos(q[j] + q[o]) +
+                                      0.6 * std::cos(q[o] - q[j]) * a[o] + 0.02 * normal(random);
+      }
+    }
+    const check::Report report = check::check(check::make_log("arm.csv", table, {}));
+    for (const check::Fault& fault : report.faults)
+      EXPECT_NE(fault.id, "power_sign") << fault.words;
+  }
+}
+
+// The current of a drive that can only pull, with rare jolts from its controller.
+TEST(CleanLogs, AReadingThatIsCutOffAtZeroHasNoDropouts) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  for (int log = 0; log < 20; ++log) {
+    Table table{{"t", "q_1", "tau_1"}, Eigen::MatrixXd(3000, 3)};
+    for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+      const double t = 0.005 * static_cast<double>(i), phase = 2.0 * t + 0.1 * t * t;
+      const double n = normal(random), jolt = 4.0 * n * n * n * std::abs(n);
+      const double pull = 60.0 + 80.0 * std::cos(phase) + jolt;
+      table.values.row(i) << t, 5.0 * std::sin(phase), std::max(0.0, std::round(pull));
+    }
+    const check::Report report = check::check(check::make_log("pull.csv", table, {}));
+    for (const check::Fault& fault : report.faults) EXPECT_NE(fault.id, "dropouts") << fault.words;
+  }
 }
 
 // A joint whose encoder begins anew after each turn, at 1 rad/s: two jumps in 15 s.

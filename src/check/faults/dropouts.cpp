@@ -24,7 +24,7 @@ void find_dropouts_in(const Log& log, const std::vector<std::string>& names,
                               : relative_motion(log, joint->position, begin, end);
     return motion >= kMovesAtAll;
   };
-  Eigen::Index rows = 0, events = 0, first = 0;
+  Eigen::Index rows = 0, events = 0, first = 0, ordinary = 0;
   Eigen::VectorXd noise(values.cols());
   for (Eigen::Index j = 0; j < values.cols(); ++j) {
     noise[j] = std::max(noise_of(values.col(j)), 0.5 * resolution(values.col(j)));
@@ -40,21 +40,29 @@ void find_dropouts_in(const Log& log, const std::vector<std::string>& names,
     Eigen::Index end = i;
     while (end < values.rows() && zero(end)) ++end;
     begin = end;
-    if (i == 0 || end == values.rows() || !far(i - 1) || !far(end)) continue;
-    if (!moves(i - 1, end + 1)) continue;
+    if (i == 0 || end == values.rows() || !moves(i - 1, end + 1)) continue;
+    if (!far(i - 1) || !far(end)) {
+      ordinary += end - i;
+      continue;
+    }
     if (events++ == 0) first = i;
     rows += end - i;
   }
   if (events == 0) return;
   // A continuous value meets zero exactly in one row of range/resolution, if it passes there at
-  // all; so many times by chance as Poisson has it.
+  // all, and one whose range ends at zero as often as it comes there from nearby; so many times by
+  // chance as Poisson has it.
   double chance = 1.0;
   for (Eigen::Index j = 0; j < values.cols(); ++j) {
     const double range = values.col(j).maxCoeff() - values.col(j).minCoeff();
     if (range > 0.0) chance *= std::min(1.0, resolution(values.col(j)) / range);
   }
-  const double p =
-      poisson_tail(static_cast<double>(events), static_cast<double>(values.rows()) * chance);
+  const bool ends_at_zero =
+      (values.colwise().minCoeff().array() >= 0.0 || values.colwise().maxCoeff().array() <= 0.0)
+          .all();
+  const auto n = static_cast<double>(values.rows());
+  if (ends_at_zero) chance = std::max(chance, static_cast<double>(ordinary) / n);
+  const double p = poisson_tail(static_cast<double>(events), n * chance);
   Fault fault = fault_of(
       dropouts_fault, posterior_of_p(p), names[0],
       std::to_string(rows) + (rows == 1 ? " row of " : " rows of ") + names[0] +

@@ -17,44 +17,66 @@ struct SignEvidence {
   double log_odds = 0.0;
 };
 
-constexpr Index kSigned = 2;  // own inertia and dry friction, which no joint has negative
+/// Own inertia and dry friction, which no joint has below zero. (A drive that holds a joint which
+/// others move may damp it.)
+constexpr Index kSigned = 2;
+constexpr Index kLeftOut = 12;  // of time, one of which is left out in turn
 
-/// Least squares with `sign` times the first columns' coefficients not below zero: the best of the
-/// subsets of these columns that fulfils it. Returns the residual of the torque `y`.
-Eigen::VectorXd residual_with_sign(const Eigen::MatrixXd& A, const Eigen::VectorXd& y,
-                                   double sign) {
-  const Eigen::MatrixXd normal =
-      A.transpose() * A + 1e-9 * Eigen::MatrixXd::Identity(A.cols(), A.cols());
-  const Eigen::VectorXd right = A.transpose() * y;
+/// Least squares of y = A x from its normal equations, with `sign` times the first coefficients not
+/// below zero: the best of the subsets of these columns that fulfils it.
+Eigen::VectorXd solve_with_sign(const Eigen::MatrixXd& normal, const Eigen::VectorXd& right,
+                                double sign, double size) {
   Eigen::VectorXd best;
+  double most = 0.0;  // of what is explained
   for (int subset = 0; subset < (1 << kSigned); ++subset) {
     Eigen::MatrixXd held = normal;
     for (Index k = 0; k < kSigned; ++k) {
       if (!(subset >> k & 1)) held(k, k) += 1e15;  // a coefficient held at zero
     }
     const Eigen::VectorXd x = held.ldlt().solve(right);
-    if ((sign * x.head(kSigned).array() < -1e-9 * y.norm()).any()) continue;
-    Eigen::VectorXd residual = y - A * x;
-    if (best.size() == 0 || residual.squaredNorm() < best.squaredNorm()) best = std::move(residual);
+    if ((sign * x.head(kSigned).array() < -1e-9 * size).any()) continue;
+    const double explained = x.dot(right);
+    if (best.size() == 0 || explained > most) most = explained, best = x;
   }
   return best;
 }
 
-/// The likelihood ratio of normal residuals of unknown variance, of as many rows as are
-/// independent.
+/// Of each stretch of time the mean square that a fit to the others leaves.
+Eigen::ArrayXd left_out_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, double sign) {
+  const Eigen::MatrixXd ridge = 1e-9 * Eigen::MatrixXd::Identity(A.cols(), A.cols());
+  const Eigen::MatrixXd all = A.transpose() * A + ridge;
+  const Eigen::VectorXd right = A.transpose() * y;
+  Eigen::ArrayXd squares(kLeftOut);
+  for (Index k = 0; k < kLeftOut; ++k) {
+    const Index begin = k * y.size() / kLeftOut, end = (k + 1) * y.size() / kLeftOut;
+    const auto own = A.middleRows(begin, end - begin);
+    const auto torque = y.segment(begin, end - begin);
+    const Eigen::VectorXd x = solve_with_sign(all - own.transpose() * own,
+                                              right - own.transpose() * torque, sign, y.norm());
+    squares(k) = (torque - own * x).squaredNorm() / static_cast<double>(end - begin);
+  }
+  return squares;
+}
+
+/// How much likelier a mean of normal values of unknown deviation is than zero, with its sign.
+double log_odds_of_mean(const Eigen::ArrayXd& values) {
+  const auto n = static_cast<double>(values.size());
+  const double mean = values.mean(), square = (values - mean).square().sum();
+  return std::copysign(0.5 * n * elementary::log(1.0 + n * mean * mean / (square + 1e-300)), mean);
+}
+
+/// What either sign leaves of each stretch of time on which it was not fitted. What no column
+/// describes is alike for seconds: it may favour one sign by far in some stretches, and not in all.
 SignEvidence sign_of(const Log& log, const Joint& joint, const Sampled& rows,
                      const std::vector<JointMotion>& motions, std::size_t own) {
   const Eigen::VectorXd y = joint.scale * rows.smoothed(log.column(joint.measured), rows.value);
   const Eigen::MatrixXd A = torque_columns(motions, own, Place::kGravity);
-  const Eigen::VectorXd with = residual_with_sign(A, y, 1.0),
-                        against = residual_with_sign(A, y, -1.0);
-  const double independent =
-      std::min(kMostIndependent, 0.75 * static_cast<double>(with.size() - A.cols()));
   // Rounding of a torque that is explained to the last digit is no evidence.
-  const double floor = 1e-12 * y.squaredNorm() + 1e-300;
+  const double floor = 1e-12 * y.squaredNorm() / static_cast<double>(y.size()) + 1e-300;
   return {joint.measured,
-          0.5 * independent *
-              elementary::log((against.squaredNorm() + floor) / (with.squaredNorm() + floor))};
+          log_odds_of_mean(
+              ((left_out_squares(A, y, -1.0) + floor) / (left_out_squares(A, y, 1.0) + floor))
+                  .unaryExpr([](double ratio) { return elementary::log(ratio); }))};
 }
 
 /// Of an arm whose links are known, gravity and inertia tell it: readings of the log.
