@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "core/elementary.h"
 #include "dcnn/data/filter.h"
@@ -15,12 +16,20 @@ namespace {
 void round_mean(const Case& study, Eigen::MatrixXd& mean) {
   constexpr double kPi = std::numbers::pi;
   const double q = study.rounding_step;
-  const Eigen::ArrayXXd angle = 2.0 * kPi / q * mean.array();
+  std::vector<double> sizes;
   for (int k = 1; k <= 6; ++k) {
     const double a = kPi * k * study.rounding_noise / q;
     const double size = q / (kPi * k) * elementary::exp(-2.0 * a * a);
     if (size < 1e-4 * q) break;
-    mean.array() += (k % 2 ? -size : size) * elementary::sin(k * angle);
+    sizes.push_back(k % 2 ? -size : size);
+  }
+  const Eigen::ArrayXXd angle = 2.0 * kPi / q * mean.array(), twice = 2.0 * elementary::cos(angle);
+  Eigen::ArrayXXd sine = elementary::sin(angle);
+  Eigen::ArrayXXd before = Eigen::ArrayXXd::Zero(angle.rows(), angle.cols());
+  for (const double size : sizes) {
+    mean.array() += size * sine;
+    before = twice * sine - before;  // sin((k + 1) x) = 2 cos(x) sin(k x) - sin((k - 1) x)
+    before.swap(sine);
   }
 }
 

@@ -59,6 +59,7 @@ void delay(Eigen::MatrixXd& signals, const Motion& motion, double seconds) {
     const std::vector<double> instants = instants_of(motion, segment);
     for (Index i = 0; i < signals.cols(); ++i) {
       auto column = signals.col(i).segment(segment.begin, segment.size());
+      if (column.isZero(0.0)) continue;
       column = earlier(Eigen::VectorXd(column), instants, seconds / motion.dt);
     }
   }

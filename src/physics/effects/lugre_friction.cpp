@@ -7,23 +7,23 @@
 namespace dcnn::effects::lugre_friction {
 namespace {
 
-/// Mean deflection z of the bristles (Canudas de Wit et al. 1995): dz/dt = v - abs(v) z/reach with
-/// reach = fc/sigma0. In the way s it is dz = (sign - z/reach) ds: exponential in s, whatever the
-/// speed.
-double deflect(double z, double v, double h, double reach) {
-  const double settled = std::copysign(reach, v);
-  return settled + (z - settled) * elementary::exp(-std::abs(v) * h / reach);
+/// Mean deflection z of the bristles (Canudas de Wit et al. 1995) after a way of one direction:
+/// dz/dt = v - abs(v) z/reach with reach = fc/sigma0 is dz = (sign - z/reach) ds, exponential in
+/// the way s [m or rad], whatever the speed. `reach` has the sign of the direction.
+double deflect(double z, double way, double reach) {
+  return reach + (z - reach) * elementary::exp(-way / std::abs(reach));
 }
 
-/// One step with the velocity running linearly from v0 to v1: exact but for the change of
-/// direction, which the sub-steps confine.
+/// One step of h seconds with the velocity running linearly from v0 to v1: exact, in two parts
+/// where the direction changes.
 double advance(double z, double v0, double v1, double h, double reach) {
-  const double way = std::max(std::abs(v0), std::abs(v1)) * h;
-  const int steps = static_cast<int>(std::clamp(std::ceil(10.0 * way / reach), 4.0, 64.0));
-  for (int i = 0; i < steps; ++i) {
-    z = deflect(z, v0 + (v1 - v0) * (i + 0.5) / steps, h / steps, reach);
+  const double from = std::abs(v0), to = std::abs(v1);
+  if (v0 * v1 >= 0.0) {
+    return deflect(z, 0.5 * (from + to) * h, std::copysign(reach, v0 == 0.0 ? v1 : v0));
   }
-  return z;
+  const double part = 0.5 * h / (from + to);
+  z = deflect(z, from * from * part, std::copysign(reach, v0));
+  return deflect(z, to * to * part, std::copysign(reach, v1));
 }
 
 void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
