@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "core/elementary.h"
 #include "dcnn/diagnosis/diagnose.h"
 #include "dcnn/physics/effect.h"
 #include "diagnosis/plain_findings.h"
@@ -15,7 +16,9 @@ namespace {
 /// The numbers of a finding, ready to be written.
 class Numbers {
  public:
-  explicit Numbers(const Json& parameters) : parameters_(parameters) {}
+  Numbers(const Json& parameters, const Axis& axis)
+      : parameters_(parameters), turns_(axis.position_unit == "rad") {}
+  bool of_a_turn() const { return turns_; }
   bool has(const char* name) const { return parameters_.contains(name); }
   double value(const char* name) const { return parameters_[name]["value"].get<double>(); }
   std::string operator()(const char* name, double factor = 1.0) const {
@@ -25,13 +28,43 @@ class Numbers {
     return brief(factor * value(name));
   }
   bool told(const char* name) const { return is_told(parameters_[name]); }
-  std::string size(const char* name) const {
-    return brief(std::abs(value(name))) + " " + parameters_[name]["unit"].get<std::string>();
+  std::string unit(const char* name) const { return parameters_[name]["unit"]; }
+  /// Without its sign, times a factor; over another unit.
+  std::string size(const char* name, double factor = 1.0, const std::string& per = "") const {
+    return brief(factor * std::abs(value(name))) + " " + unit(name) +
+           (per.empty() ? "" : "/" + per);
+  }
+  /// Whether the 95 % interval of a number holds a value.
+  bool holds(const char* name, double at) const {
+    const Json& ends = parameters_[name]["ci95"];
+    return ends[0].is_number() && ends[0].get<double>() <= at && ends[1].get<double>() >= at;
   }
 
  private:
   const Json& parameters_;
+  bool turns_;
 };
+
+/// By the force at which Bouc-Wen's law settles, 1/(beta + gamma)^(1/m) of its scale, which is none
+/// where the law does not settle: then by its stiffness after a turn.
+std::string hysteresis_words(const Numbers& n) {
+  constexpr double kSettles = 0.05;  // of beta + gamma: a path of 20 widths
+  if (!n.has("beta")) return "hysteresis of " + n.size("force");
+  const double rate = n.value("beta") + n.value("gamma");
+  if (rate > kSettles)
+    return "hysteresis of " + n.size("force", elementary::pow(rate, -1.0 / n.value("m")));
+  return "hysteresis that grows by " + n.size("force", 1.0 / n.value("width"), n.unit("width")) +
+         " after a turn back";
+}
+
+/// A force that repeats with the position: once a turn, as that of a weight on a turning axis does.
+std::string cogging_words(const Numbers& n) {
+  if (n.of_a_turn() && n.holds("order", 1.0)) {
+    return "a force of " + n.size("amp") +
+           " that goes with the sine of the position, as the weight of a load off its axis";
+  }
+  return "cogging of " + n.size("amp") + " that repeats with order " + n.plain("order");
+}
 
 using Sentence = std::function<std::string(const Numbers&)>;
 
@@ -61,7 +94,7 @@ const std::map<std::string, Sentence>& sentences() {
          return "dry friction of " + n("fc") + " that varies by " + n.plain("a", 100.0) +
                 " % with order " + n.plain("order") + " of the position";
        }},
-      {"hysteresis", [](auto& n) { return "hysteresis of " + n.size("force"); }},
+      {"hysteresis", hysteresis_words},
       {"cable_spring", [](auto& n) { return "a spring of " + n("k"); }},
       {"quadratic_spring",
        [](auto& n) { return "a spring that bends with the square of the position, " + n("k2"); }},
@@ -72,10 +105,7 @@ const std::map<std::string, Sentence>& sentences() {
        }},
       {"cubic_spring",
        [](auto& n) { return "a spring that stiffens with the cube of the position, " + n("k3"); }},
-      {"cogging",
-       [](auto& n) {
-         return "cogging of " + n.size("amp") + " that repeats with order " + n.plain("order");
-       }},
+      {"cogging", cogging_words},
       {"inertia", [](auto& n) { return "an inertia that is off by " + n("delta_inertia"); }},
       {"contact", [](auto& n) { return "an external force of " + n("force"); }},
       {"bias", [](auto& n) { return "a constant offset of " + n("delta_bias"); }},
@@ -122,7 +152,7 @@ std::string axis_words(const Json& finding, const Axis& axis, const std::string&
   const auto sentence = sentences().find(id);
   const std::string what = sentence == sentences().end()
                                ? find_effect(id)->meaning
-                               : sentence->second(Numbers(finding["parameters"]));
+                               : sentence->second(Numbers(finding["parameters"], axis));
   return what + " on " + axis.name;
 }
 
