@@ -70,6 +70,8 @@ struct Case {
   std::vector<Driver> drivers;
   Ablation without;
   std::shared_ptr<Work> work = std::make_shared<Work>();  ///< shared by copies
+  /// Of the search for laws that no effect describes: samples of each force that was tried.
+  std::shared_ptr<Work> law_work = std::make_shared<Work>();
 
   Index channel_count() const { return static_cast<Index>(channels.size()); }
   bool has_torque() const { return !channels.empty() && channels.back() > 2; }

@@ -39,7 +39,7 @@ void name_beside(Search& search, Laws& laws) {
 /// Leaves out names without which laws, looked for again, explain as much for their numbers: what
 /// had no name may have been taken for one in part.
 void leave_needless_names(Search& search, Laws& laws) {
-  for (std::size_t m = search.names().size(); m-- > 0;) {
+  for (std::size_t m = search.names().size(); m-- > 0 && !search.laws_are_spent();) {
     std::vector<Member> rest = search.names();
     if (rest[m].fixed) continue;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(m));
@@ -155,7 +155,7 @@ Laws laws_of_the_rest(Search& search) {
   const bool alarming = search.is_alarming_now();
   if (!alarming && are_established(best)) return best;
   search.begin_anew();
-  for (int names = 0; names < kMostNames; ++names) {
+  for (int names = 0; names < kMostNames && !search.laws_are_spent(); ++names) {
     const std::vector<Member> before = search.fit().members;
     Laws laws = borne_out(search.setting(), search.fit());
     if (!laws.found.empty()) {
@@ -197,7 +197,8 @@ std::vector<Discovered> add_discovered(Search& search, const HoldOut& holdout) {
   leave_needless_names(search, laws);
   name_beside(search, laws);
   constexpr int kMostRounds = 5;  // a limit of computation: each round searches all places again
-  for (int round = 0; round < kMostRounds && name_in_place_of_one(search, laws); ++round) {
+  for (int round = 0; round < kMostRounds && !search.laws_are_spent(); ++round) {
+    if (!name_in_place_of_one(search, laws)) break;
   }
   search.leave_untold_parts();
   return laws.found;

@@ -1,5 +1,7 @@
 #include "diagnosis/law_search.h"
 
+#include <numeric>
+
 namespace dcnn {
 namespace {
 
@@ -86,8 +88,10 @@ discovery::Problem problem_of(const Setting& setting, const JointFit& fit, const
     sizes.push_back(log.motion.samples());
   }
   const std::vector<Index> own = rows_of_forces(study, whitener);
-  problem.whiten = [passage = Passage(study, effects), &whitener, &setting,
-                    own](const std::vector<MatrixXd>& forces) {
+  const Index samples = std::accumulate(sizes.begin(), sizes.end(), Index{0});
+  problem.whiten = [passage = Passage(study, effects), &whitener, &setting, own,
+                    samples](const std::vector<MatrixXd>& forces) {
+    setting.study.law_work->add(samples, 0);
     return VectorXd(whitener(passage(forces)).cwiseProduct(setting.mask)(own));
   };
   problem.transposed = [&study, &whitener, &setting, sizes, own](const VectorXd& rows) {

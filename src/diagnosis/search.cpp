@@ -48,6 +48,11 @@ double Search::passes() const {
   return static_cast<double>(study_.work->samples()) / static_cast<double>(samples_);
 }
 
+bool Search::laws_are_spent() const {
+  constexpr std::uint64_t kMostSamples = 300'000'000;  // of forces: about two minutes
+  return study_.law_work->samples() >= kMostSamples;
+}
+
 void Search::say(const std::string& text) const {
   if (progress_) progress_(text);
 }

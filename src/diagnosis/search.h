@@ -48,7 +48,10 @@ class Search {
   /// Times that the recordings have been predicted, once for each effect of the prediction.
   double passes() const;
   /// Whether all exchanges were tried, among names alone and beside laws.
-  bool is_complete() const { return !ended_early_ && !is_spent(); }
+  bool is_complete() const { return !ended_early_ && !is_spent() && !laws_are_spent(); }
+  /// Whether the search for laws without a name has taken all that it may take: what is left then is
+  /// not looked at again.
+  bool laws_are_spent() const;
 
   const Case& study() const { return study_; }
   const JointFit& fit() const { return fit_; }
