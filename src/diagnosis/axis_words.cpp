@@ -22,7 +22,7 @@ class Numbers {
   bool has(const char* name) const { return parameters_.contains(name); }
   double value(const char* name) const { return parameters_[name]["value"].get<double>(); }
   std::string operator()(const char* name, double factor = 1.0) const {
-    return brief(factor * value(name)) + " " + parameters_[name]["unit"].get<std::string>();
+    return brief(factor * value(name)) + " " + unit(name);
   }
   std::string plain(const char* name, double factor = 1.0) const {
     return brief(factor * value(name));
@@ -46,13 +46,13 @@ class Numbers {
 };
 
 /// By the force at which Bouc-Wen's law settles, 1/(beta + gamma)^(1/m) of its scale, which is none
-/// where the law does not settle: then by its stiffness after a turn.
+/// where its 95 % interval does not say that the law settles: then by its stiffness after a turn.
 std::string hysteresis_words(const Numbers& n) {
-  constexpr double kSettles = 0.05;  // of beta + gamma: a path of 20 widths
   if (!n.has("beta")) return "hysteresis of " + n.size("force");
-  const double rate = n.value("beta") + n.value("gamma");
-  if (rate > kSettles)
+  const double beta = n.value("beta"), rate = beta + n.value("gamma");
+  if (rate > 0.0 && !n.holds("gamma", -beta)) {
     return "hysteresis of " + n.size("force", elementary::pow(rate, -1.0 / n.value("m")));
+  }
   return "hysteresis that grows by " + n.size("force", 1.0 / n.value("width"), n.unit("width")) +
          " after a turn back";
 }

@@ -23,6 +23,7 @@ void round_mean(const Case& study, Eigen::MatrixXd& mean) {
     if (size < 1e-4 * q) break;
     sizes.push_back(k % 2 ? -size : size);
   }
+  if (sizes.empty()) return;  // the noise hides the steps
   const Eigen::ArrayXXd angle = 2.0 * kPi / q * mean.array(), twice = 2.0 * elementary::cos(angle);
   Eigen::ArrayXXd sine = elementary::sin(angle);
   Eigen::ArrayXXd before = Eigen::ArrayXXd::Zero(angle.rows(), angle.cols());

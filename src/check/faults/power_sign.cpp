@@ -41,21 +41,26 @@ Eigen::VectorXd solve_with_sign(const Eigen::MatrixXd& normal, const Eigen::Vect
   return best;
 }
 
-/// Of each stretch of time the mean square that a fit to the others leaves.
-Eigen::ArrayXd left_out_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, double sign) {
+/// Of each stretch of time the logarithm of what the opposite sign leaves of it over what this one
+/// does, of squares per row, each fitted to the other stretches; `floor` is added to both.
+Eigen::ArrayXd left_out_ratios(const Eigen::MatrixXd& A, const Eigen::VectorXd& y, double floor) {
   const Eigen::MatrixXd ridge = 1e-9 * Eigen::MatrixXd::Identity(A.cols(), A.cols());
   const Eigen::MatrixXd all = A.transpose() * A + ridge;
   const Eigen::VectorXd right = A.transpose() * y;
-  Eigen::ArrayXd squares(kLeftOut);
+  Eigen::ArrayXd ratios(kLeftOut);
   for (Index k = 0; k < kLeftOut; ++k) {
     const Index begin = k * y.size() / kLeftOut, end = (k + 1) * y.size() / kLeftOut;
     const auto own = A.middleRows(begin, end - begin);
     const auto torque = y.segment(begin, end - begin);
-    const Eigen::VectorXd x = solve_with_sign(all - own.transpose() * own,
-                                              right - own.transpose() * torque, sign, y.norm());
-    squares(k) = (torque - own * x).squaredNorm() / static_cast<double>(end - begin);
+    const Eigen::MatrixXd normal = all - own.transpose() * own;
+    const Eigen::VectorXd match = right - own.transpose() * torque;
+    const auto left = [&](double sign) {
+      const Eigen::VectorXd x = solve_with_sign(normal, match, sign, y.norm());
+      return (torque - own * x).squaredNorm() / static_cast<double>(end - begin) + floor;
+    };
+    ratios(k) = elementary::log(left(-1.0) / left(1.0));
   }
-  return squares;
+  return ratios;
 }
 
 /// How much likelier a mean of normal values of unknown deviation is than zero, with its sign.
@@ -73,10 +78,7 @@ SignEvidence sign_of(const Log& log, const Joint& joint, const Sampled& rows,
   const Eigen::MatrixXd A = torque_columns(motions, own, Place::kGravity);
   // Rounding of a torque that is explained to the last digit is no evidence.
   const double floor = 1e-12 * y.squaredNorm() / static_cast<double>(y.size()) + 1e-300;
-  return {joint.measured,
-          log_odds_of_mean(
-              ((left_out_squares(A, y, -1.0) + floor) / (left_out_squares(A, y, 1.0) + floor))
-                  .unaryExpr([](double ratio) { return elementary::log(ratio); }))};
+  return {joint.measured, log_odds_of_mean(left_out_ratios(A, y, floor))};
 }
 
 /// Of an arm whose links are known, gravity and inertia tell it: readings of the log.
