@@ -18,29 +18,6 @@ std::vector<Run> group_runs(const Eigen::MatrixXd& columns) {
   return runs;
 }
 
-double resolution(const Eigen::VectorXd& values) {
-  std::vector<double> sorted(values.begin(), values.end());
-  std::sort(sorted.begin(), sorted.end());
-  if (sorted.empty()) return 0.0;
-  const double rounding = 1e-12 * std::max(std::abs(sorted.front()), std::abs(sorted.back()));
-  double least = 0.0;
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    const double step = sorted[i] - sorted[i - 1];
-    if (step > rounding && (least == 0.0 || step < least)) least = step;
-  }
-  return least;
-}
-
-Eigen::VectorXd outlying(const Eigen::VectorXd& x) {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(x.size());
-  for (Index i = 2; i + 2 < x.size(); ++i) {
-    double near[4] = {x[i - 2], x[i - 1], x[i + 1], x[i + 2]};
-    std::sort(near, near + 4);
-    out[i] = x[i] - 0.5 * (near[1] + near[2]);
-  }
-  return out;
-}
-
 std::vector<std::string> measured_columns(const Log& log) {
   std::vector<std::string> names;
   for (const auto& sensor : log.sensors()) names.insert(names.end(), sensor.begin(), sensor.end());

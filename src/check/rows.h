@@ -5,16 +5,13 @@
 
 #include "check/kind.h"
 #include "check/statistics.h"
+#include "data/resolution.h"
 #include "dcnn/core/number.h"
 
 namespace dcnn::check {
 
 /// Runs of rows in which every column is equal; the value is the row's number where it began.
 std::vector<Run> group_runs(const Eigen::MatrixXd& columns);
-/// The least step between different values: the lattice that they lie on. 0 for a constant.
-double resolution(const Eigen::VectorXd& values);
-/// x_i less the median of its four neighbours, (T); 0 at the ends.
-Eigen::VectorXd outlying(const Eigen::VectorXd& values);
 /// Measured columns one by one.
 std::vector<std::string> measured_columns(const Log& log);
 /// Rms step of the positions' columns in rows [begin, end), relative to that of the whole log.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "data/median.h"
+#include "data/spikes.h"
 #include "dcnn/data/filter.h"
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/axis_sense.h"
@@ -21,7 +22,10 @@ constexpr double kBaseTolerance = 1e-3;  // of a column's length that others mus
 std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
                                 const ReadOptions& options, const System& system) {
   std::vector<Recording> recordings;
-  for (const auto& path : paths) recordings.push_back(read_recording(path, options, system));
+  for (const auto& path : paths) {
+    recordings.push_back(read_recording(path, options, system));
+    for (const Axis& axis : system.axes) mend_spikes(recordings.back(), {axis.measured});
+  }
   return recordings;
 }
 

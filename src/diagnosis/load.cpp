@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "data/held_rows.h"
+#include "data/spikes.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {
@@ -165,7 +166,9 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   for (auto* list : {&fit, &holdout}) {
     for (Recording& recording : *list) both.push_back(&recording);
   }
-  keep_new_rows(both, find_targets(*both.front(), System()).names);
+  const std::vector<std::string> targets = find_targets(*both.front(), System()).names;
+  keep_new_rows(both, targets);
+  for (Recording* recording : both) mend_spikes(*recording, targets);
   std::vector<Recording> all = fit;
   all.insert(all.end(), holdout.begin(), holdout.end());
   check_rates(all);

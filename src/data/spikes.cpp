@@ -1,0 +1,116 @@
+#include "data/spikes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/elementary.h"
+#include "data/median.h"
+#include "data/resolution.h"
+#include "dcnn/core/number.h"
+
+namespace dcnn {
+namespace {
+
+constexpr double kLeast = 8.0;      // deviations from the neighbours: nearer ones show nothing
+constexpr double kLonely = 0.3;     // of a spike's height: how far its neighbours are apart
+constexpr double kByNoise = 0.001;  // probability below which a row is called no reading
+
+/// x_i less the median of its four neighbours, (T); 0 at the ends.
+Eigen::VectorXd off_neighbours(const Eigen::VectorXd& x) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(x.size());
+  for (Index i = 2; i + 2 < x.size(); ++i) {
+    double near[4] = {x[i - 2], x[i - 1], x[i + 1], x[i + 2]};
+    std::sort(near, near + 4);
+    out[i] = x[i] - 0.5 * (near[1] + near[2]);
+  }
+  return out;
+}
+
+/// Two-sided tail of Student's t with five degrees of freedom far out: noise of sensors at its
+/// worst.
+double heavy_tail(double z) { return 19.0 / elementary::pow(z, 5); }
+
+/// Of single rows: lambda expected, `count` found.
+double poisson_p(double lambda, int count) {
+  double p = 1.0;
+  for (int k = 1; k <= std::min(count, 50); ++k) p *= lambda / k;
+  return std::min(1.0, p);
+}
+
+/// Of the rows that differ from their neighbours: a channel at its limit repeats one value.
+double deviation_of_moving(const Eigen::VectorXd& far) {
+  std::vector<double> sizes;
+  for (const double value : far) {
+    if (value != 0.0) sizes.push_back(std::abs(value));
+  }
+  if (sizes.empty()) return 0.0;
+  return kDeviationOfMedian * median(std::move(sizes));
+}
+
+struct Spike {
+  double height = 0.0;  ///< in deviations
+  Index row = 0;
+};
+
+/// Single rows far from their neighbours, the farthest first.
+std::vector<Spike> lonely_rows(const Eigen::VectorXd& x, const Eigen::VectorXd& far, double scale) {
+  std::vector<Spike> spikes;
+  for (Index i = 3; i + 3 < x.size(); ++i) {
+    const double height = std::abs(far[i]);
+    const Eigen::Vector4d near(x[i - 2], x[i - 1], x[i + 1], x[i + 2]);
+    const double beside = near.maxCoeff() - near.minCoeff();
+    if (height < kLeast * scale || beside > kLonely * height || x[i] == 0.0) continue;
+    spikes.push_back({height / scale, i});
+  }
+  std::sort(spikes.begin(), spikes.end(),
+            [](const Spike& a, const Spike& b) { return a.height > b.height; });
+  return spikes;
+}
+
+}  // namespace
+
+std::string Spikes::words(const std::string& column) const {
+  const bool one = rows.size() == 1;
+  return std::to_string(rows.size()) + (one ? " single row of " : " single rows of ") + column +
+         (one ? " is " : " are up to ") + brief(height) + " deviations off " +
+         (one ? "its" : "their") + " neighbours";
+}
+
+Spikes spikes_of(const Eigen::VectorXd& values) {
+  const Eigen::VectorXd far = off_neighbours(values);
+  const double scale = std::max(deviation_of_moving(far), 0.5 * resolution(values));
+  if (scale <= 0.0) return {};
+  const std::vector<Spike> all = lonely_rows(values, far, scale);
+  const auto n = static_cast<double>(values.size());
+  double least = 1.0;
+  std::size_t count = 0;
+  for (std::size_t k = 1; k <= all.size(); ++k) {
+    const double p = poisson_p(n * heavy_tail(all[k - 1].height), static_cast<int>(k));
+    if (p < least) least = p, count = k;
+  }
+  Spikes spikes;
+  if (count == 0) return spikes;
+  for (std::size_t k = 0; k < count; ++k) spikes.rows.push_back(all[k].row);
+  std::sort(spikes.rows.begin(), spikes.rows.end());
+  spikes.height = all[0].height;
+  // As many numbers of rows were tried as there are rows so far out.
+  spikes.p = std::min(1.0, static_cast<double>(all.size()) * least);
+  return spikes;
+}
+
+void mend_spikes(Recording& recording, const std::vector<std::string>& columns) {
+  if (recording.dt == 0.0) return;
+  for (const std::string& name : columns) {
+    if (!recording.has(name)) continue;
+    Eigen::VectorXd x = recording.column(name);
+    const Spikes spikes = spikes_of(x);
+    if (spikes.p >= kByNoise) continue;
+    const Eigen::VectorXd far = off_neighbours(x);
+    for (const Index row : spikes.rows) x[row] -= far[row];
+    recording.set(name, x);
+    recording.notes.push_back(spikes.words(name) + "; the middle of the neighbours stands there");
+  }
+}
+
+}  // namespace dcnn

@@ -1,0 +1,30 @@
+// Single rows far off their neighbours: a bit that flipped, a reading that was lost.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dcnn/data/recording.h"
+
+namespace dcnn {
+
+/// The rows of a column that noise is least likely to have made: so many, so far out.
+struct Spikes {
+  std::vector<Index> rows;  ///< ascending
+  double height = 0.0;      ///< of the farthest, in deviations of a row from its neighbours
+  /// Probability that noise with the tails of Student's t of five degrees of freedom makes as many.
+  double p = 1.0;
+
+  /// "3 single rows of fx are up to 12 deviations off their neighbours"
+  std::string words(const std::string& column) const;
+};
+
+/// Of values (T) in the order of time. A row is single where its two neighbours on either side lie
+/// within 0.3 of its distance from them, which an impact of several rows does not leave so.
+Spikes spikes_of(const Eigen::VectorXd& values);
+
+/// Puts the middle of the neighbours in the place of spikes that noise makes with a probability
+/// below 0.001, in these columns of a recording with a clock, and notes so.
+void mend_spikes(Recording& recording, const std::vector<std::string>& columns);
+
+}  // namespace dcnn
