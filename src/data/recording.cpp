@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "data/clock.h"
+#include "data/even_clock.h"
 #include "data/known_columns.h"
 #include "data/limits.h"
 #include "data/near_names.h"
@@ -225,6 +226,11 @@ Recording make_recording(SourceTable source, const std::filesystem::path& path,
   check_regular(recording, file);
   drop_short_stretches(recording);
   if (wrist) normalise_quaternions(recording);
+  if (!asked && recording.dt > 0.0) {
+    Recording even = recording;
+    if (wrist) make_continuous(even);
+    if (put_on_even_clock(even, smooth_columns(system))) recording = std::move(even);
+  }
   if (options.payload.mass > 0.0) add_weight(options.payload, recording);
   return recording;
 }
