@@ -97,17 +97,32 @@ Eigen::MatrixXd Sampled::smoothed(const Eigen::MatrixXd& signals, const Eigen::V
   return out;
 }
 
+namespace {
+
+/// Of one smooth kernel u: the second derivative's weights by Savitzky and Golay are its second
+/// difference, the first's its central one. What is smoothed and what is differentiated pass the
+/// same low-pass then, and a rigid tool leaves nothing of a tremor.
+void set_weights(int window, Sampled& rows) {
+  rows.second =
+      savitzky_golay_weights(window, std::min(3, window - 2), 2, static_cast<double>(rows.half));
+  const Index last = window - 1;
+  Eigen::VectorXd& u = rows.value =
+      Eigen::VectorXd::Zero(window);  // second_k = u_k-1 - 2u_k + u_k+1
+  u[1] = rows.second[0];
+  for (Index k = 1; k + 1 < last; ++k) u[k + 1] = rows.second[k] + 2.0 * u[k] - u[k - 1];
+  rows.first = Eigen::VectorXd::Zero(window);
+  rows.first.head(last) -= 0.5 * u.tail(last);
+  rows.first.tail(last) += 0.5 * u.head(last);
+}
+
+}  // namespace
+
 Sampled sample(const Log& log) {
   Sampled rows;
   const bool listed = log.step <= 0.0 || !log.smooth;
   rows.half = listed ? 0 : std::max<Index>(2, std::llround(0.5 * kWindow / likely_step(log)));
-  const int window = static_cast<int>(2 * rows.half + 1);
-  const auto weights = [&](int derivative) {
-    return savitzky_golay_weights(window, std::min(3, window - 2), derivative,
-                                  static_cast<double>(rows.half));
-  };
   rows.value = Eigen::VectorXd::Ones(1);
-  if (!listed) rows.value = weights(0), rows.first = weights(1), rows.second = weights(2);
+  if (!listed) set_weights(static_cast<int>(2 * rows.half + 1), rows);
   const Index free = listed ? 0 : rows.half + std::min(kShifts, log.rows() / 20);
   const Index stride = std::max<Index>({1, rows.half, log.rows() / kMostCentres});
   for (const Segment& segment : log.segments) {

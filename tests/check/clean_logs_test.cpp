@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "dcnn/check/check.h"
@@ -43,6 +44,41 @@ TEST(CleanLogs, MillisecondsAreStillFound) {
   const check::Report report = check::check(slow_log(4000, 4.0, 0.6));
   ASSERT_NE(report.stopping({}), nullptr) << check::to_text(report);
   EXPECT_EQ(report.stopping({})->id, "clock_unit");
+}
+
+// A hand that trembles at 9.7 Hz by half a millimetre for seconds at a time, at 100 Hz: forces and
+// accelerations pass one low-pass, and a rigid tool leaves nothing of it.
+TEST(CleanLogs, ATremorIsNoContact) {
+  constexpr Eigen::Index kRows = 4000;
+  constexpr double kStep = 0.01, kMass = 0.6, kNoise = 0.012, kTurn = 0.1, kTremor = 5e-4;
+  constexpr double kOmega = 2.0 * std::numbers::pi * 9.7;
+  const auto position = [](double t) {
+    const double apart = std::fmod(t, 10.0) - 6.0, a = kTremor * std::exp(-apart * apart);
+    return Eigen::Vector3d(0.2 * std::sin(0.7 * t) + a * std::sin(kOmega * t),
+                           0.1 * std::cos(0.9 * t) + a * std::cos(kOmega * t),
+                           0.3 + 0.05 * std::sin(1.1 * t));
+  };
+  Table table{{"t", "x", "y", "z", "alpha", "beta", "gamma", "fx", "fy", "fz"},
+              Eigen::MatrixXd(kRows, 10)};
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, kNoise);
+  for (Eigen::Index i = 0; i < kRows; ++i) {
+    const double t = kStep * static_cast<double>(i), h = 1e-4;
+    const Eigen::Vector3d acceleration =
+        (position(t + h) - 2.0 * position(t) + position(t - h)) / (h * h);
+    const Eigen::Vector3d angles =
+        kTurn * Eigen::Vector3d(std::sin(0.5 * t), std::sin(0.8 * t + 1.0), std::cos(0.6 * t));
+    const Eigen::Vector3d force = kMass * (rotation_from_euler(angles).transpose() *
+                                           (Eigen::Vector3d(0.0, 0.0, -9.81) - acceleration));
+    table.values.row(i) << t, position(t).transpose(), angles.transpose(),
+        force[0] + 0.3 + noise(random), force[1] - 0.2 + noise(random),
+        force[2] + 0.1 + noise(random);
+  }
+  check::Declared declared;
+  declared.model = ToolModel();
+  declared.model->mass = kMass;
+  const check::Report report = check::check(check::make_log("tremor.csv", table, declared));
+  EXPECT_TRUE(report.faults.empty()) << check::to_text(report);
 }
 
 // A robot that turns its wrist about one point: columns that never vary are in no order.
