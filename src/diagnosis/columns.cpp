@@ -1,5 +1,7 @@
 #include "diagnosis/columns.h"
 
+#include <algorithm>
+
 #include "core/linear_algebra.h"
 
 namespace dcnn {
@@ -9,9 +11,9 @@ constexpr double kImitated = 1e-6;  // of a column's norm: what rounding leaves 
 
 }  // namespace
 
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double ridge) {
   if (A.cols() == 0) return Eigen::VectorXd(0);
-  return solve_gram(A.transpose() * A, A.transpose() * b, 1e-11);
+  return solve_gram(A.transpose() * A, A.transpose() * b, ridge);
 }
 
 Eigen::MatrixXd appended(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
@@ -35,8 +37,23 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
 }
 
 Eigen::MatrixXd off_basis(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& basis) {
-  Eigen::MatrixXd off = columns - basis * (basis.transpose() * columns);
-  for (Index k = 0; k < off.cols(); ++k) {
+  // A few columns beside many rows: blocks of the basis stay in the cache for all of them.
+  constexpr Index kBlock = 512;
+  const Index n = columns.rows(), count = columns.cols();
+  Eigen::MatrixXd off = columns, shares = Eigen::MatrixXd::Zero(basis.cols(), count);
+  for (Index begin = 0; begin < n; begin += kBlock) {
+    const auto rows = basis.middleRows(begin, std::min(kBlock, n - begin));
+    for (Index k = 0; k < count; ++k) {
+      shares.col(k).noalias() += rows.transpose() * columns.col(k).segment(begin, rows.rows());
+    }
+  }
+  for (Index begin = 0; begin < n; begin += kBlock) {
+    const auto rows = basis.middleRows(begin, std::min(kBlock, n - begin));
+    for (Index k = 0; k < count; ++k) {
+      off.col(k).segment(begin, rows.rows()).noalias() -= rows * shares.col(k);
+    }
+  }
+  for (Index k = 0; k < count; ++k) {
     if (off.col(k).norm() <= kImitated * columns.col(k).norm()) off.col(k).setZero();
   }
   return off;
