@@ -187,6 +187,8 @@ Laws laws_of_the_rest(Search& search) {
 
 std::vector<Discovered> add_discovered(Search& search, const HoldOut& holdout) {
   if (!can_hold_laws(search.study())) return {};
+  const std::vector<Member> before = search.fit().members;
+  const Signals by_names = holdout.prediction(before, search.fit().base);
   Laws laws = in_place_of_names(search, holdout);
   if (!laws.found.empty()) {
     search.put_beside(laws.members);
@@ -201,7 +203,11 @@ std::vector<Discovered> add_discovered(Search& search, const HoldOut& holdout) {
     if (!name_in_place_of_one(search, laws)) break;
   }
   search.leave_untold_parts();
-  return laws.found;
+  // Names may have given way to laws, and other names come beside them.
+  const Signals by_laws = holdout.prediction(search.fit().members, search.fit().base);
+  if (holdout.log_support(by_laws, by_names, search.floors()) >= 0.0) return laws.found;
+  search.hold(before);
+  return {};
 }
 
 }  // namespace dcnn

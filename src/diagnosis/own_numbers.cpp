@@ -32,19 +32,23 @@ Json take_own_numbers(Search& search, const HoldOut& holdout) {
   if (own.empty()) return Json::array();
   const JointFit alone = joint_fit(search.setting(), std::move(own));
   const JointFit given = joint_fit(search.setting(), {});
-  // Of a law that is none of them they explain a part.
-  if (error_of(search, holdout, alone) > kLeftByOwn * error_of(search, holdout, given)) {
-    return Json::array();
-  }
   const Signals by_found = holdout.prediction(found, search.fit().base);
   const auto is_better = [&](const JointFit& fit) {
     const Signals predicted = holdout.prediction(fit.members, fit.base);
     return holdout.log_support(predicted, by_found, search.floors()) > 0.0;
   };
-  if (!is_better(alone)) return Json::array();
+  // Of a law that is none of them they explain a part.
+  const double most = kLeftByOwn * error_of(search, holdout, given);
+  const bool explain = error_of(search, holdout, alone) <= most;
+  // One that these recordings do not show, as a tilt about an axis that gravity hardly leaves, may
+  // spoil the others on new ones: they are looked at without those that are refuted too.
+  const bool may_explain =
+      explain ? is_better(alone) : holdout.excess(search, holdout.floors(search)).has_value();
+  if (!may_explain) return Json::array();
   search.begin_with(alone.members);
   Json refuted = leave_refuted(search, holdout);
-  if (is_better(search.fit())) return refuted;
+  const bool still = explain || error_of(search, holdout, search.fit()) <= most;
+  if (still && is_better(search.fit())) return refuted;
   search.adopt(found);
   return Json::array();
 }

@@ -37,6 +37,7 @@ const EffectKind effect{
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 6,
+              .most_strength = 1.0,  // of another axis: a sensor reads its own the most
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"c_xy", a(0)}, {"c_xz", a(1)}, {"c_yx", a(2)},
