@@ -11,9 +11,9 @@ constexpr double kImitated = 1e-6;  // of a column's norm: what rounding leaves 
 
 }  // namespace
 
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double ridge) {
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   if (A.cols() == 0) return Eigen::VectorXd(0);
-  return solve_gram(A.transpose() * A, A.transpose() * b, ridge);
+  return solve_gram(A.transpose() * A, A.transpose() * b, 1e-11);
 }
 
 Eigen::MatrixXd appended(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {

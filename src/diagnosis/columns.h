@@ -5,12 +5,9 @@
 
 namespace dcnn {
 
-inline constexpr double kLeastRidge = 1e-11;  ///< numerical tolerance
-
-/// Coefficients x that minimise |Ax - b|, columns scaled to length 1, with a ridge beside their
-/// squares: the least one only decides what the data leave open.
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
-                              double ridge = kLeastRidge);
+/// Coefficients x that minimise |Ax - b|, columns scaled, with a ridge that only decides what the
+/// data leave open.
+Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
 /// The columns of a, then those of b.
 Eigen::MatrixXd appended(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);

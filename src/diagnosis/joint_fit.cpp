@@ -16,9 +16,6 @@ namespace {
 constexpr int kMostSteps = 12;
 constexpr double kSettled = 0.02;   // of chi-square: far below what decides anything
 constexpr double kStraight = 1e-4;  // of chi-square: how far a step may end from its tangent
-// Parts of each number's own curvature that are added to it (Marquardt 1963): more where the step
-// before made nothing better, as beside numbers that the recordings hardly tell apart.
-constexpr double kDampings[] = {kLeastRidge, 1e-6, 1e-4, 1e-2};
 
 /// One number of one member, on the scale it is searched on.
 struct Coordinate {
@@ -109,7 +106,7 @@ Eigen::MatrixXd derivatives(const Setting& setting, const Chain& chain,
 /// may not be go to zero, and the others are solved for beside that; so does fs - fc.
 Eigen::VectorXd best_change(const std::vector<Member>& members,
                             const std::vector<Coordinate>& coordinates, Eigen::MatrixXd tangent,
-                            const Eigen::VectorXd& left, bool shapes_stay, double damping) {
+                            const Eigen::VectorXd& left, bool shapes_stay) {
   std::vector<Index> open(static_cast<std::size_t>(tangent.cols())), raised;
   std::iota(open.begin(), open.end(), 0);
   if (shapes_stay) {
@@ -139,7 +136,7 @@ Eigen::VectorXd best_change(const std::vector<Member>& members,
     for (Index k = 0; k < tangent.cols(); ++k) {
       if (!is_open[static_cast<std::size_t>(k)]) rest -= change(k) * tangent.col(k);
     }
-    change(open) = least_squares(tangent(Eigen::all, open), rest, damping);
+    change(open) = least_squares(tangent(Eigen::all, open), rest);
     settled = true;
     for (std::size_t k = 0; k < coordinates.size(); ++k) {
       const Coordinate& c = coordinates[k];
@@ -238,43 +235,37 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
     for (Index k = 0; k < off.cols(); ++k) {
       if (off.col(k).isZero(0.0)) fit.tangent.col(k).setZero();
     }
+    const Eigen::VectorXd change =
+        best_change(chain->members(), coordinates, fit.tangent, wanted - here, shapes_stay);
+    if (!change.allFinite()) break;  // whitened by a floor next to nothing, columns overflow
     const double before = fit.chi2;
     bool better = false, straight = false;
-    for (const double damping : kDampings) {
-      const Eigen::VectorXd start = wanted - here;
-      const Eigen::VectorXd change =
-          best_change(chain->members(), coordinates, fit.tangent, start, shapes_stay, damping);
-      if (!change.allFinite()) break;  // whitened by a floor next to nothing, columns overflow
-      const double promised = before - (start - fit.tangent * change).squaredNorm();
-      for (double length = 1.0; length > 0.02 && !better; length *= 0.4) {
-        std::vector<Member> moved = chain->members();
-        bool whole = length == 1.0;
-        for (Index k = 0; k < free; ++k) {
-          const Coordinate& c = coordinates[static_cast<std::size_t>(k)];
-          const double most = longest_step(chain->members(), c);
-          whole = whole && std::abs(change(k)) <= most;
-          move(moved[c.member], c, length * std::clamp(change(k), -most, most));
-        }
-        for (Member& m : moved) hold_rest(setting.study, m);
-        if (passing) nuisance_columns.leftCols(linear) = passed_base(setting, moved);
-        auto next = std::make_unique<Chain>(setting.study, std::move(moved));
-        const Eigen::VectorXd there = setting.whitened(next->prediction());
-        const Eigen::VectorXd nuisance = least_squares(nuisance_columns, wanted - there);
-        const Eigen::VectorXd left = wanted - there - nuisance_columns * nuisance;
-        const double chi2 = left.squaredNorm();
-        if (!(chi2 < fit.chi2)) continue;
-        better = true;
-        // Where the prediction went along its tangent, that is the one here as well, and the next
-        // step would be none.
-        straight = whole && damping == kLeastRidge &&
-                   (start - fit.tangent * change - left).squaredNorm() < kStraight;
-        chain = std::move(next);
-        here = there;
-        residual = left;
-        fit.chi2 = chi2;
-        fit.nuisance = nuisance;
+    for (double length = 1.0; length > 0.02 && !better; length *= 0.4) {
+      std::vector<Member> moved = chain->members();
+      bool whole = length == 1.0;
+      for (Index k = 0; k < free; ++k) {
+        const Coordinate& c = coordinates[static_cast<std::size_t>(k)];
+        const double most = longest_step(chain->members(), c);
+        whole = whole && std::abs(change(k)) <= most;
+        move(moved[c.member], c, length * std::clamp(change(k), -most, most));
       }
-      if (better || promised < kSettled) break;
+      for (Member& m : moved) hold_rest(setting.study, m);
+      if (passing) nuisance_columns.leftCols(linear) = passed_base(setting, moved);
+      auto next = std::make_unique<Chain>(setting.study, std::move(moved));
+      const Eigen::VectorXd there = setting.whitened(next->prediction());
+      const Eigen::VectorXd nuisance = least_squares(nuisance_columns, wanted - there);
+      const Eigen::VectorXd left = wanted - there - nuisance_columns * nuisance;
+      const double chi2 = left.squaredNorm();
+      if (!(chi2 < fit.chi2)) continue;
+      better = true;
+      // Where the prediction went along its tangent, that is the one here as well, and the next
+      // step would be none.
+      straight = whole && (wanted - here - fit.tangent * change - left).squaredNorm() < kStraight;
+      chain = std::move(next);
+      here = there;
+      residual = left;
+      fit.chi2 = chi2;
+      fit.nuisance = nuisance;
     }
     // Far from the best amplitudes shapes may find no way down.
     if (!better && !shapes_stay) {

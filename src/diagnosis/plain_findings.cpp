@@ -190,7 +190,8 @@ std::string constant_words(const Json& finding) {
   if (colon == std::string::npos) return text;
   const std::string line = axis.substr(colon + 1);
   if (line.starts_with("base_")) {
-    return text + " along the base's " + line.substr(5) + " axis, as a tilt of gravity makes";
+    return text + " along the base's " + line.substr(5) + " axis, as " +
+           (line == "base_z" ? "a weight" : "a tilt of gravity") + " makes";
   }
   return text + " along the " +
          (line == "tool_z" ? "tool" : "sensor's " + line.substr(7) + " axis") +

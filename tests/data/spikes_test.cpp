@@ -52,6 +52,18 @@ TEST(Spikes, TheMiddleOfTheirNeighboursStandsThere) {
   ASSERT_EQ(recording.notes.size(), 1U);
 }
 
+// One sample in fifty seven times as noisy is the sensor's noise, and knocks are as many.
+TEST(Spikes, ThatAreManyStay) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  Eigen::VectorXd x(kReadings);
+  for (Index i = 0; i < x.size(); ++i) x[i] = (i % 50 == 0 ? 0.3 : 0.04) * normal(random);
+  Recording recording = force_log(x, 0.002);
+  EXPECT_LT(spikes_of(x).p, 1e-6);
+  mend_spikes(recording, {"fx"});
+  EXPECT_EQ(recording.column("fx"), x);
+}
+
 // Poses in a list have no neighbours.
 TEST(Spikes, OfAListWithoutAClockStay) {
   Eigen::VectorXd x = noisy_force(2);

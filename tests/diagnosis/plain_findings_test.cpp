@@ -107,6 +107,8 @@ TEST(PlainFindings, ASpringWhoseRestIsTurnsAwayIsAConstant) {
   const Json k = said(1e-6, "N/rad"), rest = said(3e6, "rad");
   EXPECT_EQ(constant_words(spring(k, rest, "alpha:base_x")),
             "a constant of 3 N along the base's x axis, as a tilt of gravity makes");
+  EXPECT_EQ(constant_words(spring(k, rest, "beta:base_z")),
+            "a constant of 3 N along the base's z axis, as a weight makes");
   EXPECT_EQ(constant_words(spring(k, rest, "alpha:sensor_y")),
             "a constant of 3 N along the sensor's y axis, as an offset of the sensor makes");
 }
