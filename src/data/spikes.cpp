@@ -12,11 +12,11 @@
 namespace dcnn {
 namespace {
 
-constexpr double kLeast = 8.0;       // deviations from the neighbours: nearer ones show nothing
-constexpr double kLonely = 0.3;      // of a spike's height: how far its neighbours are apart
-constexpr double kByNoise = 0.001;   // probability below which a row is called no reading
-constexpr std::size_t kFew = 3;      // rows of a recording that may be lost, however short it is
-constexpr double kMostLost = 0.001;  // of its rows: more are noise of that kind, or impacts
+constexpr double kLeast = 8.0;         // deviations from the neighbours: nearer ones show nothing
+constexpr double kLonely = 0.3;        // of a spike's height: how far its neighbours are apart
+constexpr double kByNoise = 0.001;     // probability below which a row is called no reading
+constexpr std::size_t kFew = 3;        // rows of a recording that may be lost, however short it is
+constexpr double kMostSpikes = 0.001;  // of its rows: more are noise of that kind, or impacts
 
 /// x_i less the median of its four neighbours, (T); 0 at the ends.
 Eigen::VectorXd off_neighbours(const Eigen::VectorXd& x) {
@@ -107,7 +107,7 @@ void mend_spikes(Recording& recording, const std::vector<std::string>& columns) 
     if (!recording.has(name)) continue;
     Eigen::VectorXd x = recording.column(name);
     const Spikes spikes = spikes_of(x);
-    const auto most = static_cast<std::size_t>(kMostLost * static_cast<double>(x.size()));
+    const auto most = static_cast<std::size_t>(kMostSpikes * static_cast<double>(x.size()));
     if (spikes.p >= kByNoise || spikes.rows.size() > std::max(kFew, most)) continue;
     const Eigen::VectorXd far = off_neighbours(x);
     for (const Index row : spikes.rows) x[row] -= far[row];

@@ -38,17 +38,17 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
 
 Eigen::MatrixXd off_basis(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& basis) {
   // A few columns beside many rows: blocks of the basis stay in the cache for all of them.
-  constexpr Index kBlock = 512;
+  constexpr Index kProjectedRows = 512;
   const Index n = columns.rows(), count = columns.cols();
   Eigen::MatrixXd off = columns, shares = Eigen::MatrixXd::Zero(basis.cols(), count);
-  for (Index begin = 0; begin < n; begin += kBlock) {
-    const auto rows = basis.middleRows(begin, std::min(kBlock, n - begin));
+  for (Index begin = 0; begin < n; begin += kProjectedRows) {
+    const auto rows = basis.middleRows(begin, std::min(kProjectedRows, n - begin));
     for (Index k = 0; k < count; ++k) {
       shares.col(k).noalias() += rows.transpose() * columns.col(k).segment(begin, rows.rows());
     }
   }
-  for (Index begin = 0; begin < n; begin += kBlock) {
-    const auto rows = basis.middleRows(begin, std::min(kBlock, n - begin));
+  for (Index begin = 0; begin < n; begin += kProjectedRows) {
+    const auto rows = basis.middleRows(begin, std::min(kProjectedRows, n - begin));
     for (Index k = 0; k < count; ++k) {
       off.col(k).segment(begin, rows.rows()).noalias() -= rows * shares.col(k);
     }
