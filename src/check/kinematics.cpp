@@ -81,6 +81,22 @@ void add_rotations(const Eigen::MatrixXd& q, const Eigen::MatrixXd& dq, const Ei
   }
 }
 
+/// Of one smooth kernel u: the second derivative's weights by Savitzky and Golay are its second
+/// difference, the first's its central one. What is smoothed and what is differentiated pass the
+/// same low-pass then, and a rigid tool leaves nothing of a tremor.
+void set_weights(int window, Sampled& rows) {
+  rows.second =
+      savitzky_golay_weights(window, std::min(3, window - 2), 2, static_cast<double>(rows.half));
+  const Index last = window - 1;
+  // second_k = u_k-1 - 2u_k + u_k+1
+  Eigen::VectorXd& u = rows.value = Eigen::VectorXd::Zero(window);
+  u[1] = rows.second[0];
+  for (Index k = 1; k + 1 < last; ++k) u[k + 1] = rows.second[k] + 2.0 * u[k] - u[k - 1];
+  rows.first = Eigen::VectorXd::Zero(window);
+  rows.first.head(last) -= 0.5 * u.tail(last);
+  rows.first.tail(last) += 0.5 * u.head(last);
+}
+
 }  // namespace
 
 double Sampled::seconds(Index count) const {
@@ -96,26 +112,6 @@ Eigen::MatrixXd Sampled::smoothed(const Eigen::MatrixXd& signals, const Eigen::V
   }
   return out;
 }
-
-namespace {
-
-/// Of one smooth kernel u: the second derivative's weights by Savitzky and Golay are its second
-/// difference, the first's its central one. What is smoothed and what is differentiated pass the
-/// same low-pass then, and a rigid tool leaves nothing of a tremor.
-void set_weights(int window, Sampled& rows) {
-  rows.second =
-      savitzky_golay_weights(window, std::min(3, window - 2), 2, static_cast<double>(rows.half));
-  const Index last = window - 1;
-  Eigen::VectorXd& u = rows.value =
-      Eigen::VectorXd::Zero(window);  // second_k = u_k-1 - 2u_k + u_k+1
-  u[1] = rows.second[0];
-  for (Index k = 1; k + 1 < last; ++k) u[k + 1] = rows.second[k] + 2.0 * u[k] - u[k - 1];
-  rows.first = Eigen::VectorXd::Zero(window);
-  rows.first.head(last) -= 0.5 * u.tail(last);
-  rows.first.tail(last) += 0.5 * u.head(last);
-}
-
-}  // namespace
 
 Sampled sample(const Log& log) {
   Sampled rows;

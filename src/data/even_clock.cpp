@@ -62,11 +62,22 @@ Eigen::VectorXd off_even_clock(const Eigen::VectorXd& t, const Segment& segment,
   return off;
 }
 
-double log_odds_of_stamps(const Recording& recording, const std::vector<std::string>& columns) {
-  const Eigen::VectorXd t = recording.column("t");
+namespace {
+
+/// Of all rows.
+Eigen::VectorXd off_even_clock(const Recording& recording, const Eigen::VectorXd& t) {
+  Eigen::VectorXd off = Eigen::VectorXd::Zero(t.size());
+  for (const Segment& s : recording.segments) {
+    off.segment(s.begin, s.size()) = off_even_clock(t, s, recording.dt);
+  }
+  return off;
+}
+
+double log_odds(const Recording& recording, const std::vector<std::string>& columns,
+                const Eigen::VectorXd& t, const Eigen::VectorXd& off_even) {
   std::vector<Roughness> sums(columns.size());
   for (const Segment& s : recording.segments) {
-    const Eigen::VectorXd off = off_even_clock(t, s, recording.dt);
+    const Eigen::VectorXd off = off_even.segment(s.begin, s.size());
     if (off.cwiseAbs().maxCoeff() <= kRounding * recording.dt) continue;
     const std::vector<Index> places = clock_places(t, s, recording.dt);
     for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -75,25 +86,26 @@ double log_odds_of_stamps(const Recording& recording, const std::vector<std::str
                     recording.dt, sums[k]);
     }
   }
-  double log_odds = 0.0;
+  double sum = 0.0;
   for (const Roughness& r : sums) {
     if (r.even <= 0.0 || r.stamped <= 0.0) continue;  // a column that stands still
-    log_odds += 0.5 * r.count / kRowsOfOne * elementary::log(r.even / r.stamped);
+    sum += 0.5 * r.count / kRowsOfOne * elementary::log(r.even / r.stamped);
   }
-  return log_odds;
+  return sum;
+}
+
+}  // namespace
+
+double log_odds_of_stamps(const Recording& recording, const std::vector<std::string>& columns) {
+  const Eigen::VectorXd t = recording.column("t");
+  return log_odds(recording, columns, t, off_even_clock(recording, t));
 }
 
 bool put_on_even_clock(Recording& recording, const std::vector<std::string>& columns) {
   if (recording.dt == 0.0 || !recording.has("t")) return false;
-  if (log_odds_of_stamps(recording, columns) <= elementary::log(kOdds)) return false;
-  const Eigen::VectorXd t = recording.column("t");
-  Eigen::VectorXd even = t;
-  double square = 0.0;
-  for (const Segment& s : recording.segments) {
-    const Eigen::VectorXd off = off_even_clock(t, s, recording.dt);
-    even.segment(s.begin, s.size()) -= off;
-    square += off.squaredNorm();
-  }
+  const Eigen::VectorXd t = recording.column("t"), off = off_even_clock(recording, t);
+  if (log_odds(recording, columns, t, off) <= elementary::log(kOdds)) return false;
+  const Eigen::VectorXd even = t - off;
   for (const std::string& name : columns) {
     if (!recording.has(name)) continue;
     Eigen::VectorXd x = recording.column(name);
@@ -110,7 +122,7 @@ bool put_on_even_clock(Recording& recording, const std::vector<std::string>& col
     recording.set(name, x);
   }
   recording.set("t", even);
-  const double rms = std::sqrt(square / static_cast<double>(t.size()));
+  const double rms = std::sqrt(off.squaredNorm() / static_cast<double>(t.size()));
   recording.notes.push_back("rows are " + brief(1e3 * rms) +
                             " ms off an even clock, as their stamps say: the pose is put on one");
   return true;

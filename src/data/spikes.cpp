@@ -16,7 +16,7 @@ constexpr double kLeast = 8.0;         // deviations from the neighbours: nearer
 constexpr double kLonely = 0.3;        // of a spike's height: how far its neighbours are apart
 constexpr double kByNoise = 0.001;     // probability below which a row is called no reading
 constexpr std::size_t kFew = 3;        // rows of a recording that may be lost, however short it is
-constexpr double kMostSpikes = 0.001;  // of its rows: more are noise of that kind, or impacts
+constexpr double kMostSpikes = 0.001;  // of its rows: more are heavy-tailed noise, or impacts
 
 /// x_i less the median of its four neighbours, (T); 0 at the ends.
 Eigen::VectorXd off_neighbours(const Eigen::VectorXd& x) {

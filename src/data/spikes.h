@@ -25,7 +25,7 @@ Spikes spikes_of(const Eigen::VectorXd& values);
 
 /// Puts the middle of the neighbours in the place of spikes that noise makes with a probability
 /// below 0.001, in these columns of a recording with a clock, and notes so. More than three, and
-/// than a row in a thousand, stay: they are noise of that kind, or a load that knocks.
+/// than a row in a thousand, are left: heavy-tailed noise, or the impacts of a loose load.
 void mend_spikes(Recording& recording, const std::vector<std::string>& columns);
 
 }  // namespace dcnn

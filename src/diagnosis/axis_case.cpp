@@ -24,7 +24,7 @@ std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
   std::vector<Recording> recordings;
   for (const auto& path : paths) {
     recordings.push_back(read_recording(path, options, system));
-    for (const Axis& axis : system.axes) mend_spikes(recordings.back(), {axis.measured});
+    mend_spikes(recordings.back(), find_targets(recordings.back(), system).names);
   }
   return recordings;
 }

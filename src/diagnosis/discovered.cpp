@@ -188,7 +188,7 @@ Laws laws_of_the_rest(Search& search) {
 std::vector<Discovered> add_discovered(Search& search, const HoldOut& holdout) {
   if (!can_hold_laws(search.study())) return {};
   const std::vector<Member> before = search.fit().members;
-  const Signals by_names = holdout.prediction(before, search.fit().base);
+  const Eigen::VectorXd base = search.fit().base;
   Laws laws = in_place_of_names(search, holdout);
   if (!laws.found.empty()) {
     search.put_beside(laws.members);
@@ -204,7 +204,8 @@ std::vector<Discovered> add_discovered(Search& search, const HoldOut& holdout) {
   }
   search.leave_untold_parts();
   // Names may have given way to laws, and other names come beside them.
-  const Signals by_laws = holdout.prediction(search.fit().members, search.fit().base);
+  const Signals by_laws = holdout.prediction(search.fit().members, search.fit().base),
+                by_names = holdout.prediction(before, base);
   if (holdout.log_support(by_laws, by_names, search.floors()) >= 0.0) return laws.found;
   search.hold(before);
   return {};

@@ -52,7 +52,7 @@ TEST(Spikes, TheMiddleOfTheirNeighboursStandsThere) {
   ASSERT_EQ(recording.notes.size(), 1U);
 }
 
-// One sample in fifty seven times as noisy is the sensor's noise, and knocks are as many.
+// Heavy-tailed noise (2 % of the samples with seven times the deviation) is no lost reading.
 TEST(Spikes, ThatAreManyStay) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal(0.0, 1.0);
