@@ -191,13 +191,12 @@ void check_regular(Recording& recording, const std::string& file) {
   recording.notes.push_back(note.str());
 }
 
-void drop_short_stretches(Recording& recording) {
-  constexpr Index kFewestRows = 3;  // of a second derivative
+void drop_short_stretches(Recording& recording, Index least) {
   if (recording.dt == 0.0) return;
   std::vector<Index> kept;
   std::vector<Segment> segments;
   for (const Segment& segment : recording.segments) {
-    if (segment.size() < kFewestRows) continue;
+    if (segment.size() < least) continue;
     segments.push_back({static_cast<Index>(kept.size()), 0});
     for (Index row = segment.begin; row < segment.end; ++row) kept.push_back(row);
     segments.back().end = static_cast<Index>(kept.size());
@@ -206,8 +205,8 @@ void drop_short_stretches(Recording& recording) {
   if (dropped == 0 || kept.empty()) return;  // too short as a whole: who needs derivatives says so
   recording.table.values = Eigen::MatrixXd(recording.table.values(kept, Eigen::all));
   recording.segments = std::move(segments);
-  recording.notes.push_back(std::to_string(dropped) +
-                            " rows in stretches shorter than three rows between gaps: left out");
+  recording.notes.push_back(std::to_string(dropped) + " rows in stretches shorter than " +
+                            std::to_string(least) + " rows between gaps: left out");
 }
 
 void resample(Recording& recording, double hz, const std::vector<std::string>& smooth) {

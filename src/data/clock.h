@@ -14,9 +14,9 @@ void set_clock(Recording& recording, const std::string& file, bool poses);
 /// of two to five dt are rows that were lost, at most a tenth of all, which derivatives bridge.
 void check_regular(Recording& recording, const std::string& file);
 
-/// Leaves out stretches between gaps of fewer than three rows, which no second derivative can be
-/// taken of, with a note, where there are longer ones.
-void drop_short_stretches(Recording& recording);
+/// Leaves out stretches between gaps of fewer than `least` rows (three: a second derivative), which
+/// derivatives need, with a note, where there are longer ones.
+void drop_short_stretches(Recording& recording, Index least = 3);
 
 /// Puts every segment on a regular clock of `hz` (0: the recording's own rate): the columns in
 /// `smooth` by cubic spline, all others linearly. Angles must be unwrapped and quaternions

@@ -105,19 +105,13 @@ bool by_spectrum(const LowPass& filter, double dt, Output x, Output first, Outpu
   return smoothed.is_fast;
 }
 
-int shortest(const DerivativeSpec& spec, double dt) {
-  if (spec.kind == Kind::kCentral) return 2;
-  if (spec.kind == Kind::kSpline || spec.kind == Kind::kSpectral) return 3;
-  return spec.kind == Kind::kSavitzkyGolay ? spec.window(dt) : 1;
-}
-
 void check_lengths(const Recording& recording, const DerivativeSpec& spec) {
   require(recording.dt > 0.0, Exit::kData, recording.name,
           ": has no column 't', so no derivatives; log the time or use features of the pose alone");
   require(spec.window(recording.dt) <= kLongestWindow, Exit::kData, recording.name,
           ": derivative.window_s of ", spec.window_s, " s is more than ", kLongestWindow,
           " samples of ", recording.dt, " s; shorten it");
-  const int least = shortest(spec, recording.dt);
+  const int least = spec.fewest_rows(recording.dt);
   for (const Segment& segment : recording.segments) {
     require(segment.size() >= least, Exit::kData, recording.name, ": samples ", segment.begin + 1,
             " to ", segment.end, " between two gaps are fewer than the ", least,
@@ -133,6 +127,12 @@ int DerivativeSpec::window(double dt) const {
   const int wanted = 2 * static_cast<int>(std::min(std::round(window_s / (2.0 * dt)), kMost)) + 1;
   const int least = order + 4 + (order % 2 == 0 ? 1 : 0);
   return std::max(wanted, least);
+}
+
+int DerivativeSpec::fewest_rows(double dt) const {
+  if (kind == Kind::kCentral) return 2;
+  if (kind == Kind::kSpline || kind == Kind::kSpectral) return 3;
+  return kind == Kind::kSavitzkyGolay ? window(dt) : 1;
 }
 
 DerivativeSpec parse_derivative(Options options) {

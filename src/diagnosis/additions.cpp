@@ -75,6 +75,12 @@ void keep_apart(std::vector<Member>& list, const std::vector<Member>& members) {
 
 }  // namespace
 
+bool Search::is_taken_back(const Member& candidate) const {
+  const double seconds = longest_seconds(study_);
+  return std::any_of(refuted_.begin(), refuted_.end(),
+                     [&](const Member& m) { return same_place(m, candidate, seconds); });
+}
+
 double Search::net_gain_as_trial(std::size_t member) const {
   const Member& own = fit_.members[member];
   double most = 0.0;
@@ -105,7 +111,7 @@ std::vector<Trial> Search::additions(const JointFit& fit, bool events,
       const Member& member = list[static_cast<std::size_t>(k)];
       const auto is_at = [&](const Member& m) { return same_place(m, member, seconds); };
       const bool taken =
-          std::any_of(refuted_.begin(), refuted_.end(), is_at) ||
+          is_taken_back(member) ||
           std::any_of(fit.members.begin(), fit.members.end(), [&](const Member& m) {
             return is_at(m) || (study_.axis && both_dry(m, member) && !is_undriven(m, member));
           });

@@ -74,7 +74,7 @@ Case thinned(const Case& study, Index stride) {
 
 Motion wrist_motion(const Log& log, const Case& study) {
   Motion motion = motion_of(log.recording, study.simulator.model, study.derivative);
-  std::vector<std::string> names;
+  std::vector<std::string> names = signals_of(study.simulator.effects);
   for (const Case::Driver& driver : study.drivers) names.push_back(driver.signal);
   read_signals(log.recording, names, motion);
   return motion;

@@ -71,8 +71,15 @@ void add(const Wrench& part, double sign, Wrench& wrench) {
 
 }  // namespace
 
+std::vector<EffectSpec> effects_of(const Case& study, const std::vector<Member>& members) {
+  std::vector<EffectSpec> effects = specs_of(members);
+  const auto& given = study.simulator.effects;
+  effects.insert(effects.end(), given.begin(), given.end());
+  return effects;
+}
+
 Chain::Chain(const Case& study, std::vector<Member> members)
-    : study_(study), members_(std::move(members)), specs_(specs_of(members_)) {
+    : study_(study), members_(std::move(members)), specs_(effects_of(study, members_)) {
   for (const Log& log : study.logs) {
     stages_.push_back(prepare(log, specs_));
     prediction_.push_back(finish(log, stages_.back(), stages_.back().forced, specs_));

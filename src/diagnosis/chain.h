@@ -12,6 +12,9 @@ namespace dcnn {
 /// One matrix (T, channels) per recording.
 using Signals = std::vector<Eigen::MatrixXd>;
 
+/// Those of the members, then those that the simulator has as it was given.
+std::vector<EffectSpec> effects_of(const Case& study, const std::vector<Member>& members);
+
 class Chain {
  public:
   Chain(const Case& study, std::vector<Member> members);
@@ -27,7 +30,7 @@ class Chain {
     ToolModel model;             // as the members change it
     Eigen::MatrixXd load;        // what is carried before the forces on the tool
     Wrench forced;               // after them
-    std::vector<Wrench> pushes;  // what each member adds there; no rows where it acts elsewhere
+    std::vector<Wrench> pushes;  // what each effect adds there; no rows where it acts elsewhere
   };
   Eigen::MatrixXd finish(const Log& log, const Stages& stages, Wrench wrench,
                          const std::vector<EffectSpec>& effects) const;
@@ -36,7 +39,7 @@ class Chain {
 
   const Case& study_;
   std::vector<Member> members_;
-  std::vector<EffectSpec> specs_;
+  std::vector<EffectSpec> specs_;  // of the members, in their order, and those that were given
   std::vector<Stages> stages_;  // per recording
   Signals prediction_;
 };

@@ -123,4 +123,6 @@ std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
   return member;
 }
 
+bool is_heard_hum(const Member& member) { return member.name() == "hum" && member.fixed; }
+
 }  // namespace dcnn

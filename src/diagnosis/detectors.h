@@ -31,4 +31,7 @@ inline constexpr double kLeastLine = 28.0;
 std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
                                     const std::vector<Floor>& floors);
 
+/// Whether it is a line that was found so.
+bool is_heard_hum(const Member& member);
+
 }  // namespace dcnn

@@ -11,6 +11,7 @@
 #include "diagnosis/candidates.h"
 #include "diagnosis/confidence.h"
 #include "diagnosis/dead_channels.h"
+#include "diagnosis/detectors.h"
 #include "diagnosis/discovered.h"
 #include "diagnosis/evidence/posterior_json.h"
 #include "diagnosis/findings.h"
@@ -142,6 +143,22 @@ void take_back_names(Search& search, const HoldOut& holdout, const std::vector<M
   if (holdout.log_support(with, without, search.floors()) > 0.0) search.hold(names);
 }
 
+/// A hum whose phase does not last to the held-out data predicts nothing there: it is noise, whose
+/// floor holds it. Its frequency [Hz] where there is one.
+std::optional<double> take_hum_for_noise(Search& search, const HoldOut& holdout) {
+  const std::vector<Member>& members = search.fit().members;
+  const auto hum = std::find_if(members.begin(), members.end(), is_heard_hum);
+  if (hum == members.end() || holdout.empty()) return std::nullopt;
+  const double hz = hum->shapes(0);
+  std::vector<Member> others = members;
+  std::erase_if(others, is_heard_hum);
+  const Signals with = holdout.prediction(members, search.fit().base);
+  const Signals without = holdout.prediction(others, search.fit().base);
+  if (holdout.log_support(with, without, search.floors()) > 0.0) return std::nullopt;
+  search.leave_hum();
+  return hz;
+}
+
 }  // namespace
 
 CaseDiagnosis diagnose_case(LoadedCase loaded,
@@ -154,6 +171,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   search.run();
   if (progress) progress("judging by what was held out");
   const HoldOut holdout(search.study(), loaded.holdout);
+  const std::optional<double> noisy_hum = take_hum_for_noise(search, holdout);
   Json refuted_names = leave_refuted(search, holdout);
   // Each round leaves out a name for good.
   for (Json more = refuted_names; !more.empty() && search.remains() && search.look_again();) {
@@ -196,6 +214,10 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
                               brief(100.0 * share) +
                               " % of the time, where friction may be any force up to the one that "
                               "breaks loose: these rows decide nothing");
+  }
+  if (noisy_hum) {
+    report["notes"].push_back("a line at " + brief(*noisy_hum) +
+                              " Hz, the phase of which does not last: it counts as noise");
   }
   const std::vector<std::string> without = study.without.names();
   if (!without.empty()) report["without"] = without;

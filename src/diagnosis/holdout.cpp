@@ -205,8 +205,11 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
       const double most = std::min((*all)[j].deviation(), left);
       noise = std::max(noise, most * std::min(1.0, noise / fitted_noise));
     }
-    // Of an axis the error of the motion has a spectrum of its own in the floor.
-    if (!fitted.axis && !search.floors()[j].pose_gain.empty()) noise = std::max(noise, left);
+    // Of an axis the error of the motion has a spectrum of its own in the floor. Poses are few: a
+    // free matrix may leave less of them than noise, and what the fit leaves was weighed.
+    const bool known_by_rest =
+        fitted.is_static() || (!fitted.axis && !search.floors()[j].pose_gain.empty());
+    if (known_by_rest) noise = std::max(noise, left);
     const double ratio = errors[j] / std::max(1e-300, noise);
     if (ratio > kMost * (1.0 + chance) && (!worst || ratio > worst->ratio)) {
       worst = Excess{j, ratio};

@@ -81,7 +81,7 @@ class Passage {
 discovery::Problem problem_of(const Setting& setting, const JointFit& fit, const Case& study,
                               const Whitener& whitener) {
   discovery::Problem problem;
-  const auto effects = specs_of(fit.members);
+  const auto effects = effects_of(setting.study, fit.members);
   std::vector<Index> sizes;
   for (const Log& log : study.logs) {
     problem.records.push_back({&log.motion, load_of(setting.study.simulator, effects, log)});

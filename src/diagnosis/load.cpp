@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "data/clock.h"
 #include "data/held_rows.h"
 #include "data/spikes.h"
 #include "physics/effect_law.h"
@@ -23,7 +24,10 @@ std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
   read.static_list = true;
   if (request.simulator) read.payload.rpy = study.simulator.model.sensor_rotation_rpy;
   for (const auto& path : paths) {
-    recordings.push_back(read_recording(path, read, System()));
+    Recording& recording = recordings.emplace_back(read_recording(path, read, System()));
+    if (recording.dt > 0.0) {
+      drop_short_stretches(recording, study.derivative.fewest_rows(recording.dt));
+    }
     const auto& zeroed = request.zeroed;
     if (std::find(zeroed.begin(), zeroed.end(), path) != zeroed.end()) {
       recordings.back().zeroed = true;
@@ -156,6 +160,10 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   study.without = request.without;
   if (request.simulator) {
     study.simulator = read_simulator(*request.simulator);
+    study.simulator.model = changed_tool(study.simulator.model, study.simulator.effects);
+    std::erase_if(study.simulator.effects, [](const EffectSpec& effect) {
+      return find_effect(effect.effect)->stage == Stage::kTool;
+    });
   } else {
     study.own_tool = false;
     study.simulator.model.inertia = Eigen::Matrix3d::Zero();

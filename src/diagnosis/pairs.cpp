@@ -80,7 +80,9 @@ bool Search::replace_pairs() {
       const JointFit base = joint_fit(*setting_, rest);
       const Scan scan(*setting_, base);
       const Signals left = difference(study_, scan.chain().prediction());
-      const Pool pool = make_pool(scan, candidates(scan, left, floors_));
+      std::vector<Member> list = candidates(scan, left, floors_);
+      std::erase_if(list, [&](const Member& m) { return is_taken_back(m); });
+      const Pool pool = make_pool(scan, list);
       const double own = base.chi2 - fit_.chi2 -
                          setting_->price * (members[a].parameters() + members[b].parameters());
       double most = own + 0.2 * setting_->price;
@@ -100,7 +102,7 @@ bool Search::replace_pairs() {
       int numbers = 0;
       for (const std::size_t k : best) numbers += pool.members[k].parameters();
       if (base.chi2 - fit.chi2 - setting_->price * numbers < own + 0.2 * setting_->price) continue;
-      settle(others);
+      settle(fit.members);  // the pool's amplitudes know no bounds
       return true;
     }
   }

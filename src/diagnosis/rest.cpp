@@ -11,6 +11,7 @@ namespace {
 constexpr double kShortestRest = 0.5;  // s
 constexpr double kAveragedSeconds =
     0.2;                               // s, over which noise of the rate hardly moves the position
+constexpr double kGoldenRatio = 1.618033988749895;  // periods that divide one span divide no part of it
 constexpr double kShareAtRest = 0.01;  // of the 95th percentile of speed
 constexpr double kFastShare = 0.95;    // its place in the distribution
 constexpr double kLeastMovingShare = 0.1;  // of the time
@@ -23,9 +24,12 @@ std::vector<Span> rests(const Case& study) {
   std::vector<double> all;
   for (const Log& log : study.logs) {
     if (log.motion.v_B.rows() != log.motion.samples()) return {};
-    const auto half = static_cast<Index>(std::llround(0.5 * kAveragedSeconds / log.motion.dt));
-    speeds.push_back(
-        moving_mean(log.motion.v_B.col(0), log.motion.segments, half).cwiseAbs().col(0));
+    const auto mean_over = [&](double seconds) -> Eigen::VectorXd {
+      const auto half = static_cast<Index>(std::llround(0.5 * seconds / log.motion.dt));
+      return moving_mean(log.motion.v_B.col(0), log.motion.segments, half).cwiseAbs().col(0);
+    };
+    // The mean of an oscillation over whole periods is zero too.
+    speeds.push_back(mean_over(kAveragedSeconds).cwiseMax(mean_over(kAveragedSeconds / kGoldenRatio)));
     all.insert(all.end(), speeds.back().begin(), speeds.back().end());
   }
   if (all.empty()) return {};

@@ -73,6 +73,8 @@ class Search {
   /// Takes back members that other data or another law refute, and judges what is left. They are
   /// not tried again.
   void leave_out(const std::vector<std::size_t>& members);
+  /// Takes back the hum that was heard above the motion's band, and judges what is left.
+  void leave_hum();
   /// Searches beside what is left for other names than those that were left out: whether there are
   /// other members than before.
   bool look_again();
@@ -112,6 +114,8 @@ class Search {
   std::vector<Trial> additions(bool events = true) const;
 
  private:
+  /// Whether data on which it was not fitted have refuted this effect there.
+  bool is_taken_back(const Member& candidate) const;
   /// What is known of the model without one member: computed when it is first asked for.
   struct Place {
     std::optional<JointFit> rest;

@@ -63,13 +63,12 @@ std::optional<Member> Search::heard_hum(const Signals& left) const {
 /// Whether a line that was heard before anything was found is none beside that: what a motion that
 /// repeats leaves has lines of its own.
 bool Search::hums_no_more() {
-  const auto is_hum = [](const Member& m) { return m.name() == "hum" && m.fixed; };
-  const auto heard = std::find_if(apart_.begin(), apart_.end(), is_hum);
+  const auto heard = std::find_if(apart_.begin(), apart_.end(), is_heard_hum);
   if (heard == apart_.end()) return false;
   const Member hum = *heard;
   const std::vector<Member> before = fit_.members;
   std::vector<Member> others = before;
-  std::erase_if(others, is_hum);
+  std::erase_if(others, is_heard_hum);
   if (others.empty()) return false;
   apart_.erase(heard);
   settle(others);
@@ -79,6 +78,13 @@ bool Search::hums_no_more() {
   apart_.push_back(hum);
   settle(before);
   return false;
+}
+
+void Search::leave_hum() {
+  std::vector<Member> others = fit_.members;
+  std::erase_if(others, is_heard_hum);
+  std::erase_if(apart_, is_heard_hum);
+  adopt(others);
 }
 
 bool Search::hear_knocks() {

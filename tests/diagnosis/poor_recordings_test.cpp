@@ -75,5 +75,25 @@ TEST(PoorRecordings, AForceThatIsHeldIsReadWhereItIsNew) {
   EXPECT_EQ(report["notes"].size(), 2u) << report["notes"].dump(1);
 }
 
+/// Derivatives take 0.1 s of rows: what is shorter between two gaps is left out.
+TEST(PoorRecordings, AFewRowsBetweenTwoGapsStopNothing) {
+  const test::Bench bench(test::configuration(Json::array()));
+  test::change(bench, [](Recording& log) {
+    const Index all = log.samples();
+    std::vector<Index> kept;
+    for (Index i = 0; i < all; ++i) {
+      const Index from_middle = i - all / 2;
+      const bool lost = (from_middle >= -10 && from_middle < 0) ||
+                        (from_middle >= 15 && from_middle < 25);
+      if (!lost) kept.push_back(i);
+    }
+    log.table.values = Eigen::MatrixXd(log.table.values(kept, Eigen::all));
+  });
+  const LoadedCase loaded = load_wrist(bench.request());
+  const Recording& read = loaded.fit.logs.front().recording;
+  EXPECT_EQ(read.segments.size(), 2u);
+  EXPECT_EQ(read.notes.back(), "15 rows in stretches shorter than 51 rows between gaps: left out");
+}
+
 }  // namespace
 }  // namespace dcnn

@@ -143,6 +143,21 @@ TEST(RestAndTurns, RestIsWhereTheAxisDoesNotMove) {
   EXPECT_TRUE(rests(tool).empty());
 }
 
+/// The mean rate over 0.2 s of an oscillation at 5 Hz is zero.
+TEST(RestAndTurns, AnOscillationIsNoRest) {
+  for (const double hz : {1.0, 5.0, 10.0}) {
+    Table table;
+    table.columns = {"t", "q", "dq", "current"};
+    table.values.resize(5000, 4);
+    for (Index k = 0; k < table.values.rows(); ++k) {
+      const double t = 0.002 * static_cast<double>(k), w = kTurn * hz;
+      table.values.row(k) << t, std::sin(w * t) / w, std::cos(w * t), std::sin(w * t);
+    }
+    const Machine machine(axis_with({{"base", Json::array({"acceleration"})}}), table, table);
+    EXPECT_TRUE(rests(load_axes(machine.request()).cases[0].fit).empty()) << hz << " Hz";
+  }
+}
+
 TEST(RestAndTurns, WhatWasRefutedIsNotTriedAgain) {
   const Machine machine(axis_with({{"simulated", "torque"}}), moved_and_held(1), moved_and_held(2));
   Search search(load_axes(machine.request()).cases[0].fit, {}, nullptr);

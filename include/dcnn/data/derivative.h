@@ -27,6 +27,8 @@ struct DerivativeSpec {
 
   /// Number of samples in the window: 2·round(window_s/(2·dt)) + 1, at least order + 4 (odd).
   int window(double dt) const;
+  /// Rows between two gaps that it needs at least.
+  int fewest_rows(double dt) const;
 };
 
 /// The estimator of everything that runs online: a causal parabola over 0.1 s.
