@@ -40,7 +40,7 @@ class Chain {
   const Case& study_;
   std::vector<Member> members_;
   std::vector<EffectSpec> specs_;  // of the members, in their order, and those that were given
-  std::vector<Stages> stages_;  // per recording
+  std::vector<Stages> stages_;     // per recording
   Signals prediction_;
 };
 

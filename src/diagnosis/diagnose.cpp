@@ -11,10 +11,10 @@
 #include "diagnosis/candidates.h"
 #include "diagnosis/confidence.h"
 #include "diagnosis/dead_channels.h"
-#include "diagnosis/detectors.h"
 #include "diagnosis/discovered.h"
 #include "diagnosis/evidence/posterior_json.h"
 #include "diagnosis/findings.h"
+#include "diagnosis/heard.h"
 #include "diagnosis/holdout.h"
 #include "diagnosis/locate.h"
 #include "diagnosis/own_numbers.h"
@@ -143,22 +143,6 @@ void take_back_names(Search& search, const HoldOut& holdout, const std::vector<M
   if (holdout.log_support(with, without, search.floors()) > 0.0) search.hold(names);
 }
 
-/// A hum whose phase does not last to the held-out data predicts nothing there: it is noise, whose
-/// floor holds it. Its frequency [Hz] where there is one.
-std::optional<double> take_hum_for_noise(Search& search, const HoldOut& holdout) {
-  const std::vector<Member>& members = search.fit().members;
-  const auto hum = std::find_if(members.begin(), members.end(), is_heard_hum);
-  if (hum == members.end() || holdout.empty()) return std::nullopt;
-  const double hz = hum->shapes(0);
-  std::vector<Member> others = members;
-  std::erase_if(others, is_heard_hum);
-  const Signals with = holdout.prediction(members, search.fit().base);
-  const Signals without = holdout.prediction(others, search.fit().base);
-  if (holdout.log_support(with, without, search.floors()) > 0.0) return std::nullopt;
-  search.leave_hum();
-  return hz;
-}
-
 }  // namespace
 
 CaseDiagnosis diagnose_case(LoadedCase loaded,
@@ -172,7 +156,8 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   if (progress) progress("judging by what was held out");
   const HoldOut holdout(search.study(), loaded.holdout);
   const std::optional<double> noisy_hum = take_hum_for_noise(search, holdout);
-  Json refuted_names = leave_refuted(search, holdout);
+  Json refuted_names = leave_refuted_knocks(search, holdout);
+  for (const Json& name : leave_refuted(search, holdout)) refuted_names.push_back(name);
   // Each round leaves out a name for good.
   for (Json more = refuted_names; !more.empty() && search.remains() && search.look_again();) {
     more = leave_refuted(search, holdout);

@@ -65,15 +65,13 @@ HoldOut::HoldOut(const Case& fitted, const Case& recordings) {
   const auto blocks = held_out_blocks(study_, false), resting = rests(study_);
   for (std::size_t k = 0; k < study_.logs.size(); ++k) {
     const Motion& motion = study_.logs[k].motion;
-    std::vector<char> held(static_cast<std::size_t>(motion.samples()), own ? 1 : 0);
-    const double ends = motion.is_static() ? 0.0 : end_seconds(study_, seconds_of(motion));
-    for (Index i = 0; i < motion.samples(); ++i) {
-      const double t = motion.t(i);
-      char& row = held[static_cast<std::size_t>(i)];
-      for (const Span& span : blocks) {
-        if (!own && span.holds(k, t) && t < span.end) row = 1;
+    std::vector<char> held(static_cast<std::size_t>(motion.samples()), 0);
+    for (const Segment& s : inner_segments(study_, k)) {
+      for (Index i = s.begin; i < s.end; ++i) {
+        const double t = motion.t(i);
+        const auto holds = [&](const Span& span) { return span.holds(k, t) && t < span.end; };
+        held[static_cast<std::size_t>(i)] = own || std::any_of(blocks.begin(), blocks.end(), holds);
       }
-      if (t < motion.t(0) + ends || t > motion.t(motion.samples() - 1) - ends) row = 0;
     }
     for (const Span& span : resting) {
       if (span.log != k) continue;
@@ -216,6 +214,14 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
     }
   }
   return worst;
+}
+
+double HoldOut::support_of_knocks(const Search& search) const {
+  if (blocks_) return 0.0;
+  const JointFit& fit = search.fit();
+  Signals left = prediction(fit.members, fit.base);
+  for (std::size_t k = 0; k < left.size(); ++k) left[k] = study_.logs[k].measured - left[k];
+  return knocks_support(study_, left, search.knocks());
 }
 
 std::vector<HeldOut> HoldOut::records(const JointFit& first, const JointFit& last) const {

@@ -9,6 +9,7 @@
 #include "data/median.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/noise_floor.h"
+#include "diagnosis/slug.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {
@@ -22,69 +23,7 @@ constexpr double kHeardWithoutOne = 2.5;  // the same without the loudest knock
 constexpr double kStandsOut = 1.5;        // over the greatest of them
 constexpr std::size_t kFewest = 4;        // ways from stop to stop
 constexpr int kOtherTimes = 60;
-
-/// What is not known of a load but tried.
-struct Slug {
-  double gap;      ///< m
-  double grip;     ///< dry friction over mass [m/s^2]
-  double rebound;  ///< speed after a knock over that before
-};
-
-struct Knock {
-  std::size_t log;
-  Index from, at;  ///< samples: begins to slide, arrives
-  double change;   ///< of its speed, along the axis [m/s]
-};
-
-/// A recording's field along the axis [m/s^2], and where it leaves the band of a friction.
-struct Field {
-  Eigen::VectorXd along;
-  std::vector<Index> leaves;
-
-  void leave(double grip) {
-    leaves.clear();
-    double side = 0.0;
-    for (Index i = 0; i < along.size(); ++i) {
-      const double now = std::abs(along(i)) <= grip ? 0.0 : along(i);
-      if (now != 0.0 && now * side <= 0.0) leaves.push_back(i);
-      side = now;
-    }
-  }
-};
-
-/// Appends the knocks of one way from stop to stop that begins at sample `from`, with its rebounds;
-/// false where the field turns back before the load arrives.
-bool slide(const Eigen::VectorXd& field, const Slug& slug, Index from, double dt, std::size_t log,
-           std::vector<Knock>& knocks) {
-  constexpr double kRest = 0.02;  // m/s
-  const double sense = std::copysign(1.0, field(from));
-  double way = 0.0, speed = 0.0;
-  bool arrived = false;
-  for (Index k = from; k < field.size(); ++k) {
-    speed += (sense * field(k) - std::copysign(slug.grip, speed)) * dt;
-    way += speed * dt;
-    if (way < 0.0 || (!arrived && speed < 0.0)) break;
-    if (way < slug.gap) continue;
-    arrived = true;
-    knocks.push_back({log, from, k, sense * (1.0 + slug.rebound) * speed});
-    speed *= -slug.rebound;
-    way = slug.gap;
-    if (speed > -kRest) break;
-  }
-  return arrived;
-}
-
-std::vector<Knock> knocks_of(const std::vector<Field>& fields, const Slug& slug, double dt) {
-  std::vector<Knock> knocks;
-  for (std::size_t k = 0; k < fields.size(); ++k) {
-    const Eigen::VectorXd& field = fields[k].along;
-    double side = field.size() > 0 ? field(0) : 0.0;
-    for (const Index i : fields[k].leaves) {
-      if (side * field(i) <= 0.0 && slide(field, slug, i, dt, k, knocks)) side = field(i);
-    }
-  }
-  return knocks;
-}
+constexpr double kMostLog = 700.0;  // of a ratio, before its exponential overflows
 
 /// What finds a force that lasts 2 wide + 1 samples, whatever else goes through the samples around
 /// it as a parabola does, such as a tremor that the model has not quite: the least-squares weights
@@ -160,20 +99,36 @@ class Ear {
   /// The knocks that are heard best.
   void listen() {
     for (const double grip : {0.0, 0.1, 0.2, 0.3, 0.4, 0.55, 0.75, 1.0}) {
-      for (Field& field : fields_) field.leave(grip);
+      for (AxisField& field : fields_) field.leave(grip);
       for (double gap = kFirstGap; gap < kLastGap; gap *= kNextGap) {
         for (const double rebound : {0.0, 0.3, 0.6}) take({gap, grip, rebound});
       }
     }
     if (heard.strength() <= 0.0) return;
-    std::vector<double> others;
-    for (int k = 0; k < kOtherTimes; ++k) {
-      const double seconds = (k % 2 ? 1.0 : -1.0) * (0.1 + 0.02 * k);
-      others.push_back(std::abs(evidence(knocks, std::llround(seconds / dt_)).strength()));
-    }
-    most_elsewhere = *std::max_element(others.begin(), others.end());
-    scale = std::max(1.0, kDeviationOfMedian * median(others));
+    compare_with_other_times();
     weigh();
+  }
+
+  /// ln of the mean likelihood ratio of what was tried elsewhere to no knocks.
+  double support(const std::vector<Knocks::Tried>& list) {
+    std::vector<Evidence> all;
+    double grip = -1.0;
+    for (const Knocks::Tried& tried : list) {
+      if (tried.slug.grip != grip) {
+        grip = tried.slug.grip;
+        for (AxisField& field : fields_) field.leave(grip);
+      }
+      all.push_back(take(tried.slug));
+    }
+    if (heard.square <= 0.0) return 0.0;  // nothing would have knocked
+    compare_with_other_times();
+    double sum = 0.0;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const double m = list[k].mass;
+      const double log_ratio = (m * all[k].sum - 0.5 * m * m * all[k].square) / (scale * scale);
+      sum += list[k].probability * elementary::exp(std::min(log_ratio, kMostLog));
+    }
+    return elementary::log(sum);
   }
 
   double significance() const { return heard.strength() / scale; }
@@ -196,6 +151,7 @@ class Ear {
 
   /// Slug [kg] and gap [m], means over all that was tried, by likelihood; and their deviations.
   Eigen::Vector2d mean, deviation;
+  std::vector<Knocks::Tried> likely;
 
  private:
   const Template& shape(Index wide) const { return shapes_.try_emplace(wide, wide).first->second; }
@@ -220,36 +176,51 @@ class Ear {
     return e;
   }
 
-  void take(const Slug& tried) {
-    const std::vector<Knock> list = knocks_of(fields_, tried, dt_);
+  Evidence take(const Slug& slug) {
+    const std::vector<Knock> list = knocks_of(fields_, slug, dt_);
     const Evidence e = evidence(list, 0);
-    tried_.push_back({tried.gap, e});
-    if (e.strength() > heard.strength()) heard = e, knocks = list;
+    tried_.push_back({slug, e});
+    if (e.square > 0.0 && (knocks.empty() || e.strength() > heard.strength())) {
+      heard = e, knocks = list;
+    }
+    return e;
+  }
+
+  void compare_with_other_times() {
+    std::vector<double> others;
+    for (int k = 0; k < kOtherTimes; ++k) {
+      const double seconds = (k % 2 ? 1.0 : -1.0) * (0.1 + 0.02 * k);
+      others.push_back(std::abs(evidence(knocks, std::llround(seconds / dt_)).strength()));
+    }
+    most_elsewhere = *std::max_element(others.begin(), others.end());
+    scale = std::max(1.0, kDeviationOfMedian * median(others));
   }
 
   void weigh() {
     double all = 0.0;
     Eigen::Vector2d sum = Eigen::Vector2d::Zero(), squares = Eigen::Vector2d::Zero();
-    for (const auto& [gap, e] : tried_) {
+    for (const auto& [slug, e] : tried_) {
       if (e.sum <= 0.0) continue;
       const double below = heard.strength() * heard.strength() - e.strength() * e.strength();
       const double weight = elementary::exp(-0.5 * below / (scale * scale));
-      const Eigen::Vector2d at(e.slug(), gap);
+      const Eigen::Vector2d at(e.slug(), slug.gap);
       const Eigen::Vector2d own(scale * scale / e.square,
-                                elementary::pow(0.5 * (kNextGap - 1.0) * gap, 2));
+                                elementary::pow(0.5 * (kNextGap - 1.0) * slug.gap, 2));
+      likely.push_back({slug, e.slug(), weight});
       all += weight;
       sum += weight * at;
       squares += weight * (at.cwiseAbs2() + own);
     }
     mean = sum / all;
     deviation = (squares / all - mean.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+    for (Knocks::Tried& tried : likely) tried.probability /= all;
   }
 
   double dt_, sigma_ = 1.0;
-  std::vector<Field> fields_;
+  std::vector<AxisField> fields_;
   std::vector<Channel> channels_;
   mutable std::map<Index, Template> shapes_;
-  std::vector<std::pair<double, Evidence>> tried_;
+  std::vector<std::pair<Slug, Evidence>> tried_;
 };
 
 }  // namespace
@@ -276,11 +247,22 @@ Knocks find_knocks(const Case& study, const Signals& left) {
   found.member->amplitudes(0) = best->mean(0);
   found.member->fixed = true;
   found.member->fixed_deviation = best->deviation;
+  found.component = static_cast<int>(name);
+  found.tried = std::move(best->likely);
   for (const Knock& knock : best->knocks) {
     const Eigen::VectorXd& t = study.logs[knock.log].motion.t;
     found.spans.push_back({knock.log, t(knock.from), t(knock.at) + 0.12});
   }
   return found;
+}
+
+double knocks_support(const Case& recordings, const Signals& left, const Knocks& knocks) {
+  const auto& channels = recordings.channels;
+  const auto channel = std::find(channels.begin(), channels.end(), knocks.component);
+  if (channel == channels.end()) return 0.0;
+  Ear ear(recordings, left, noise_level(recordings, left),
+          static_cast<std::size_t>(channel - channels.begin()));
+  return ear.support(knocks.tried);
 }
 
 }  // namespace dcnn

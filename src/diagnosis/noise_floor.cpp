@@ -2,18 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "core/elementary.h"
 #include "data/median.h"
-#include "diagnosis/noise_shapes.h"
+#include "diagnosis/floor_fit.h"
 
 namespace dcnn {
 namespace {
 
-constexpr double kColourGain = 12.0;  // of the log-likelihood, before noise is called coloured
-constexpr double kUpperPart = 1.4;    // of the lowest frequency of the quiet band: its upper part
-constexpr double kColourAbove = 3.0;  // of the log-likelihood there
 constexpr double kLeastOfDifferences = 1e-6;
 constexpr Index kFewestBins = 12;  // below this the quiet band says nothing
 
@@ -29,10 +25,6 @@ double variance_of_differences(const Signals& signals, Index channel) {
   return count > 0.0 ? sum / count : 0.0;
 }
 
-struct Whittle {
-  double level = 0.0, likelihood = 0.0;
-};
-
 /// Lines replaced by the level beside them.
 Eigen::VectorXd without_lines(const Eigen::VectorXd& density, double windows) {
   constexpr Index kBeside = 10;  // bins
@@ -47,82 +39,6 @@ Eigen::VectorXd without_lines(const Eigen::VectorXd& density, double windows) {
     smooth(i) = density(i) < most * level ? density(i) : level;
   }
   return smooth;
-}
-
-/// The level of noise of this shape, and its log-likelihood up to a constant.
-Whittle fit_level(const Eigen::VectorXd& density, const Eigen::VectorXd& shape, double windows) {
-  Whittle fit;
-  fit.level = density.cwiseQuotient(shape).mean();
-  const auto n = static_cast<double>(density.size());
-  fit.likelihood =
-      -windows * (shape.array().unaryExpr([](double d) { return elementary::log(d); }).sum() +
-                  n * (elementary::log(fit.level) + 1.0));
-  return fit;
-}
-
-/// `is_refuted` says what the bins below refute.
-Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, double dt,
-                double windows, bool flat, const std::function<bool(const Floor&)>& is_refuted) {
-  Floor best;
-  const Whittle white = fit_level(density, Eigen::VectorXd::Ones(density.size()), windows);
-  best.white = white.level;
-  if (flat) return best;
-  double most = white.likelihood + kColourGain;
-  // Colour must show in the upper part of the band too: motion may leak into its lowest bins.
-  Index upper = 0;
-  while (upper < hz.size() && hz(upper) < kUpperPart * hz(0)) ++upper;
-  if (upper == hz.size()) return best;
-  const auto above = [&](const Eigen::VectorXd& v) {
-    return Eigen::VectorXd(v.tail(v.size() - upper));
-  };
-  const Eigen::VectorXd density_above = above(density);
-  const double white_above =
-      fit_level(density_above, Eigen::VectorXd::Ones(density_above.size()), windows).likelihood;
-  /// Takes noise of this shape if it is likelier, and no more than what is left below the motion's
-  /// edge too; `floor_of` makes it of its level.
-  const auto consider = [&](const Eigen::VectorXd& shape, const auto& floor_of) {
-    const Whittle fit = fit_level(density, shape, windows);
-    if (fit.likelihood <= most) return;
-    const Whittle upper_fit = fit_level(density_above, above(shape), windows);
-    if (upper_fit.likelihood <= white_above + kColourAbove) return;
-    Floor floor = floor_of(fit.level);
-    floor.dt = dt;
-    if (is_refuted(floor)) return;
-    most = fit.likelihood;
-    best = std::move(floor);
-  };
-  for (const double rho : {0.3, 0.4,   0.5,  0.57, 0.64, 0.7,  0.75, 0.8,   0.83,  0.86, 0.88,
-                           0.9, 0.915, 0.93, 0.94, 0.95, 0.96, 0.97, 0.978, 0.985, 0.99, 0.995}) {
-    for (const double share : {0.0, 0.01, 0.03, 0.1, 0.2, 0.35, 0.5, 0.7, 0.85}) {
-      const Eigen::VectorXd shape =
-          hz.unaryExpr([&](double f) { return share + (1.0 - share) * ar_shape(rho, f, dt); });
-      consider(shape, [&](double level) {
-        return Floor{.white = share * level, .coloured = (1.0 - share) * level, .rho = rho};
-      });
-    }
-  }
-  const double top = 0.5 / dt;
-  for (const double share : {0.0, 0.03, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8}) {
-    const Eigen::VectorXd shape =
-        hz.unaryExpr([&](double f) { return share + (1.0 - share) * top / f; });
-    consider(shape, [&](double level) {
-      return Floor{.white = share * level, .flicker = (1.0 - share) * level * top};
-    });
-  }
-  // A filter is the last that is asked for, likelier than the others by as much again; an octave of
-  // its plateau must be seen, for any colour falls somewhere.
-  most += kColourGain;
-  for (double cutoff = 2.0 * hz(0); cutoff < 0.8 * top; cutoff *= 1.15) {
-    for (const double share : {0.0, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3}) {
-      const Eigen::VectorXd shape =
-          hz.unaryExpr([&](double f) { return share + (1.0 - share) * filter_shape(cutoff, f); });
-      consider(shape, [&](double level) {
-        return Floor{
-            .white = share * level, .filtered = (1.0 - share) * level, .filter_hz = cutoff};
-      });
-    }
-  }
-  return best;
 }
 
 std::vector<Index> bins_between(const Periodograms& p, double from, double to) {
@@ -161,18 +77,21 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const
   const Signals even = evened(study, residual, levels);
   const double dt = study.dt(), from = quiet_band(study), to = 0.49 / dt;
   std::vector<Floor> floors;
+  std::vector<QuietBand> bands;
   for (Index channel = 0; channel < study.channel_count(); ++channel) {
     const Periodograms p = periodograms(study, even, channel);
     const Eigen::VectorXd density = density_of(p, study.rounding_step > 0.0);
+    QuietBand& band = bands.emplace_back();
     const auto slow = slow_bins(study, even, channel);
     const std::vector<Index> quiet = bins_between(p, from, to);
     Floor floor;
     if (static_cast<Index>(quiet.size()) >= kFewestBins && p.power.cols() > 0) {
       const auto windows = static_cast<double>(p.power.cols());
-      const Eigen::VectorXd all = density(quiet), smooth = without_lines(all, windows);
-      floor = fit_floor(smooth, p.hz(quiet), dt, windows, study.without.coloured_floor,
+      const Eigen::VectorXd all = density(quiet);
+      band = {without_lines(all, windows), p.hz(quiet), windows};
+      floor = fit_floor(band.density, band.hz, dt, windows, study.without.coloured_floor,
                         [&](const Floor& shape) { return exceeds(shape, p, density, slow); });
-      floor.lines = (all - smooth).sum() / static_cast<double>(density.size());
+      floor.lines = (all - band.density).sum() / static_cast<double>(density.size());
       floor.source = "spectrum of the residual above " +
                      std::to_string(static_cast<int>(std::lround(from))) + " Hz";
     }
@@ -181,11 +100,14 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const
     if (floor.white + floor.coloured + floor.filtered + floor.flicker <
         kLeastOfDifferences * differences) {
       floor = Floor{.white = differences, .source = "second differences of the residual"};
+      band = {};
     }
-    floor.lowpass_hz = study.lowpass_hz;
     floor.dt = dt;
     floors.push_back(floor);
   }
+  const bool shared = share_colours(bands, floors);
+  for (Floor& floor : floors) floor.lowpass_hz = study.lowpass_hz;
+  if (shared) bound_by_residual(study, residual, levels, floors);
   return floors;
 }
 

@@ -10,10 +10,11 @@ namespace {
 
 constexpr double kShortestRest = 0.5;  // s
 constexpr double kAveragedSeconds =
-    0.2;                               // s, over which noise of the rate hardly moves the position
-constexpr double kGoldenRatio = 1.618033988749895;  // periods that divide one span divide no part of it
-constexpr double kShareAtRest = 0.01;  // of the 95th percentile of speed
-constexpr double kFastShare = 0.95;    // its place in the distribution
+    0.2;  // s, over which noise of the rate hardly moves the position
+constexpr double kGoldenRatio =
+    1.618033988749895;                     // periods that divide one span divide no part of it
+constexpr double kShareAtRest = 0.01;      // of the 95th percentile of speed
+constexpr double kFastShare = 0.95;        // its place in the distribution
 constexpr double kLeastMovingShare = 0.1;  // of the time
 
 }  // namespace
@@ -29,7 +30,8 @@ std::vector<Span> rests(const Case& study) {
       return moving_mean(log.motion.v_B.col(0), log.motion.segments, half).cwiseAbs().col(0);
     };
     // The mean of an oscillation over whole periods is zero too.
-    speeds.push_back(mean_over(kAveragedSeconds).cwiseMax(mean_over(kAveragedSeconds / kGoldenRatio)));
+    speeds.push_back(
+        mean_over(kAveragedSeconds).cwiseMax(mean_over(kAveragedSeconds / kGoldenRatio)));
     all.insert(all.end(), speeds.back().begin(), speeds.back().end());
   }
   if (all.empty()) return {};

@@ -210,14 +210,22 @@ void Search::run() {
   if (hear_knocks()) {
     settle(to_begin_with());
     explore();
-    if (!still_knocks()) {
-      settle(fit_.members);
-      while (simplify()) {
-      }
-      explore();
-    }
+    if (!still_knocks()) search_without_knocks();
   }
   let_ring();
+  conclude();
+}
+
+void Search::search_without_knocks() {
+  settle(fit_.members);
+  while (simplify()) {
+  }
+  explore();
+}
+
+void Search::leave_knocks() {
+  knocks_ = {};
+  search_without_knocks();
   conclude();
 }
 

@@ -9,6 +9,7 @@
 
 #include "diagnosis/evidence/posterior.h"
 #include "diagnosis/judgement.h"
+#include "diagnosis/knocks.h"
 #include "diagnosis/scan.h"
 #include "diagnosis/slow_part.h"
 #include "diagnosis/span.h"
@@ -49,8 +50,8 @@ class Search {
   double passes() const;
   /// Whether all exchanges were tried, among names alone and beside laws.
   bool is_complete() const { return !ended_early_ && !is_spent() && !laws_are_spent(); }
-  /// Whether the search for laws without a name has taken all that it may take: what is left then is
-  /// not looked at again.
+  /// Whether the search for laws without a name has taken all that it may take: what is left then
+  /// is not looked at again.
   bool laws_are_spent() const;
 
   const Case& study() const { return study_; }
@@ -62,7 +63,8 @@ class Search {
   /// Whether something acts that no name explains; a law without a name is such.
   bool remains() const { return remains_ || names().size() < fit_.members.size(); }
   const std::optional<Member>& rounding() const { return rounding_; }
-  const std::optional<Member>& knocking() const { return knocking_; }
+  const std::optional<Member>& knocking() const { return knocks_.member; }
+  const Knocks& knocks() const { return knocks_; }
   /// Stretches that decide nothing, for far more is left there than elsewhere.
   const std::vector<Span>& outlying_spans() const { return outlying_; }
   const std::vector<BandTest>& bands() const { return bands_; }
@@ -75,6 +77,8 @@ class Search {
   void leave_out(const std::vector<std::size_t>& members);
   /// Takes back the hum that was heard above the motion's band, and judges what is left.
   void leave_hum();
+  /// Takes back the knocks, and searches in what they had masked.
+  void leave_knocks();
   /// Searches beside what is left for other names than those that were left out: whether there are
   /// other members than before.
   bool look_again();
@@ -167,6 +171,7 @@ class Search {
   bool hums_no_more();
   bool hear_knocks();
   bool still_knocks();
+  void search_without_knocks();
   void drop_coincidences();
   void drop_unconfirmed();
   void let_ring();
@@ -222,10 +227,11 @@ class Search {
   mutable std::vector<Place> places_;  // one a member, of fit_
   Signals left_;
   std::vector<Span> held_out_;  // and the rests() of a machine
-  std::vector<Span> masked_, knock_spans_, outlying_;
-  std::vector<Member> apart_;                  // members found by tests of their own
-  std::optional<Member> rounding_, knocking_;  // named, but no part of what is fitted
-  std::vector<Member> refuted_;                // by data on which they were not fitted
+  std::vector<Span> masked_, outlying_;
+  std::vector<Member> apart_;       // members found by tests of their own
+  std::optional<Member> rounding_;  // named, but no part of what is fitted
+  Knocks knocks_;                   // nor are these
+  std::vector<Member> refuted_;     // by data on which they were not fitted
   std::vector<BandTest> bands_;
   evidence::Posterior posterior_;
   std::optional<std::vector<Floor>> noise_;  // admitted in place of the floor from above the motion

@@ -89,19 +89,16 @@ void Search::leave_hum() {
 
 bool Search::hear_knocks() {
   if (study_.is_static() || !is_listed(study_, *find_effect("loose_load"))) return false;
-  const Knocks knocks = find_knocks(study_, left_);
-  if (!knocks.member) return false;
-  knocking_ = knocks.member;
-  knock_spans_ = knocks.spans;
-  return true;
+  knocks_ = find_knocks(study_, left_);
+  return knocks_.member.has_value();
 }
 
 /// Whether the residual of all that was found since still shows the load's impacts.
 bool Search::still_knocks() {
-  const Knocks knocks = find_knocks(study_, left_);
-  knocking_ = knocks.member;
-  if (!knocks.member) knock_spans_.clear();
-  return knocks.member.has_value();
+  Knocks knocks = find_knocks(study_, left_);
+  if (knocks.member) knocks.spans = knocks_.spans;  // beside which all was fitted
+  knocks_ = std::move(knocks);
+  return knocks_.member.has_value();
 }
 
 /// Takes back, the most doubtful first, what signs drawn at random for each second explain as
