@@ -155,6 +155,7 @@ int main(int argc, char** argv) {
 
   return tool.run(argc, argv, [&] {
     request.read = read.options();
+    request.read.part_of_wrench = true;
     if (!urdf.empty()) {
       request.arm = to_json(read_urdf_chain(urdf, tip, names_of_axes(*request.system)));
     }

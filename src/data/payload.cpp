@@ -13,10 +13,9 @@ void add_weight(const Payload& payload, Recording& recording) {
     force.row(i) = -payload.mass * kGravity * R_BS.row(2);
   }
   const auto add = [&](const std::vector<std::string>& names, const Eigen::MatrixXd& more) {
-    if (!recording.has_all(names)) return;
     for (Index k = 0; k < 3; ++k) {
       const std::string& name = names[static_cast<std::size_t>(k)];
-      recording.set(name, recording.column(name) + more.col(k));
+      if (recording.has(name)) recording.set(name, recording.column(name) + more.col(k));
     }
   };
   add({"fx", "fy", "fz"}, force);

@@ -52,15 +52,18 @@ void require_column(const Recording& recording, const std::string& name, const s
           "' of axis '", axis, "' is missing; add it or correct the system description");
 }
 
-void check_wrist_columns(const Recording& recording, bool motion_only, const std::string& file) {
+void check_wrist_columns(const Recording& recording, const ReadOptions& options,
+                         const std::string& file) {
   const bool quaternion = has_whole(recording, {"qw", "qx", "qy", "qz"}, file);
   const bool euler = has_whole(recording, {"alpha", "beta", "gamma"}, file);
   require(
       quaternion || euler, Exit::kData, file,
       ":1: no orientation; log qw,qx,qy,qz or alpha,beta,gamma, or name the columns with --system");
-  const bool force = has_whole(recording, kForce, file);
-  const bool torque = has_whole(recording, kTorque, file);
-  require(force || torque || motion_only, Exit::kData, file,
+  const bool force =
+      options.part_of_wrench ? has_any(recording, kForce) : has_whole(recording, kForce, file);
+  const bool torque =
+      options.part_of_wrench ? has_any(recording, kTorque) : has_whole(recording, kTorque, file);
+  require(force || torque || options.motion_only, Exit::kData, file,
           ":1: no measured force; log fx,fy,fz or tx,ty,tz");
   for (const Names& optional :
        {Names{"x", "y", "z"}, Names{"vx", "vy", "vz"}, Names{"wx", "wy", "wz"},
@@ -211,7 +214,7 @@ Recording make_recording(SourceTable source, const std::filesystem::path& path,
           ":1: column 't' is missing; log the time in seconds: a list of poses at rest, which has "
           "none, is not enough here",
           wrist ? "" : "; dcnn-identify takes one of an arm");
-  if (wrist) check_wrist_columns(recording, options.motion_only, file);
+  if (wrist) check_wrist_columns(recording, options, file);
   if (!wrist) check_axis_columns(recording, system, options.motion_only, file);
   set_clock(recording, file, wrist && options.static_list);
   convert_units(recording, options);

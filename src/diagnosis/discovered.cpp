@@ -55,6 +55,16 @@ void leave_needless_names(Search& search, Laws& laws) {
   }
 }
 
+/// All members but the law that stands there among those without a name.
+std::vector<Member> without_law(std::vector<Member> members, std::size_t place) {
+  for (auto m = members.begin(); m != members.end(); ++m) {
+    if (m->law.is_null() || place-- > 0) continue;
+    members.erase(m);
+    break;
+  }
+  return members;
+}
+
 /// A law may be an effect that has a name, which what is unknown hid: whether a name in its place
 /// explains as much, but for what any law must gain to be accepted in the place of names. It then
 /// stands, and laws are looked for beside it.
@@ -67,7 +77,8 @@ bool name_in_place_of_one(Search& search, Laws& laws) {
     search.put_beside(others.members);
     const auto trials = search.additions(/*events=*/false);
     if (!trials.empty()) {
-      std::vector<Member> named = search.fit().members;
+      // Without the law the others have moved far off, to explain a part of what it did.
+      std::vector<Member> named = without_law(before, k);
       named.push_back(trials.front().member);
       search.settle(named);
       const double lost = search.fit().chi2 - joint_fit(search.setting(), before).chi2,
@@ -75,7 +86,10 @@ bool name_in_place_of_one(Search& search, Laws& laws) {
                            (numbers_of(laws, before) - numbers_of(others, named));
       if (lost < saved + least_gain_of_law(search.setting())) {
         const Setting& setting = search.setting();
-        Laws again = borne_out(setting, joint_fit(setting, search.names()));
+        Laws again;
+        if (!search.laws_are_spent()) {
+          again = borne_out(setting, joint_fit(setting, search.names()));
+        }
         if (!again.found.empty()) {
           search.put_beside(again.members);
           others = std::move(again);
@@ -199,9 +213,7 @@ std::vector<Discovered> add_discovered(Search& search, const HoldOut& holdout) {
   leave_needless_names(search, laws);
   name_beside(search, laws);
   constexpr int kMostRounds = 5;  // a limit of computation: each round searches all places again
-  for (int round = 0; round < kMostRounds && !search.laws_are_spent(); ++round) {
-    if (!name_in_place_of_one(search, laws)) break;
-  }
+  for (int round = 0; round < kMostRounds && name_in_place_of_one(search, laws);) ++round;
   search.leave_untold_parts();
   // Names may have given way to laws, and other names come beside them.
   const Signals by_laws = holdout.prediction(search.fit().members, search.fit().base),

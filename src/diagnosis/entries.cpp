@@ -14,9 +14,6 @@ constexpr double kHeldDeviations =
     1.96 * 1.2;                  // 95 %, wider by what selection costs (intervals.cpp)
 constexpr double kBetter = 0.2;  // of a price: as an exchange must gain
 
-/// The simulator's own numbers, which come before faults of the sensor that change the same forces.
-constexpr const char* kOwnNumbers[] = {"mass", "com", "gravity_tilt", "bias"};
-
 /// A fault of the sensor with several numbers: it can imitate a mass, a centre or a tilt.
 bool is_sensor_fault(const Member& member) {
   return member.kind->stage == Stage::kSensor && has_entries(member);
@@ -165,19 +162,14 @@ void Search::hold_untold() {
   bool changed = priced(fitted, price) < priced(fit_, price);
   if (!changed) fitted = fit_;
   const bool faulty = std::any_of(fitted.members.begin(), fitted.members.end(), is_sensor_fault);
-  for (const char* name : kOwnNumbers) {
-    const EffectKind& kind = *find_effect(name);
-    const bool there = std::any_of(fit_.members.begin(), fit_.members.end(),
-                                   [&](const Member& m) { return m.kind == &kind; });
-    const bool refuted = std::any_of(refuted_.begin(), refuted_.end(),
-                                     [&](const Member& m) { return m.kind == &kind; });
-    if (!faulty || there || refuted || !is_listed(study_, kind) || !is_testable(study_, kind)) {
-      continue;
-    }
+  for (const Member& own : own_parameters(study_)) {
+    const auto is_own = [&](const Member& m) { return m.kind == own.kind; };
+    const bool there = std::any_of(fit_.members.begin(), fit_.members.end(), is_own);
+    const bool refuted = std::any_of(refuted_.begin(), refuted_.end(), is_own);
+    if (!faulty || there || refuted || !is_listed(study_, *own.kind)) continue;
     std::vector<Member> members = fit_.members;
     for (Member& m : members) m.held.clear();
-    members.push_back(make_member(study_, kind, kind.fits[0], "", Eigen::VectorXd(0)));
-    members.back().amplitudes.setZero();
+    members.push_back(own);
     const JointFit beside = joint_fit(*setting_, members);
     const JointFit other = joint_fit(*setting_, Holding(beside, price).sparsest().members);
     if (priced(other, price) >= priced(fitted, price) - kBetter * price) continue;

@@ -82,6 +82,22 @@ Log make_log(Recording recording, const Case& study, bool columns) {
   return log;
 }
 
+/// Of a model that needs an acceleration, where recordings with a clock tell none.
+void leave_out_inertial_force(const std::vector<Recording*>& recordings, ToolModel& model) {
+  const auto tells = [](const Recording* r) {
+    return r->dt == 0.0 || r->has_all({"x", "y", "z"}) || r->has_all({"ax", "ay", "az"});
+  };
+  if (model.inertial == ToolModel::Inertial::kNone ||
+      std::all_of(recordings.begin(), recordings.end(), tells)) {
+    return;
+  }
+  model.inertial = ToolModel::Inertial::kNone;
+  for (Recording* recording : recordings) {
+    recording->notes.push_back(
+        "the recordings have no x,y,z or ax,ay,az: the tool's inertial force is left out");
+  }
+}
+
 /// The columns of a wrist recording that laws may follow.
 std::vector<std::string> wrist_signals(const DiagnosisRequest& request,
                                        const std::vector<Recording>& recordings) {
@@ -174,9 +190,11 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   for (auto* list : {&fit, &holdout}) {
     for (Recording& recording : *list) both.push_back(&recording);
   }
-  const std::vector<std::string> targets = find_targets(*both.front(), System()).names;
+  std::vector<std::string> targets(kChannels.begin(), kChannels.end());
+  std::erase_if(targets, [&](const std::string& name) { return !both.front()->has(name); });
   keep_new_rows(both, targets);
   for (Recording* recording : both) mend_spikes(*recording, targets);
+  leave_out_inertial_force(both, study.simulator.model);
   std::vector<Recording> all = fit;
   all.insert(all.end(), holdout.begin(), holdout.end());
   check_rates(all);

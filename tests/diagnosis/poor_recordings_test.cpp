@@ -75,6 +75,46 @@ TEST(PoorRecordings, AForceThatIsHeldIsReadWhereItIsNew) {
   EXPECT_EQ(report["notes"].size(), 2u) << report["notes"].dump(1);
 }
 
+/// What a sensor of fewer than three forces, or a log without a position, tells.
+Json report_without(const std::vector<std::string>& columns, const Json& world) {
+  const test::Bench bench(world);
+  for (const char* name : {"fit.csv", "hold.csv"}) {
+    const Table whole = read_recording(bench / name, ReadOptions(), System()).table;
+    Table part;
+    std::vector<Index> kept;
+    for (std::size_t k = 0; k < whole.columns.size(); ++k) {
+      if (std::count(columns.begin(), columns.end(), whole.columns[k]) > 0) continue;
+      part.columns.push_back(whole.columns[k]);
+      kept.push_back(static_cast<Index>(k));
+    }
+    part.values = whole.values(Eigen::all, kept);
+    write_csv(bench / name, part);
+  }
+  DiagnosisRequest request = bench.request();
+  request.read.part_of_wrench = true;
+  return diagnose(request, nullptr).report;
+}
+
+TEST(PoorRecordings, ASensorOfOneAxisIsRead) {
+  const Json world = test::configuration(Json::array(
+      {test::hidden("cable_spring", "alpha:sensor_z", {{"k_nprad", 0.8}, {"rest_rad", 0.2}})}));
+  const Json report = report_without({"fx", "fy", "tx", "ty", "tz"}, world);
+  EXPECT_EQ(report["targets"], Json::array({"fz"}));
+  EXPECT_EQ(test::found(report), std::set<std::string>{"cable_spring"})
+      << report["findings"].dump(1);
+}
+
+TEST(PoorRecordings, WithoutAPositionHaveNoInertialForce) {
+  Json world =
+      test::configuration(Json::array({test::hidden("mass", nullptr, {{"delta_mass_kg", 0.1}})}));
+  for (Json& each : world["recordings"]) each["trajectory"]["position_m"] = {0.0, 0.0, 0.0};
+  world["simulator"]["tool"]["com_m"] = {0.0, 0.0, 0.0};
+  const Json report = report_without({"x", "y", "z"}, world);
+  EXPECT_EQ(test::found(report), std::set<std::string>{"mass"}) << report["findings"].dump(1);
+  EXPECT_NE(report["notes"].dump().find("the tool's inertial force is left out"),
+            std::string::npos);
+}
+
 /// Derivatives take 0.1 s of rows: what is shorter between two gaps is left out.
 TEST(PoorRecordings, AFewRowsBetweenTwoGapsStopNothing) {
   const test::Bench bench(test::configuration(Json::array()));
@@ -83,8 +123,8 @@ TEST(PoorRecordings, AFewRowsBetweenTwoGapsStopNothing) {
     std::vector<Index> kept;
     for (Index i = 0; i < all; ++i) {
       const Index from_middle = i - all / 2;
-      const bool lost = (from_middle >= -10 && from_middle < 0) ||
-                        (from_middle >= 15 && from_middle < 25);
+      const bool lost =
+          (from_middle >= -10 && from_middle < 0) || (from_middle >= 15 && from_middle < 25);
       if (!lost) kept.push_back(i);
     }
     log.table.values = Eigen::MatrixXd(log.table.values(kept, Eigen::all));

@@ -33,14 +33,15 @@ struct Payload {
 
 /// How a file is turned into SI units on a regular clock.
 struct ReadOptions {
-  double position_unit = 1.0;  ///< metres per unit in the file (0.001: millimetres)
-  double angle_unit = 1.0;     ///< radians per unit in the file (pi/180: degrees)
-  double force_sign = 1.0;     ///< -1 where the log holds the reaction
-  Payload payload;             ///< whose weight is added back
-  bool resample = false;       ///< put an irregular clock on a regular one
-  double resample_hz = 0.0;    ///< 0: the recording's own median rate
-  bool static_list = false;    ///< accept a list of poses without time
-  bool motion_only = false;    ///< nothing measured is needed: the log is to be predicted
+  double position_unit = 1.0;   ///< metres per unit in the file (0.001: millimetres)
+  double angle_unit = 1.0;      ///< radians per unit in the file (pi/180: degrees)
+  double force_sign = 1.0;      ///< -1 where the log holds the reaction
+  Payload payload;              ///< whose weight is added back
+  bool resample = false;        ///< put an irregular clock on a regular one
+  double resample_hz = 0.0;     ///< 0: the recording's own median rate
+  bool static_list = false;     ///< accept a list of poses without time
+  bool motion_only = false;     ///< nothing measured is needed: the log is to be predicted
+  bool part_of_wrench = false;  ///< a sensor of fewer than three forces, or torques, is read
 };
 
 struct Recording {

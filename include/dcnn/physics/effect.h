@@ -119,6 +119,8 @@ struct EffectFit {
   enum class Use { kEverywhere, kTools, kMachines, kDriven };
   /// What the diagnosis tries this form on; kDriven: where a logged signal drives the law, alone.
   Use use = Use::kEverywhere;
+  /// Several numbers of the effect are one: as of a special law (prior::kSpecial).
+  bool special = false;
 };
 
 /// What an effect must know of time: nothing, when a row was taken, or the motion between rows.

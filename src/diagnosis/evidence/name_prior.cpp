@@ -73,6 +73,7 @@ double log_prior(const Setting& setting, const JointFit& fit, std::size_t m) {
     if (!member.is_held(i)) open.push_back(i);
   }
   sum += log_calibration(setting, member);
+  if (member.form->special) sum += elementary::log(prior::kSpecial);
   const auto d = static_cast<Index>(open.size());
   // Which of the entries act: any number of them alike, and any choice of so many.
   if (!member.held.empty()) sum -= log_choices(measured, d);

@@ -47,7 +47,8 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"gain_x", a(0)}, {"gain_y", a(0)}, {"gain_z", a(0)}};
                   },
-              .use = EffectFit::Use::kTools}},
+              .use = EffectFit::Use::kTools,
+              .special = true}},
 };
 
 }  // namespace dcnn::effects::gain
