@@ -43,7 +43,7 @@ int Member::parameters() const {
   const auto form_shapes = static_cast<Index>(form->shapes.size());
   const auto fitted = (amplitudes.array() != 0.0).count() +
                       (shapes.tail(shapes.size() - form_shapes).array() != 0.0).count();
-  return static_cast<int>(fitted + form_shapes) + ends + (kind->special || form->special ? 1 : 0) + (driver ? 1 : 0);
+  return static_cast<int>(fitted + form_shapes) + ends + (kind->special ? 1 : 0) + (driver ? 1 : 0);
 }
 
 double unit_of(const Case& study, const ShapeParameter& shape) {

@@ -1,6 +1,7 @@
 // Which effects the signals of a log can show.
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "diagnosis/candidates.h"
 #include "physics/effect_law.h"
@@ -11,6 +12,13 @@ namespace {
 bool has_acceleration(const Case& study) {
   return std::all_of(study.logs.begin(), study.logs.end(),
                      [](const Log& log) { return log.motion.a_B.rows() == log.motion.samples(); });
+}
+
+/// Whether an axis' reading is a position or a rate, as a second encoder's or a gyroscope's.
+bool reads_a_motion(const Case& study) {
+  static const std::set<std::string> kUnits{"rad",   "deg",   "m",   "mm",   "rev", "rad/s",
+                                            "deg/s", "rev/s", "rpm", "mm/s", "m/s"};
+  return study.axis && kUnits.count(study.axis->axis().unit) > 0;
 }
 
 }  // namespace
@@ -52,6 +60,9 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
   }
   if (name == "time_delay" && study.axis && study.axis->system.axes.size() > 1) {
     return because("the axes share one clock: none of them alone is late");
+  }
+  if ((name == "viscous_friction" || name == "inertia") && reads_a_motion(study)) {
+    return because("what is read is a motion, of which a delay looks like it");
   }
   if (name == "inertial_terms" && study.simulator.model.inertial == ToolModel::Inertial::kFull) {
     return because("the simulator has all inertial terms");

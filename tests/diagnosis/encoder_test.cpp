@@ -244,5 +244,31 @@ TEST(DiagnoseEncoder, AScaleOfInertiaMayBeMoreInertia) {
   EXPECT_EQ(either, (std::set<std::string>{"gain", "inertia"})) << report["findings"].dump(1);
 }
 
+// The same joint on a second encoder, 8 ms later, beside noise; or its rate on a gyroscope.
+TEST(DiagnoseEncoder, ASecondReadingOfTheMotionIsLateAndHasNoFriction) {
+  const Recorded log{swinging(0.12), 15.0, 1e-4};
+  const Encoder bench(log, log, [](const JointMotion&) { return 0.0; });
+  for (const bool rate : {false, true}) {
+    for (const char* name : {"fit.csv", "hold.csv"}) {
+      Rng rng({7u});
+      Table table;
+      table.columns = {"t", "pos", "first", "second"};
+      table.values.resize(std::llround(log.seconds / kRow), 4);
+      for (Index k = 0; k < table.values.rows(); ++k) {
+        const double t = static_cast<double>(k) * kRow;
+        const JointMotion now = log.path(t), before = log.path(t - 0.008);
+        table.values.row(k) << t, now.q, rate ? now.v : now.q,
+            (rate ? before.v : before.q) + 1e-3 * rng.normal();
+      }
+      write_csv(bench / name, table);
+    }
+    const Json report = bench.report(
+        Json{{"measured", "second"}, {"unit", rate ? "rad/s" : "rad"}, {"simulated", "first"}});
+    EXPECT_EQ(names_in(report), std::vector<std::string>{"time_delay"})
+        << report["findings"].dump(1);
+    EXPECT_EQ(report["verdict"], "explained");
+  }
+}
+
 }  // namespace
 }  // namespace dcnn

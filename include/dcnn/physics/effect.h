@@ -119,7 +119,7 @@ struct EffectFit {
   enum class Use { kEverywhere, kTools, kMachines, kDriven };
   /// What the diagnosis tries this form on; kDriven: where a logged signal drives the law, alone.
   Use use = Use::kEverywhere;
-  /// Several numbers of the effect are one: as of a special law (prior::kSpecial).
+  /// One number in the place of several of the effect (prior::kSpecial).
   bool special = false;
 };
 

@@ -4,8 +4,8 @@
 namespace dcnn::evidence::prior {
 
 constexpr double kName = 0.04;  ///< probability of each listed effect, shared by its axes
-/// Of a law that bends a commoner one, or one number in the place of several, as a share of the
-/// latter's; in a search it costs one number more.
+/// Of a law that bends a commoner one, as a share of the latter's; in a search it costs one number
+/// more. Also of one number in the place of several.
 constexpr double kSpecial = 0.1;
 constexpr double kUsualDelay = 0.1;  ///< mean of a delay's size [s]; exponential
 /// On a machine, of a law that nearly every one has (dry and viscous friction): even odds, for what
