@@ -143,6 +143,23 @@ void take_back_names(Search& search, const HoldOut& holdout, const std::vector<M
   if (holdout.log_support(with, without, search.floors()) > 0.0) search.hold(names);
 }
 
+/// Looks for other names than those that were refuted, where something remains: each round leaves
+/// out a name for good. Names that the held-out data bear out may have gone for ones that they
+/// refute, and stand again where they predict these better.
+void look_beyond_refuted(Search& search, const HoldOut& holdout, Json& refuted) {
+  for (Json more = refuted; !more.empty() && search.remains();) {
+    const std::vector<Member> before = search.fit().members;
+    const Signals by_them = holdout.prediction(before, search.fit().base);
+    if (!search.look_again()) return;
+    more = leave_refuted(search, holdout);
+    for (const Json& name : more) refuted.push_back(name);
+    const Signals now = holdout.prediction(search.fit().members, search.fit().base);
+    if (holdout.log_support(now, by_them, search.floors()) >= 0.0) continue;
+    search.adopt(before);
+    return;
+  }
+}
+
 }  // namespace
 
 CaseDiagnosis diagnose_case(LoadedCase loaded,
@@ -158,11 +175,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   const std::optional<double> noisy_hum = take_hum_for_noise(search, holdout);
   Json refuted_names = leave_refuted_knocks(search, holdout);
   for (const Json& name : leave_refuted(search, holdout)) refuted_names.push_back(name);
-  // Each round leaves out a name for good.
-  for (Json more = refuted_names; !more.empty() && search.remains() && search.look_again();) {
-    more = leave_refuted(search, holdout);
-    for (const Json& name : more) refuted_names.push_back(name);
-  }
+  look_beyond_refuted(search, holdout, refuted_names);
   for (const Json& name : take_own_numbers(search, holdout)) refuted_names.push_back(name);
   const std::vector<BandTest> bands = search.bands();
   const double unnamed = search.posterior().unknown + search.posterior().named_and_unknown;
