@@ -75,7 +75,7 @@ void keep_apart(std::vector<Member>& list, const std::vector<Member>& members) {
 
 }  // namespace
 
-bool Search::is_taken_back(const Member& candidate) const {
+bool Search::was_refuted(const Member& candidate) const {
   const double seconds = longest_seconds(study_);
   return std::any_of(refuted_.begin(), refuted_.end(),
                      [&](const Member& m) { return same_place(m, candidate, seconds); });
@@ -111,7 +111,7 @@ std::vector<Trial> Search::additions(const JointFit& fit, bool events,
       const Member& member = list[static_cast<std::size_t>(k)];
       const auto is_at = [&](const Member& m) { return same_place(m, member, seconds); };
       const bool taken =
-          is_taken_back(member) ||
+          was_refuted(member) ||
           std::any_of(fit.members.begin(), fit.members.end(), [&](const Member& m) {
             return is_at(m) || (study_.axis && both_dry(m, member) && !is_undriven(m, member));
           });

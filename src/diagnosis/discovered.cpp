@@ -213,7 +213,8 @@ std::vector<Discovered> add_discovered(Search& search, const HoldOut& holdout) {
   leave_needless_names(search, laws);
   name_beside(search, laws);
   constexpr int kMostRounds = 5;  // a limit of computation: each round searches all places again
-  for (int round = 0; round < kMostRounds && name_in_place_of_one(search, laws);) ++round;
+  int round = 0;
+  while (round < kMostRounds && name_in_place_of_one(search, laws)) ++round;
   search.leave_untold_parts();
   // Names may have given way to laws, and other names come beside them.
   const Signals by_laws = holdout.prediction(search.fit().members, search.fit().base),

@@ -205,9 +205,9 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
     }
     // Of an axis the error of the motion has a spectrum of its own in the floor. Poses are few: a
     // free matrix may leave less of them than noise, and what the fit leaves was weighed.
-    const bool known_by_rest =
+    const bool left_is_noise =
         fitted.is_static() || (!fitted.axis && !search.floors()[j].pose_gain.empty());
-    if (known_by_rest) noise = std::max(noise, left);
+    if (left_is_noise) noise = std::max(noise, left);
     const double ratio = errors[j] / std::max(1e-300, noise);
     if (ratio > kMost * (1.0 + chance) && (!worst || ratio > worst->ratio)) {
       worst = Excess{j, ratio};

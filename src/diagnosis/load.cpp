@@ -194,7 +194,7 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   std::erase_if(targets, [&](const std::string& name) { return !both.front()->has(name); });
   keep_new_rows(both, targets);
   for (Recording* recording : both) mend_spikes(*recording, targets);
-  leave_out_inertial_force(both, study.simulator.model);
+  if (request.simulator) leave_out_inertial_force(both, study.simulator.model);
   std::vector<Recording> all = fit;
   all.insert(all.end(), holdout.begin(), holdout.end());
   check_rates(all);

@@ -81,7 +81,7 @@ bool Search::replace_pairs() {
       const Scan scan(*setting_, base);
       const Signals left = difference(study_, scan.chain().prediction());
       std::vector<Member> list = candidates(scan, left, floors_);
-      std::erase_if(list, [&](const Member& m) { return is_taken_back(m); });
+      std::erase_if(list, [&](const Member& m) { return was_refuted(m); });
       const Pool pool = make_pool(scan, list);
       const double own = base.chi2 - fit_.chi2 -
                          setting_->price * (members[a].parameters() + members[b].parameters());

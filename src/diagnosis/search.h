@@ -119,7 +119,7 @@ class Search {
 
  private:
   /// Whether data on which it was not fitted have refuted this effect there.
-  bool is_taken_back(const Member& candidate) const;
+  bool was_refuted(const Member& candidate) const;
   /// What is known of the model without one member: computed when it is first asked for.
   struct Place {
     std::optional<JointFit> rest;
