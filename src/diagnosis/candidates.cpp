@@ -40,7 +40,7 @@ std::vector<Eigen::VectorXd> seed_grid(const Case& study, const EffectFit& form,
 
 /// What is left along n, collected in bins of the angle.
 PositionBins bin_by_angle(const Case& study, const Signals& left, const std::string& axis) {
-  constexpr double kAngleBin = 0.02, kMostAngleBins = 4000.0;  // rad, of a tool
+  constexpr double kAngleBin = 0.0025, kMostAngleBins = 4000.0;  // rad, of a tool: orders to 200
   double low = 1e300, high = -1e300;
   const AngleAxis at = angle_axis(axis);
   for (const Log& log : study.logs) {

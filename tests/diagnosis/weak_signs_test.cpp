@@ -199,5 +199,15 @@ TEST(WeakSigns, AnOffsetFollowsATemperatureThatHardlyBends) {
   EXPECT_NEAR(found["k_y_npk"]["value"].get<double>(), 0.05, 0.004);
 }
 
+// Teeth of a joint that repeat within 6 degrees of it.
+TEST(WeakSigns, OfTeethOfAHighOrderAreSeen) {
+  if (test::kSanitized) GTEST_SKIP() << "optimised builds run all";
+  const Bench bench(test::configuration(Json::array({hidden(
+      "cogging", "beta:sensor_x", {{"amp_n", 0.03}, {"order", 60.0}, {"phase_rad", 0.4}})})));
+  const Json report = bench.diagnose().report;
+  ASSERT_EQ(names(report), std::vector<std::string>{"cogging"}) << report["findings"].dump(1);
+  EXPECT_NEAR(report["findings"][0]["parameters"]["order"]["value"].get<double>(), 60.0, 0.3);
+}
+
 }  // namespace
 }  // namespace dcnn
