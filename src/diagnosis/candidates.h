@@ -9,7 +9,7 @@ namespace dcnn {
 
 /// Members to try next to the model of a scan: every fit of the catalogue, every axis it admits,
 /// every seed of its shapes; seeds of orders and frequencies come from what the model leaves. What
-/// needs a test of its own (events, knocks, rounding, clipping) and what the log lacks the signals
+/// needs a test of its own (events, impacts, rounding, clipping) and what the log lacks the signals
 /// for is left out.
 std::vector<Member> candidates(const Scan& scan, const Signals& left,
                                const std::vector<Floor>& floors);

@@ -1,4 +1,4 @@
-// Tests for what has no column in a linear model: rounding, clipping, knocks, lines above the
+// Tests for what has no column in a linear model: rounding, clipping, impacts, lines above the
 // blocks' band.
 #pragma once
 

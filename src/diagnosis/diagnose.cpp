@@ -173,7 +173,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   if (progress) progress("judging by what was held out");
   const HoldOut holdout(search.study(), loaded.holdout);
   const std::optional<double> noisy_hum = take_hum_for_noise(search, holdout);
-  Json refuted_names = leave_refuted_knocks(search, holdout);
+  Json refuted_names = leave_refuted_impacts(search, holdout);
   for (const Json& name : leave_refuted(search, holdout)) refuted_names.push_back(name);
   look_beyond_refuted(search, holdout, refuted_names);
   for (const Json& name : take_own_numbers(search, holdout)) refuted_names.push_back(name);
@@ -222,7 +222,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   const std::vector<Floor> heldout_floors = holdout.floors(search);
   // What a loose load's impacts are is not predicted.
   std::optional<HoldOut::Excess> refuted;
-  if (!search.knocking()) refuted = holdout.excess(search, heldout_floors);
+  if (!search.loose_load()) refuted = holdout.excess(search, heldout_floors);
   report["findings"] = findings_json(search, holdout, alternatives, heldout_floors,
                                      search.remains() || refuted.has_value());
   report["refuted"] = refuted_names;

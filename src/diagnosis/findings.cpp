@@ -72,7 +72,7 @@ class Writer {
       }
       list.push_back(entry);
     }
-    for (const auto* apart : {&search_.rounding(), &search_.knocking()}) {
+    for (const auto* apart : {&search_.rounding(), &search_.loose_load()}) {
       if (*apart) list.push_back(found_apart(**apart));
     }
     return list;
@@ -203,9 +203,9 @@ class Writer {
   bool is_found(const EffectKind& kind) const {
     const auto same = [&](const Member& m) { return m.kind == &kind; };
     const auto& members = search_.fit().members;
-    const auto &rounding = search_.rounding(), &knocking = search_.knocking();
+    const auto &rounding = search_.rounding(), &loose_load = search_.loose_load();
     return std::any_of(members.begin(), members.end(), same) || (rounding && same(*rounding)) ||
-           (knocking && same(*knocking));
+           (loose_load && same(*loose_load));
   }
 
   /// The largest of the least detectable sizes over axes; 0 for what a test of its own looks for.

@@ -21,14 +21,14 @@ std::optional<double> take_hum_for_noise(Search& search, const HoldOut& holdout)
   return hz;
 }
 
-Json leave_refuted_knocks(Search& search, const HoldOut& holdout) {
-  if (!search.knocking()) return Json::array();
-  const double support = holdout.support_of_knocks(search);
+Json leave_refuted_impacts(Search& search, const HoldOut& holdout) {
+  if (!search.loose_load()) return Json::array();
+  const double support = holdout.support_of_impacts(search);
   if (support >= 0.0) return Json::array();
-  const Member knocking = *search.knocking();
-  search.leave_knocks();
-  return Json::array({{{"effect", knocking.name()},
-                       {"axis", knocking.axis},
+  const Member loose_load = *search.loose_load();
+  search.leave_impacts();
+  return Json::array({{{"effect", loose_load.name()},
+                       {"axis", loose_load.axis},
                        {"confidence", 1.0 / (1.0 + elementary::exp(-support))}}});
 }
 

@@ -1,4 +1,4 @@
-// Held-out data on what was found by tests of its own: a hum above the motion's band, knocks.
+// Effects that detectors found (detectors.h, impacts.h), judged by held-out data.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@ namespace dcnn {
 /// floor holds it. Its frequency [Hz] where there is one.
 std::optional<double> take_hum_for_noise(Search& search, const HoldOut& holdout);
 
-/// Takes back knocks that recordings of their own show less likely than none; as findings that were
-/// refuted.
-Json leave_refuted_knocks(Search& search, const HoldOut& holdout);
+/// Removes a loose load from the model where the Bayes factor of its impacts on held-out recordings
+/// is below 1: that finding, as one that was refuted.
+Json leave_refuted_impacts(Search& search, const HoldOut& holdout);
 
 }  // namespace dcnn

@@ -216,12 +216,12 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
   return worst;
 }
 
-double HoldOut::support_of_knocks(const Search& search) const {
+double HoldOut::support_of_impacts(const Search& search) const {
   if (blocks_) return 0.0;
   const JointFit& fit = search.fit();
   Signals left = prediction(fit.members, fit.base);
   for (std::size_t k = 0; k < left.size(); ++k) left[k] = study_.logs[k].measured - left[k];
-  return knocks_support(study_, left, search.knocks());
+  return impacts_support(study_, left, search.impacts());
 }
 
 std::vector<HeldOut> HoldOut::records(const JointFit& first, const JointFit& last) const {

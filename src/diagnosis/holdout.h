@@ -59,8 +59,8 @@ class HoldOut {
   /// (diagnosis/evidence/support.h): of means over `block` rows, of the variances `noise`.
   double share_explained(const Signals& with, const Signals& without, const Eigen::VectorXd& noise,
                          Index block) const;
-  /// Of the knocks that were heard (diagnosis/knocks.h); 0 where no recordings of their own are.
-  double support_of_knocks(const Search& search) const;
+  /// ln of the Bayes factor of the detected impacts (diagnosis/impacts.h); 0 for held-out blocks.
+  double support_of_impacts(const Search& search) const;
   std::vector<HeldOut> records(const JointFit& before, const JointFit& after) const;
   /// The same recordings without the low-pass.
   HoldOut unfiltered() const;

@@ -26,7 +26,7 @@ struct Member {
   /// period that is never completed is a spring; a mode above what the blocks hold does not ring).
   Eigen::VectorXd least_shapes, most_shapes;
   /// Found at the full rate by a test of its own (hum above the blocks' band, rounding, clipping,
-  /// knocks): the joint fit leaves it as it is.
+  /// impacts): the joint fit leaves it as it is.
   bool fixed = false;
   Eigen::VectorXd fixed_deviation;  ///< then: of amplitudes and shapes, from that test
   /// Of a discovered law, which is fixed but for its size: its form and its numbers

@@ -207,25 +207,25 @@ void Search::run() {
   if (mask_outlying()) explore();  // beside a law other things are outlying
   if (hums_no_more()) explore();
   // After larger effects: what is left of a mode that is not in the model resembles impacts.
-  if (hear_knocks()) {
+  if (detect_impacts()) {
     settle(to_begin_with());
     explore();
-    if (!still_knocks()) search_without_knocks();
+    if (!still_has_impacts()) search_without_impacts();
   }
   let_ring();
   conclude();
 }
 
-void Search::search_without_knocks() {
+void Search::search_without_impacts() {
   settle(fit_.members);
   while (simplify()) {
   }
   explore();
 }
 
-void Search::leave_knocks() {
-  knocks_ = {};
-  search_without_knocks();
+void Search::leave_impacts() {
+  impacts_ = {};
+  search_without_impacts();
   conclude();
 }
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "diagnosis/evidence/posterior.h"
+#include "diagnosis/impacts.h"
 #include "diagnosis/judgement.h"
-#include "diagnosis/knocks.h"
 #include "diagnosis/scan.h"
 #include "diagnosis/slow_part.h"
 #include "diagnosis/span.h"
@@ -63,8 +63,8 @@ class Search {
   /// Whether something acts that no name explains; a law without a name is such.
   bool remains() const { return remains_ || names().size() < fit_.members.size(); }
   const std::optional<Member>& rounding() const { return rounding_; }
-  const std::optional<Member>& knocking() const { return knocks_.member; }
-  const Knocks& knocks() const { return knocks_; }
+  const std::optional<Member>& loose_load() const { return impacts_.member; }
+  const Impacts& impacts() const { return impacts_; }
   /// Stretches that decide nothing, for far more is left there than elsewhere.
   const std::vector<Span>& outlying_spans() const { return outlying_; }
   const std::vector<BandTest>& bands() const { return bands_; }
@@ -77,8 +77,8 @@ class Search {
   void leave_out(const std::vector<std::size_t>& members);
   /// Takes back the hum that was heard above the motion's band, and judges what is left.
   void leave_hum();
-  /// Takes back the knocks, and searches in what they had masked.
-  void leave_knocks();
+  /// Removes the loose load, and searches in the rows that its impacts had masked.
+  void leave_impacts();
   /// Searches beside what is left for other names than those that were left out: whether there are
   /// other members than before.
   bool look_again();
@@ -169,9 +169,9 @@ class Search {
   void detect();
   std::optional<Member> heard_hum(const Signals& left) const;
   bool hums_no_more();
-  bool hear_knocks();
-  bool still_knocks();
-  void search_without_knocks();
+  bool detect_impacts();
+  bool still_has_impacts();
+  void search_without_impacts();
   void drop_coincidences();
   void drop_unconfirmed();
   void let_ring();
@@ -230,7 +230,7 @@ class Search {
   std::vector<Span> masked_, outlying_;
   std::vector<Member> apart_;       // members found by tests of their own
   std::optional<Member> rounding_;  // named, but no part of what is fitted
-  Knocks knocks_;                   // nor are these
+  Impacts impacts_;                 // nor are these
   std::vector<Member> refuted_;     // by data on which they were not fitted
   std::vector<BandTest> bands_;
   evidence::Posterior posterior_;

@@ -77,7 +77,7 @@ Surroundings Search::surroundings(const std::vector<Member>& members) const {
           " s are left of the recordings without the ends of their stretches, which cannot tell "
           "noise from faults; record for longer, without gaps");
   std::vector<Span> masked = masked_;
-  masked.insert(masked.end(), knocks_.spans.begin(), knocks_.spans.end());
+  masked.insert(masked.end(), impacts_.spans.begin(), impacts_.spans.end());
   masked.insert(masked.end(), outlying_.begin(), outlying_.end());
   const Eigen::VectorXd mask = mask_of(whitener, held_out_, masked);
   if (study_.axis) whitener.allow_for_error(made.left, mask);

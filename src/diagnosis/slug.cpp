@@ -5,10 +5,10 @@
 namespace dcnn {
 namespace {
 
-/// Appends the knocks of one way from stop to stop that begins at sample `from`, with its rebounds;
-/// false where the field turns back before the load arrives.
+/// Appends the impacts of one way from stop to stop that begins at sample `from`, with its
+/// rebounds; false where the field turns back before the load arrives.
 bool slide(const Eigen::VectorXd& field, const Slug& slug, Index from, double dt, std::size_t log,
-           std::vector<Knock>& knocks) {
+           std::vector<Impact>& impacts) {
   constexpr double kRest = 0.02;  // m/s
   const double sense = std::copysign(1.0, field(from));
   double way = 0.0, speed = 0.0;
@@ -19,7 +19,7 @@ bool slide(const Eigen::VectorXd& field, const Slug& slug, Index from, double dt
     if (way < 0.0 || (!arrived && speed < 0.0)) break;
     if (way < slug.gap) continue;
     arrived = true;
-    knocks.push_back({log, from, k, sense * (1.0 + slug.rebound) * speed});
+    impacts.push_back({log, from, k, sense * (1.0 + slug.rebound) * speed});
     speed *= -slug.rebound;
     way = slug.gap;
     if (speed > -kRest) break;
@@ -39,16 +39,16 @@ void AxisField::leave(double grip) {
   }
 }
 
-std::vector<Knock> knocks_of(const std::vector<AxisField>& fields, const Slug& slug, double dt) {
-  std::vector<Knock> knocks;
+std::vector<Impact> impacts_of(const std::vector<AxisField>& fields, const Slug& slug, double dt) {
+  std::vector<Impact> impacts;
   for (std::size_t k = 0; k < fields.size(); ++k) {
     const Eigen::VectorXd& field = fields[k].along;
     double side = field.size() > 0 ? field(0) : 0.0;
     for (const Index i : fields[k].leaves) {
-      if (side * field(i) <= 0.0 && slide(field, slug, i, dt, k, knocks)) side = field(i);
+      if (side * field(i) <= 0.0 && slide(field, slug, i, dt, k, impacts)) side = field(i);
     }
   }
-  return knocks;
+  return impacts;
 }
 
 }  // namespace dcnn

@@ -12,10 +12,10 @@ namespace dcnn {
 struct Slug {
   double gap;      ///< m
   double grip;     ///< dry friction over mass [m/s^2]
-  double rebound;  ///< speed after a knock over that before
+  double rebound;  ///< speed after an impact over that before
 };
 
-struct Knock {
+struct Impact {
   std::size_t log;
   Index from, at;  ///< samples: begins to slide, arrives
   double change;   ///< of its speed, along the axis [m/s]
@@ -29,7 +29,7 @@ struct AxisField {
   void leave(double grip);
 };
 
-/// All knocks, from stop to stop, in the order of time.
-std::vector<Knock> knocks_of(const std::vector<AxisField>& fields, const Slug& slug, double dt);
+/// All impacts, from stop to stop, in the order of time.
+std::vector<Impact> impacts_of(const std::vector<AxisField>& fields, const Slug& slug, double dt);
 
 }  // namespace dcnn

@@ -4,7 +4,7 @@
 
 #include "diagnosis/candidates.h"
 #include "diagnosis/detectors.h"
-#include "diagnosis/knocks.h"
+#include "diagnosis/impacts.h"
 #include "diagnosis/left_out.h"
 #include "diagnosis/search.h"
 #include "physics/effect_law.h"
@@ -87,18 +87,18 @@ void Search::leave_hum() {
   adopt(others);
 }
 
-bool Search::hear_knocks() {
+bool Search::detect_impacts() {
   if (study_.is_static() || !is_listed(study_, *find_effect("loose_load"))) return false;
-  knocks_ = find_knocks(study_, left_);
-  return knocks_.member.has_value();
+  impacts_ = find_impacts(study_, left_);
+  return impacts_.member.has_value();
 }
 
 /// Whether the residual of all that was found since still shows the load's impacts.
-bool Search::still_knocks() {
-  Knocks knocks = find_knocks(study_, left_);
-  if (knocks.member) knocks.spans = knocks_.spans;  // beside which all was fitted
-  knocks_ = std::move(knocks);
-  return knocks_.member.has_value();
+bool Search::still_has_impacts() {
+  Impacts impacts = find_impacts(study_, left_);
+  if (impacts.member) impacts.spans = impacts_.spans;  // beside which all was fitted
+  impacts_ = std::move(impacts);
+  return impacts_.member.has_value();
 }
 
 /// Takes back, the most doubtful first, what signs drawn at random for each second explain as

@@ -43,7 +43,7 @@ std::size_t Search::weigh_once() {
     }
     structures.push_back(evidence::structure_of(*setting_, grid, joint_fit(*setting_, members)));
   }
-  posterior_ = evidence::posterior_of(std::move(structures), rounding_ || knocks_.member);
+  posterior_ = evidence::posterior_of(std::move(structures), rounding_ || impacts_.member);
   if (names().size() < fit_.members.size()) posterior_.hold_a_law();
   return posterior_.most_probable();
 }

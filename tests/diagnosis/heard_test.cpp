@@ -6,7 +6,7 @@
 
 #include "dcnn/core/random.h"
 #include "diagnosis/chain.h"
-#include "diagnosis/knocks.h"
+#include "diagnosis/impacts.h"
 #include "diagnosis/load.h"
 #include "diagnosis/search.h"
 #include "diagnosis/support.h"
@@ -15,21 +15,21 @@ namespace dcnn {
 namespace {
 
 Json with_a_slug() {
-  return test::configuration(Json::array(
-      {test::hidden("loose_load", "sensor_x", {{"slug_kg", 0.06}, {"gap_m", 0.004}})}));
+  return test::configuration(
+      Json::array({test::hidden("loose_load", "sensor_x", {{"slug_kg", 0.06}, {"gap_m", 0.004}})}));
 }
 
-TEST(Heard, KnocksOfAnotherRecordingBearThemOut) {
+TEST(Heard, ImpactsOfAnotherRecordingBearThemOut) {
   const test::Bench loose(with_a_slug()), firm(test::configuration(Json::array()));
   const LoadedCase with = load_wrist(loose.request()), without = load_wrist(firm.request());
   const auto left = [](const Case& study) { return difference(study, predict(study, {})); };
-  const Knocks knocks = find_knocks(with.fit, left(with.fit));
-  ASSERT_TRUE(knocks.member);
+  const Impacts impacts = find_impacts(with.fit, left(with.fit));
+  ASSERT_TRUE(impacts.member);
   double all = 0.0;
-  for (const Knocks::Tried& tried : knocks.tried) all += tried.probability;
+  for (const Impacts::Tried& tried : impacts.tried) all += tried.probability;
   EXPECT_NEAR(all, 1.0, 1e-9);
-  EXPECT_GT(knocks_support(with.holdout, left(with.holdout), knocks), 5.0);
-  EXPECT_LT(knocks_support(without.holdout, left(without.holdout), knocks), -5.0);
+  EXPECT_GT(impacts_support(with.holdout, left(with.holdout), impacts), 5.0);
+  EXPECT_LT(impacts_support(without.holdout, left(without.holdout), impacts), -5.0);
 }
 
 /// Of 0.05 N at 60 Hz, beside noise of 0.04 N. The phase that it has in the recording that is held

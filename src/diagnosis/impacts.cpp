@@ -1,4 +1,4 @@
-#include "diagnosis/knocks.h"
+#include "diagnosis/impacts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +15,11 @@
 namespace dcnn {
 namespace {
 
-constexpr double kShortest = 0.003;  // s, half of what a knock lasts in a recording
+constexpr double kShortest = 0.003;  // s, half of what an impact lasts in a recording
 constexpr double kSpread = 0.025;    // of a slide's duration: how well its end is foretold
 constexpr double kFirstGap = 0.001, kLastGap = 0.035, kNextGap = 1.06;  // m
 constexpr double kHeard = 6.0;            // deviations of the same sum at other times
-constexpr double kHeardWithoutOne = 2.5;  // the same without the loudest knock
+constexpr double kHeardWithoutOne = 2.5;  // the same without the loudest impact
 constexpr double kStandsOut = 1.5;        // over the greatest of them
 constexpr std::size_t kFewest = 4;        // ways from stop to stop
 constexpr int kOtherTimes = 60;
@@ -96,7 +96,7 @@ class Ear {
     if (!heights.empty()) sigma_ = kDeviationOfMedian * median(heights) / shape(1).deviation();
   }
 
-  /// The knocks that are heard best.
+  /// The impacts that are heard best.
   void listen() {
     for (const double grip : {0.0, 0.1, 0.2, 0.3, 0.4, 0.55, 0.75, 1.0}) {
       for (AxisField& field : fields_) field.leave(grip);
@@ -109,18 +109,18 @@ class Ear {
     weigh();
   }
 
-  /// ln of the mean likelihood ratio of what was tried elsewhere to no knocks.
-  double support(const std::vector<Knocks::Tried>& list) {
+  /// ln of the mean of the likelihood ratios to no impacts, over a grid and its probabilities.
+  double support(const std::vector<Impacts::Tried>& list) {
     std::vector<Evidence> all;
     double grip = -1.0;
-    for (const Knocks::Tried& tried : list) {
+    for (const Impacts::Tried& tried : list) {
       if (tried.slug.grip != grip) {
         grip = tried.slug.grip;
         for (AxisField& field : fields_) field.leave(grip);
       }
       all.push_back(take(tried.slug));
     }
-    if (heard.square <= 0.0) return 0.0;  // nothing would have knocked
+    if (heard.square <= 0.0) return 0.0;  // no impact is due
     compare_with_other_times();
     double sum = 0.0;
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -135,9 +135,9 @@ class Ear {
   bool is_heard() const {
     std::size_t ways = 0;
     Index last = -1;
-    for (const Knock& knock : knocks) {
-      if (knock.from != last) ++ways;
-      last = knock.from;
+    for (const Impact& impact : impacts) {
+      if (impact.from != last) ++ways;
+      last = impact.from;
     }
     const double others = significance() * (1.0 - heard.most / heard.sum);
     return significance() > kHeard && others > kHeardWithoutOne && ways >= kFewest &&
@@ -145,29 +145,29 @@ class Ear {
   }
 
   Evidence heard;
-  std::vector<Knock> knocks;
+  std::vector<Impact> impacts;
   double most_elsewhere = 0.0;
-  double scale = 1.0;  ///< deviation of strength() where there are no knocks
+  double scale = 1.0;  ///< deviation of strength() where there are no impacts
 
   /// Slug [kg] and gap [m], means over all that was tried, by likelihood; and their deviations.
   Eigen::Vector2d mean, deviation;
-  std::vector<Knocks::Tried> likely;
+  std::vector<Impacts::Tried> likely;
 
  private:
   const Template& shape(Index wide) const { return shapes_.try_emplace(wide, wide).first->second; }
 
   /// Matched to changes of momentum, `shift` samples after they are due.
-  Evidence evidence(const std::vector<Knock>& list, Index shift) const {
+  Evidence evidence(const std::vector<Impact>& list, Index shift) const {
     Evidence e;
-    for (const Knock& knock : list) {
-      const Channel& channel = channels_[knock.log];
-      const double seconds = kSpread * dt_ * static_cast<double>(knock.at - knock.from);
+    for (const Impact& impact : list) {
+      const Channel& channel = channels_[impact.log];
+      const double seconds = kSpread * dt_ * static_cast<double>(impact.at - impact.from);
       const Index wide = std::max<Index>(1, std::llround(std::max(kShortest, seconds) / dt_ - 0.5));
       const Template& found = shape(wide);
-      const auto above = channel.above(knock.at + shift, found);
+      const auto above = channel.above(impact.at + shift, found);
       if (!above) continue;
-      const double unit = sigma_ * found.deviation() * channel.level(knock.at + shift);
-      const double height = knock.change / (static_cast<double>(2 * wide + 1) * dt_) / unit;
+      const double unit = sigma_ * found.deviation() * channel.level(impact.at + shift);
+      const double height = impact.change / (static_cast<double>(2 * wide + 1) * dt_) / unit;
       const double share = *above / (sigma_ * found.deviation()) * height;
       e.sum += share;
       e.square += height * height;
@@ -177,11 +177,11 @@ class Ear {
   }
 
   Evidence take(const Slug& slug) {
-    const std::vector<Knock> list = knocks_of(fields_, slug, dt_);
+    const std::vector<Impact> list = impacts_of(fields_, slug, dt_);
     const Evidence e = evidence(list, 0);
     tried_.push_back({slug, e});
-    if (e.square > 0.0 && (knocks.empty() || e.strength() > heard.strength())) {
-      heard = e, knocks = list;
+    if (e.square > 0.0 && (impacts.empty() || e.strength() > heard.strength())) {
+      heard = e, impacts = list;
     }
     return e;
   }
@@ -190,7 +190,7 @@ class Ear {
     std::vector<double> others;
     for (int k = 0; k < kOtherTimes; ++k) {
       const double seconds = (k % 2 ? 1.0 : -1.0) * (0.1 + 0.02 * k);
-      others.push_back(std::abs(evidence(knocks, std::llround(seconds / dt_)).strength()));
+      others.push_back(std::abs(evidence(impacts, std::llround(seconds / dt_)).strength()));
     }
     most_elsewhere = *std::max_element(others.begin(), others.end());
     scale = std::max(1.0, kDeviationOfMedian * median(others));
@@ -213,7 +213,7 @@ class Ear {
     }
     mean = sum / all;
     deviation = (squares / all - mean.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
-    for (Knocks::Tried& tried : likely) tried.probability /= all;
+    for (Impacts::Tried& tried : likely) tried.probability /= all;
   }
 
   double dt_, sigma_ = 1.0;
@@ -225,7 +225,7 @@ class Ear {
 
 }  // namespace
 
-Knocks find_knocks(const Case& study, const Signals& left) {
+Impacts find_impacts(const Case& study, const Signals& left) {
   const EffectKind& kind = *find_effect("loose_load");
   if (!is_testable(study, kind)) return {};
   const auto levels = noise_level(study, left);
@@ -240,29 +240,29 @@ Knocks find_knocks(const Case& study, const Signals& left) {
     }
   }
   if (!best) return {};
-  Knocks found;
+  Impacts found;
   const auto name = static_cast<std::size_t>(study.channels[channel]);
   found.member = make_member(study, kind, kind.fits[0], admitted_axes(AxisRule::kSensor)[name],
                              Eigen::VectorXd::Constant(1, best->mean(1)));
   found.member->amplitudes(0) = best->mean(0);
   found.member->fixed = true;
   found.member->fixed_deviation = best->deviation;
-  found.component = static_cast<int>(name);
   found.tried = std::move(best->likely);
-  for (const Knock& knock : best->knocks) {
-    const Eigen::VectorXd& t = study.logs[knock.log].motion.t;
-    found.spans.push_back({knock.log, t(knock.from), t(knock.at) + 0.12});
+  for (const Impact& impact : best->impacts) {
+    const Eigen::VectorXd& t = study.logs[impact.log].motion.t;
+    found.spans.push_back({impact.log, t(impact.from), t(impact.at) + 0.12});
   }
   return found;
 }
 
-double knocks_support(const Case& recordings, const Signals& left, const Knocks& knocks) {
-  const auto& channels = recordings.channels;
-  const auto channel = std::find(channels.begin(), channels.end(), knocks.component);
-  if (channel == channels.end()) return 0.0;
-  Ear ear(recordings, left, noise_level(recordings, left),
-          static_cast<std::size_t>(channel - channels.begin()));
-  return ear.support(knocks.tried);
+double impacts_support(const Case& recordings, const Signals& left, const Impacts& impacts) {
+  const auto axes = admitted_axes(AxisRule::kSensor);
+  for (std::size_t j = 0; j < recordings.channels.size(); ++j) {
+    const auto component = static_cast<std::size_t>(recordings.channels[j]);
+    if (component > 2 || axes[component] != impacts.member->axis) continue;
+    return Ear(recordings, left, noise_level(recordings, left), j).support(impacts.tried);
+  }
+  return 0.0;
 }
 
 }  // namespace dcnn
