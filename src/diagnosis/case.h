@@ -57,6 +57,7 @@ struct Case {
   std::vector<std::string> targets, units;  ///< of the channels
   std::vector<Log> logs;                    ///< to fit on
   DerivativeSpec derivative;
+  bool zeros_differ = false;  ///< the offset of each recording is its own, beside the common one
   bool shared_clock = true;
   double end_of_clock = 0.0;  ///< s, end of the last recording
   /// Values on a coarse lattice: what rounding makes of the mean of a noisy force depends on both.

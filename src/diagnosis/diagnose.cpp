@@ -18,6 +18,7 @@
 #include "diagnosis/holdout.h"
 #include "diagnosis/locate.h"
 #include "diagnosis/own_numbers.h"
+#include "diagnosis/own_zeros.h"
 #include "diagnosis/plain_findings.h"
 #include "diagnosis/portrait.h"
 #include "diagnosis/rest.h"
@@ -217,6 +218,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
     report["notes"].push_back("a line at " + brief(*noisy_hum) +
                               " Hz, the phase of which does not last: it counts as noise");
   }
+  if (const auto note = note_of_zeros(search)) report["notes"].push_back(*note);
   const std::vector<std::string> without = study.without.names();
   if (!without.empty()) report["without"] = without;
   const std::vector<Floor> heldout_floors = holdout.floors(search);

@@ -171,16 +171,20 @@ Eigen::VectorXd Setting::whitened(const Signals& signals) const {
   return whitener(signals).cwiseProduct(mask);
 }
 
+bool has_own_offset(const Case& study, std::size_t log) {
+  return study.logs[log].zeroed || (study.zeros_differ && log > 0 && !study.logs[0].zeroed);
+}
+
 Index Setting::flat_columns() const {
-  Index zeroed = 0;
-  for (const Log& log : study.logs) zeroed += log.zeroed ? 1 : 0;
-  return static_cast<Index>(study.logs.front().regressors.size()) + zeroed * study.channel_count();
+  Index own = 0;
+  for (std::size_t k = 0; k < study.logs.size(); ++k) own += has_own_offset(study, k) ? 1 : 0;
+  return static_cast<Index>(study.logs.front().regressors.size()) + own * study.channel_count();
 }
 
 std::vector<Signals> own_offsets(const Case& study) {
   std::vector<Signals> columns;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
-    for (Index j = 0; study.logs[k].zeroed && j < study.channel_count(); ++j) {
+    for (Index j = 0; has_own_offset(study, k) && j < study.channel_count(); ++j) {
       Signals column;
       for (const Log& log : study.logs) {
         column.push_back(Eigen::MatrixXd::Zero(log.motion.samples(), study.channel_count()));

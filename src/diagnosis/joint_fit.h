@@ -17,7 +17,7 @@ struct Setting {
   Whitener coarse_whitener;  ///< with the same rows
   Signals measured;
   /// Whitened columns that are always fitted beside the members: of the case's regressors, of the
-  /// offsets of zeroed recordings (flat_columns() in all), then of other filters of the pose.
+  /// own offsets of recordings (flat_columns() in all), then of other filters of the pose.
   Eigen::MatrixXd nuisance;
   Eigen::VectorXd mask;         ///< 0 for rows that an impact disturbs, else 1
   double price = kNumberPrice;  ///< of chi-square, per fitted number, that an effect must gain
@@ -27,7 +27,11 @@ struct Setting {
   Index flat_columns() const;
 };
 
-/// 1 in one channel of one zeroed recording, for each of them: what its own offset adds.
+/// Whether the offset of this recording is fitted beside everything: of one that was zeroed; where
+/// zeros differ, of each but the first, beside which stands the common offset.
+bool has_own_offset(const Case& study, std::size_t log);
+
+/// 1 in one channel of one of these recordings, for each of them: what its own offset adds.
 std::vector<Signals> own_offsets(const Case& study);
 
 struct JointFit {

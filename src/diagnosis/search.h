@@ -183,6 +183,7 @@ class Search {
   bool may_be_slow_noise(const Member& member) const;
   bool admit_slow_noise();
   bool admit_colour();
+  bool admit_own_zeros();
   void judge();
   void conclude();
   void hold_untold();

@@ -160,7 +160,7 @@ void Search::judge() {
     if (!in_slow_noise_) explore();
     remains_ = is_alarming_now();
   }
-  if (remains_ && admit_colour()) remains_ = false;
+  if (remains_ && (admit_own_zeros() || admit_colour())) remains_ = false;
   if (keep_bystanders()) {
     remains_ = true;
     bands_ = band_tests(*setting_, fit_.residual);
