@@ -248,10 +248,7 @@ std::vector<Member> candidates(const Scan& scan, const Signals& left,
       const bool follows = !form.shapes.empty() && std::string(form.shapes[0].name) == "t_ref";
       if (follows && !has_temperature(study)) continue;
       if (form.amplitudes > 1 && is_in_base(study, *kind)) continue;
-      if (form.use == (study.axis ? EffectFit::Use::kTools : EffectFit::Use::kMachines) ||
-          form.use == EffectFit::Use::kDriven) {
-        continue;
-      }
+      if (!is_tried(study, form)) continue;
       for (const auto& axis : axes_of(study, *kind)) {
         const auto grid = follows ? reference_temperatures(study) : seed_grid(study, form, axis);
         for (const auto& shapes : grid) {

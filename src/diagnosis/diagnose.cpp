@@ -13,6 +13,7 @@
 #include "diagnosis/dead_channels.h"
 #include "diagnosis/discovered.h"
 #include "diagnosis/evidence/posterior_json.h"
+#include "diagnosis/faint.h"
 #include "diagnosis/findings.h"
 #include "diagnosis/heard.h"
 #include "diagnosis/holdout.h"
@@ -178,6 +179,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   for (const Json& name : leave_refuted(search, holdout)) refuted_names.push_back(name);
   look_beyond_refuted(search, holdout, refuted_names);
   for (const Json& name : take_own_numbers(search, holdout)) refuted_names.push_back(name);
+  add_faint(search, holdout);
   const std::vector<BandTest> bands = search.bands();
   const double unnamed = search.posterior().unknown + search.posterior().named_and_unknown;
   const std::vector<Member> names = search.names();

@@ -210,7 +210,7 @@ class Writer {
 
   /// The largest of the least detectable sizes over axes; 0 for what a test of its own looks for.
   std::optional<double> worst_axis(const Scan& scan, const EffectKind& kind) const {
-    const EffectFit& form = kind.fits[0];
+    const EffectFit& form = first_form(search_.study(), kind);
     const bool seeded = std::all_of(form.shapes.begin(), form.shapes.end(),
                                     [](const ShapeParameter& s) { return !s.seeds.empty(); });
     if (!seeded || kind.interval == IntervalRule::kRequired ||

@@ -46,6 +46,20 @@ int Member::parameters() const {
   return static_cast<int>(fitted + form_shapes) + ends + (kind->special ? 1 : 0) + (driver ? 1 : 0);
 }
 
+bool is_tried(const Case& study, const EffectFit& form) {
+  const auto elsewhere = study.axis ? EffectFit::Use::kTools : EffectFit::Use::kMachines;
+  if (form.use == elsewhere || form.use == EffectFit::Use::kDriven) return false;
+  Index along = 0;
+  study.simulator.model.gravity.cwiseAbs().maxCoeff(&along);
+  return form.gravity_along < 0 || form.gravity_along == along;
+}
+
+const EffectFit& first_form(const Case& study, const EffectKind& kind) {
+  const auto tried = [&](const EffectFit& form) { return is_tried(study, form); };
+  const auto found = std::find_if(kind.fits.begin(), kind.fits.end(), tried);
+  return found != kind.fits.end() ? *found : kind.fits.front();
+}
+
 double unit_of(const Case& study, const ShapeParameter& shape) {
   return elementary::pow(study.axis_length, shape.length) *
          elementary::pow(study.axis_seconds, shape.time);

@@ -80,6 +80,11 @@ std::vector<Member> with_member(std::vector<Member> members, const Member& more)
 /// What a shape's bounds and seeds are multiplied by on the axis of a machine; 1 for a tool.
 double unit_of(const Case& study, const ShapeParameter& shape);
 
+/// Whether the diagnosis of this case tries a form, undriven.
+bool is_tried(const Case& study, const EffectFit& form);
+/// The first form of an effect that is tried; the first of all where none is.
+const EffectFit& first_form(const Case& study, const EffectKind& kind);
+
 /// A member with these shapes and unit amplitudes.
 Member make_member(const Case& study, const EffectKind& kind, const EffectFit& form,
                    const std::string& axis, const Eigen::VectorXd& shapes);

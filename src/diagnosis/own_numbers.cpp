@@ -48,7 +48,12 @@ Json take_own_numbers(Search& search, const HoldOut& holdout) {
   search.begin_with(alone.members);
   Json refuted = leave_refuted(search, holdout);
   const bool still = explain || error_of(search, holdout, search.fit()) <= most;
-  if (still && is_better(search.fit())) return refuted;
+  if (still && is_better(search.fit())) {
+    // What acts beside them was looked for beside other names.
+    if (search.remains()) search.add_beside();
+    for (const Json& name : leave_refuted(search, holdout)) refuted.push_back(name);
+    return refuted;
+  }
   search.adopt(found);
   return Json::array();
 }

@@ -84,11 +84,15 @@ class Search {
   bool look_again();
   /// Takes these members, but for those that do not earn their numbers, and judges what is left.
   void begin_with(const std::vector<Member>& members);
+  /// Adds what gains beside the members, none of which is exchanged for it.
+  void add_beside();
   /// Takes another model, whose members were fitted, and judges what it leaves.
   void adopt(const std::vector<Member>& members);
   /// Leaves out levers and lags that gain less than their price, and lags at their bound, which are
   /// no estimates: forces then act at the sensor's origin, driven laws follow their signal at once.
   void leave_untold_parts();
+  /// Holds at zero what the recordings do not tell of effects with several numbers.
+  void hold_untold();
   /// Leaves out all but what tests of their own found.
   void begin_anew();
   /// Whether a band holds more than noise and the error of the laws that were found leave.
@@ -186,7 +190,6 @@ class Search {
   bool admit_own_zeros();
   void judge();
   void conclude();
-  void hold_untold();
   bool begin_with_own_numbers();
   /// How much worse a model is beside the noise at hand than that at hand, in prices of a number.
   double worse(const std::vector<Member>& members) const;

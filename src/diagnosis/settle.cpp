@@ -170,12 +170,14 @@ void Search::settle(const std::vector<Member>& members) {
   if (study_.axis && floor_moved()) fit_beside_base(fit_.members);
   if (choose_rounding_noise()) fit_beside_base(fit_.members);
   left_ = difference(study_, predict(study_, fit_.members));
-  // A machine always leaves something that no effect explains, far above its sensor's noise: there
-  // a number counts that takes off a share of what is left.
+  // What no effect explains errs as noise does, and is that much louder (overdispersion: McCullagh
+  // and Nelder, Generalized Linear Models, 1989, 4.5): a number counts that takes off a share of
+  // what is left. A machine always leaves something, in far fewer independent rows than it has.
   constexpr double kSlowNoisePrice = 20.0;
-  if (study_.axis) setting_->price = std::max(kNumberPrice, kMachineShare * fit_.chi2);
+  const double share = study_.axis ? kMachineShare : kNumberPrice / setting_->mask.sum();
+  setting_->price = std::max(kNumberPrice, share * fit_.chi2);
   // Of noise that rises as 1/f the next recording would show another slope.
-  if (!slow_.empty()) setting_->price = kSlowNoisePrice;
+  if (!slow_.empty()) setting_->price = std::max(kSlowNoisePrice, setting_->price);
   forget_places();
 }
 

@@ -97,7 +97,7 @@ std::vector<Member> own_parameters(const Case& study) {
     // Of another machine's simulator its scale is all that is known; a fitted base is fitted.
     const bool scale = std::string(name) == "gain";
     if (scale != (study.axis != nullptr) || !is_testable(study, kind)) continue;
-    Member member = make_member(study, kind, kind.fits[0], "", Eigen::VectorXd(0));
+    Member member = make_member(study, kind, first_form(study, kind), "", Eigen::VectorXd(0));
     member.amplitudes.setZero();
     members.push_back(member);
   }

@@ -100,6 +100,16 @@ bool Search::look_again() {
   return places_of(fit_.members) != before;
 }
 
+void Search::add_beside() {
+  ended_early_ = ended_early_ || is_spent();
+  begun_ = passes();
+  while (!is_spent() && grow()) {
+    while (simplify()) {
+    }
+  }
+  adopt(std::vector<Member>(fit_.members));
+}
+
 void Search::begin_with(const std::vector<Member>& members) {
   settle(members);
   while (simplify()) {

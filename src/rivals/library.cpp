@@ -44,6 +44,7 @@ std::vector<Law> library(bool thermometer) {
     if (axes.empty()) axes.emplace_back();
     for (const EffectFit& fit : kind->fits) {
       if (fit.use == EffectFit::Use::kDriven) continue;
+      if (fit.gravity_along >= 0 && fit.gravity_along != 2) continue;  // the scenarios' is along z
       if (fit.parameters == nullptr || searched_for(*kind, fit)) continue;
       for (const VectorXd& shapes : seeds_of(fit)) {
         const Json names = fit.parameters(VectorXd::Ones(fit.amplitudes), shapes);

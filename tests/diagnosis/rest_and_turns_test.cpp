@@ -266,5 +266,18 @@ TEST(RestAndTurns, ALawThatTakesOffASeventhOfWhatIsLeftIsNamed) {
   EXPECT_EQ(names.front(), "quadratic_drag");
 }
 
+/// A robot on a wall: a turn about gravity changes nothing, and is no part of a tilt.
+TEST(TiltOfABase, OfARobotOnAWallIsAboutTheOtherTwoAxes) {
+  Json config = test::configuration(Json::array(
+      {test::hidden("gravity_tilt", nullptr, {{"tilt_y_rad", 0.1}, {"tilt_z_rad", -0.06}})}));
+  config["simulator"]["gravity_mps2"] = {9.81, 0.0, 0.0};
+  const Json report = test::Bench(test::at_half_rate(config)).diagnose().report;
+  ASSERT_EQ(test::names(report), std::vector<std::string>{"gravity_tilt"}) << report["findings"];
+  const Json& tilt = report["findings"][0]["parameters"];
+  ASSERT_TRUE(tilt.contains("tilt_y_rad") && tilt.contains("tilt_z_rad")) << tilt;
+  EXPECT_NEAR(tilt["tilt_y_rad"]["value"].get<double>(), 0.1, 0.002);
+  EXPECT_NEAR(tilt["tilt_z_rad"]["value"].get<double>(), -0.06, 0.002);
+}
+
 }  // namespace
 }  // namespace dcnn

@@ -121,6 +121,8 @@ struct EffectFit {
   Use use = Use::kEverywhere;
   /// One number in the place of several of the effect (prior::kSpecial).
   bool special = false;
+  /// Tried where gravity points mostly along this base axis (0 to 2); -1: wherever it points.
+  int gravity_along = -1;
 };
 
 /// What an effect must know of time: nothing, when a row was taken, or the motion between rows.
