@@ -41,7 +41,7 @@ bool same_line(const Member& a, const Member& b) {
 bool both_dry(const Member& a, const Member& b) {
   const auto dry = [](const Member& m) {
     return m.name() == "coulomb_friction" || m.name() == "stribeck_friction" ||
-           m.name() == "gear_friction";
+           m.name() == "gear_friction" || m.name() == "lugre_friction";
   };
   return same_line(a, b) && dry(a) && dry(b);
 }
