@@ -24,7 +24,8 @@ const std::vector<std::pair<std::string, std::string>> kConsequences{
     {"saturation", "frozen"}, {"frozen", "contact"},        {"saturation", "contact"},
     {"held", "quantisation"}, {"held", "frozen"},           {"held", "delay"},
     {"frozen", "held"},       {"clock_order", "jitter"},    {"moving_rows", "no_motion"},
-    {"frozen", "delay"},      {"contact", "position_axes"}, {"no_motion", "delay"}};
+    {"frozen", "delay"},      {"contact", "position_axes"}, {"no_motion", "delay"},
+    {"spikes", "contact"}};
 
 void drop_consequences(std::vector<Fault>& faults) {
   const std::vector<Fault> all = faults;
