@@ -32,6 +32,19 @@ void expect_none(const check::Report& report, const std::string& fault) {
   }
 }
 
+void hold(Eigen::MatrixXd& values, Eigen::Index column, Eigen::Index length) {
+  for (Eigen::Index i = 0; i < values.rows(); ++i) {
+    values(i, column) = values(i - i % length, column);
+  }
+}
+
+void keep(Eigen::MatrixXd& values, Eigen::Index begin, Eigen::Index rows, Eigen::Index column,
+          Eigen::Index columns) {
+  for (Eigen::Index i = begin + 1; i < begin + rows; ++i) {
+    values.row(i).segment(column, columns) = values.row(begin).segment(column, columns);
+  }
+}
+
 TEST(RowFaults, NothingIsWrongWithTheLogItself) {
   const check::Report report = report_of(moving_tool::log());
   EXPECT_TRUE(report.faults.empty()) << check::to_text(report);
@@ -66,6 +79,43 @@ TEST(RowFaults, AnglesThatBeginAnewHaveNoSpikes) {
     for (const Eigen::Index row : {700, 1900, 3100}) values(row, kGamma) += 2.0 * std::acos(-1.0);
   });
   expect_none(report, "spikes");
+}
+
+TEST(RowFaults, OneChannelAloneIsHeld) {
+  expect_first(report_after([](Eigen::MatrixXd& values) { hold(values, kFz, 3); }), "held", "fz");
+  expect_first(report_after([](Eigen::MatrixXd& values) { hold(values, kGamma, 4); }), "held",
+               "gamma");
+}
+
+TEST(RowFaults, APoseThatStandsStillAndThenJumpsIsFrozen) {
+  const check::Report report =
+      report_after([](Eigen::MatrixXd& values) { keep(values, 1500, 150, kX, 6); });
+  expect_first(report, "frozen", "x");
+  expect_none(report, "contact");
+}
+
+// The pose of a robot that rests is the same for long, too; it starts gently.
+TEST(RowFaults, APoseAtRestIsNotFrozen) {
+  const check::Report report = report_after([](Eigen::MatrixXd& values) {
+    const Eigen::MatrixXd rest = values.row(2000).segment(kX, 6);
+    for (Eigen::Index i = 0; i < values.rows(); ++i) {
+      const double way = std::clamp(std::abs(static_cast<double>(i) - 2000.0) - 200.0, 0.0, 1e9);
+      const double share = std::min(1.0, way * way / 4e4);  // from rest at one acceleration
+      values.row(i).segment(kX, 6) =
+          (1.0 - share) * rest + share * values.row(i).segment(kX, 6).eval();
+      for (Eigen::Index j = kX; j <= kGamma; ++j) {
+        values(i, j) = std::round(values(i, j) / 1e-4) * 1e-4;
+      }
+    }
+  });
+  expect_none(report, "frozen");
+}
+
+TEST(RowFaults, ForcesThatKeepTheLastValueSeveralTimesAreFrozen) {
+  const check::Report report = report_after([](Eigen::MatrixXd& values) {
+    for (const Eigen::Index row : {300, 900, 1500, 2200, 3000}) keep(values, row, 15, kFx, 3);
+  });
+  expect_first(report, "frozen", "fx");
 }
 
 }  // namespace
