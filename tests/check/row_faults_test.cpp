@@ -45,6 +45,15 @@ void keep(Eigen::MatrixXd& values, Eigen::Index begin, Eigen::Index rows, Eigen:
   }
 }
 
+void round_columns(Eigen::MatrixXd& values, Eigen::Index column, double step) {
+  for (Eigen::Index j = column; j < column + 3; ++j) {
+    // As a text file has it, with four decimals.
+    for (double& value : values.col(j)) {
+      value = std::round(std::round(value / step) * step * 1e4) / 1e4;
+    }
+  }
+}
+
 TEST(RowFaults, NothingIsWrongWithTheLogItself) {
   const check::Report report = report_of(moving_tool::log());
   EXPECT_TRUE(report.faults.empty()) << check::to_text(report);
@@ -116,6 +125,24 @@ TEST(RowFaults, ForcesThatKeepTheLastValueSeveralTimesAreFrozen) {
     for (const Eigen::Index row : {300, 900, 1500, 2200, 3000}) keep(values, row, 15, kFx, 3);
   });
   expect_first(report, "frozen", "fx");
+}
+
+TEST(RowFaults, CoarseForcesAreQuantisedThoughTheirDigitsAreRounded) {
+  for (const double step : {3.7713 * kForceNoise, 11.037 * kForceNoise}) {
+    expect_first(report_after([&](Eigen::MatrixXd& values) { round_columns(values, kFx, step); }),
+                 "quantisation", "fx");
+  }
+}
+
+TEST(RowFaults, AnglesAndPositionsAreQuantisedWhereTheForceShowsIt) {
+  const double degree = std::acos(-1.0) / 180.0;
+  expect_first(
+      report_after([&](Eigen::MatrixXd& values) { round_columns(values, kAlpha, degree); }),
+      "quantisation", "alpha");
+  expect_first(report_after([](Eigen::MatrixXd& values) { round_columns(values, kX, 0.005); }),
+               "quantisation", "x");
+  expect_none(report_after([](Eigen::MatrixXd& values) { round_columns(values, kX, 1e-4); }),
+              "quantisation");
 }
 
 }  // namespace
