@@ -38,6 +38,17 @@ void drop_consequences(std::vector<Fault>& faults) {
   });
 }
 
+/// Counts and a unit of force explain the same numbers: one or the other.
+void share_units_with_counts(std::vector<Fault>& faults) {
+  double counts = 0.0;
+  for (const Fault& fault : faults) {
+    if (fault.id == "counts") counts = std::max(counts, fault.probability);
+  }
+  for (Fault& fault : faults) {
+    if (fault.id == "force_unit") fault.probability = std::min(fault.probability, 1.0 - counts);
+  }
+}
+
 void drop_readings_of_forces(std::vector<Fault>& faults, const std::string& but = "") {
   std::erase_if(faults, [&](const Fault& fault) {
     return std::any_of(fault_kinds().begin(), fault_kinds().end(), [&](const FaultKind* kind) {
@@ -196,6 +207,7 @@ Report check(const Log& log) {
     if (kind->find == nullptr) continue;
     for (Fault& fault : kind->find(evidence)) report.faults.push_back(std::move(fault));
   }
+  share_units_with_counts(report.faults);
   std::erase_if(report.faults, [](const Fault& fault) { return fault.probability < kListed; });
   drop_consequences(report.faults);
   drop_readings_of_broken_columns(report.faults);

@@ -145,5 +145,15 @@ TEST(RowFaults, AnglesAndPositionsAreQuantisedWhereTheForceShowsIt) {
               "quantisation");
 }
 
+TEST(RowFaults, WholeNumbersAreCountsBeforeTheyAreAnotherUnit) {
+  for (const double per_newton : {25.0, 37.5, 64.0}) {
+    const check::Report report = report_after([&](Eigen::MatrixXd& values) {
+      values.rightCols(3) = (per_newton * values.rightCols(3).array()).round();
+    });
+    expect_first(report, "counts", "fx");
+    expect_none(report, "force_unit");
+  }
+}
+
 }  // namespace
 }  // namespace dcnn
