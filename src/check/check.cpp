@@ -25,7 +25,7 @@ const std::vector<std::pair<std::string, std::string>> kConsequences{
     {"held", "quantisation"}, {"held", "frozen"},           {"held", "delay"},
     {"frozen", "held"},       {"clock_order", "jitter"},    {"moving_rows", "no_motion"},
     {"frozen", "delay"},      {"contact", "position_axes"}, {"no_motion", "delay"},
-    {"spikes", "contact"}};
+    {"spikes", "contact"},    {"dropouts", "contact"}};
 
 void drop_consequences(std::vector<Fault>& faults) {
   const std::vector<Fault> all = faults;
@@ -57,12 +57,19 @@ void drop_readings_of_forces(std::vector<Fault>& faults, const std::string& but 
   });
 }
 
-/// A column that is no force at all leaves nothing to fit a tool to.
-void drop_readings_of_broken_columns(std::vector<Fault>& faults) {
-  const bool broken = std::any_of(faults.begin(), faults.end(), [](const Fault& fault) {
-    return (fault.id == "wrap" || fault.id == "dropouts") && fault.probability >= kLikely;
-  });
-  if (broken) drop_readings_of_forces(faults);
+/// A column that is no force at all leaves nothing to fit a tool to: no reading, and where it wraps
+/// no shift in time and no offset either.
+void drop_readings_of_broken_columns(const Log& log, std::vector<Fault>& faults) {
+  const auto broken = [&](const char* id) {
+    return std::any_of(faults.begin(), faults.end(), [&](const Fault& fault) {
+      return fault.id == id && fault.probability >= kLikely;
+    });
+  };
+  if (log.is_wrist() && broken("wrap")) {
+    std::erase_if(faults,
+                  [](const Fault& fault) { return fault.id == "delay" || fault.id == "zeroed"; });
+  }
+  if (broken("wrap") || broken("dropouts")) drop_readings_of_forces(faults);
 }
 
 /// Certain ones that stop first; a register that wraps before what else its counts show; the rest
@@ -210,7 +217,7 @@ Report check(const Log& log) {
   share_units_with_counts(report.faults);
   std::erase_if(report.faults, [](const Fault& fault) { return fault.probability < kListed; });
   drop_consequences(report.faults);
-  drop_readings_of_broken_columns(report.faults);
+  drop_readings_of_broken_columns(log, report.faults);
   sort_faults(report.faults);
   report.readings = adopted.weights;
   if (report.readings.size() > kReadingsListed) report.readings.resize(kReadingsListed);

@@ -155,5 +155,33 @@ TEST(RowFaults, WholeNumbersAreCountsBeforeTheyAreAnotherUnit) {
   }
 }
 
+// A tool fitted to what begins anew at either end has neither a delay nor an offset.
+TEST(RowFaults, AChannelThatWrapsShowsNoDelayAndNoZero) {
+  const check::Report report = report_after([](Eigen::MatrixXd& values) {
+    for (Eigen::Index j = kFx; j <= kFz; ++j) {
+      const Eigen::VectorXd x = values.col(j);
+      const double gain = 65536.0 / (0.7 * (x.maxCoeff() - x.minCoeff()));
+      for (double& value : values.col(j)) {
+        const double counts = std::floor(gain * (value - x.mean()));
+        value = counts - 65536.0 * std::floor((counts + 32768.0) / 65536.0);
+      }
+    }
+  });
+  ASSERT_FALSE(report.faults.empty());
+  EXPECT_EQ(report.faults[0].id, "wrap") << check::to_text(report);
+  expect_none(report, "delay");
+  expect_none(report, "zeroed");
+}
+
+TEST(RowFaults, ChannelsLostToZeroAreNotLimitedThere) {
+  const check::Report report = report_after([](Eigen::MatrixXd& values) {
+    for (const Eigen::Index row : {300, 900, 1500, 2200, 3000}) {
+      values.col(kFz).segment(row, 6).setZero();
+    }
+  });
+  expect_first(report, "dropouts", "fz");
+  expect_none(report, "saturation");
+}
+
 }  // namespace
 }  // namespace dcnn

@@ -1,19 +1,27 @@
 #include <algorithm>
+#include <cmath>
 
 #include "check/rows.h"
 
 namespace dcnn::check {
 namespace {
 
-/// Rows exactly at the largest value, and those at the next level below it.
+constexpr double kJumps = 5.0;  // deviations of the channel's noise, as of dropouts
+
+/// Rows exactly at the largest value, and those at the next level below it. A limit is come to from
+/// nearby; a channel that jumps to zero and back was lost.
 struct End {
   Eigen::Index at = 0, next = 0, longest = 0, begin = 0;
 };
 
-End end_of(const Eigen::VectorXd& x, double grid) {
+End end_of(const Eigen::VectorXd& x, double grid, double noise) {
   End end;
   const double most = x.maxCoeff();
+  const auto far = [&](Eigen::Index i) {
+    return i >= 0 && i < x.size() && std::abs(x[i] - most) > kJumps * noise;
+  };
   for (const Run& run : runs_of(x)) {
+    if (run.value == 0.0 && far(run.begin - 1) && far(run.begin + run.length)) continue;
     if (run.value == most) {
       end.at += run.length;
       if (run.length > end.longest) end.longest = run.length, end.begin = run.begin;
@@ -44,7 +52,7 @@ void find_saturation_in(const Log& log, const std::string& name, std::vector<Fau
   if (grid <= 0.0) return;
   const double together = rows_of_an_event(x);
   for (const double side : {1.0, -1.0}) {
-    const End end = end_of(side * x, grid);
+    const End end = end_of(side * x, grid, std::max(noise, 0.5 * resolution(x)));
     if (end.longest < 4) continue;
     // Were the end a level like any other, the density at a peak is at most thrice that below,
     // where neighbours within the noise count together.
