@@ -183,5 +183,15 @@ TEST(RowFaults, ChannelsLostToZeroAreNotLimitedThere) {
   expect_none(report, "saturation");
 }
 
+TEST(RowFaults, RowsThatAreStampedInBurstsAreOfOneRate) {
+  const check::Report report = report_after([](Eigen::MatrixXd& values) {
+    for (Eigen::Index i = 0; i < values.rows(); ++i) {
+      values(i, kT) = kStep * static_cast<double>(i - i % 16) + 1e-5 * static_cast<double>(i % 16);
+    }
+  });
+  expect_first(report, "jitter", "t");
+  EXPECT_EQ(report.faults.size(), 1U) << check::to_text(report);
+}
+
 }  // namespace
 }  // namespace dcnn
