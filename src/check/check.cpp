@@ -19,13 +19,13 @@ constexpr std::size_t kReadingsListed = 8;
 /// What one fault does to the statistic of another: the consequence is not listed beside its cause,
 /// where that is certain or the likelier one.
 const std::vector<std::pair<std::string, std::string>> kConsequences{
-    {"counts", "force_unit"}, {"counts", "quantisation"},   {"wrap", "spikes"},
-    {"wrap", "contact"},      {"dropouts", "spikes"},       {"dropouts", "frozen"},
-    {"saturation", "frozen"}, {"frozen", "contact"},        {"saturation", "contact"},
-    {"held", "quantisation"}, {"held", "frozen"},           {"held", "delay"},
-    {"frozen", "held"},       {"clock_order", "jitter"},    {"moving_rows", "no_motion"},
-    {"frozen", "delay"},      {"contact", "position_axes"}, {"no_motion", "delay"},
-    {"spikes", "contact"},    {"dropouts", "contact"}};
+    {"counts", "force_unit"},     {"counts", "quantisation"},   {"wrap", "spikes"},
+    {"wrap", "contact"},          {"dropouts", "spikes"},       {"dropouts", "frozen"},
+    {"saturation", "frozen"},     {"frozen", "contact"},        {"saturation", "contact"},
+    {"held", "quantisation"},     {"held", "frozen"},           {"frozen", "held"},
+    {"clock_order", "jitter"},    {"moving_rows", "no_motion"}, {"frozen", "delay"},
+    {"contact", "position_axes"}, {"no_motion", "delay"},       {"spikes", "contact"},
+    {"dropouts", "contact"}};
 
 void drop_consequences(std::vector<Fault>& faults) {
   const std::vector<Fault> all = faults;

@@ -24,6 +24,9 @@ constexpr double kMostForeign = 0.5;
 /// No plausibility of one quantity counts more than this [nats].
 constexpr double kMostSurprise = 30.0;
 
+/// Probability that what a channel's model leaves looks like a shift in time of its own: of a
+/// joint, whose friction and elasticity nobody describes, and of an axis of a wrist's force.
+constexpr double kJointShift = 0.5, kAxisShift = 0.02;
 /// Spikes of a single row over those of two rows, and over those of three.
 constexpr double kWiderRarer = 3.0;
 

@@ -91,6 +91,8 @@ struct FitOptions {
   bool friction = false;   ///< beside the tool: what is easily taken for a delay or a contact
   /// Its columns as smoothed_friction() has them; null: of the smoothed velocity.
   const Eigen::MatrixXd* columns = nullptr;
+  /// [N] Above 0 each axis has a variance and weights of its own, of this deviation at least.
+  double axis_floor = 0.0;
 };
 /// (n,21), three rows of seven columns each: friction of every row of the log, dry friction
 /// changing its sign over `speed` [m/s], smoothed as the force is. Dry friction of a smoothed
