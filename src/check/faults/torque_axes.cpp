@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 
+#include "check/priors.h"
 #include "check/torque.h"
 #include "core/elementary.h"
 
