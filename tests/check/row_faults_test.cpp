@@ -193,5 +193,22 @@ TEST(RowFaults, RowsThatAreStampedInBurstsAreOfOneRate) {
   EXPECT_EQ(report.faults.size(), 1U) << check::to_text(report);
 }
 
+// Half of the rows at rest: from one pose to the next the motion goes on for several rows.
+TEST(RowFaults, AMotionWithPausesWithoutAClockIsNoListOfPoses) {
+  Table table = moving_tool::log();
+  constexpr Eigen::Index kPiece = 20, kRest = 60;
+  Eigen::MatrixXd paused(kRows, table.values.cols() - 1);
+  std::mt19937 random(2);
+  std::normal_distribution<double> noise;
+  for (Eigen::Index i = 0; i < kRows; ++i) {
+    const Eigen::Index cycle = i / (kPiece + kRest), in = std::min(i % (kPiece + kRest), kPiece);
+    paused.row(i) = table.values.row(cycle * kPiece + in).rightCols(paused.cols());
+    for (Eigen::Index j = 0; j < 6; ++j) paused(i, j) += (j < 3 ? 1e-5 : 6e-5) * noise(random);
+  }
+  table.columns.erase(table.columns.begin());
+  table.values = paused;
+  expect_first(report_of(std::move(table)), "moving_rows", "t");
+}
+
 }  // namespace
 }  // namespace dcnn
