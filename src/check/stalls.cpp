@@ -55,6 +55,11 @@ bool sensors_go_on(const Log& log, const Run& run) {
 Stalls stalls_of_sensor(const Log& log, const std::vector<std::string>& columns) {
   const Eigen::MatrixXd values = log.block(columns);
   std::vector<Run> runs = group_runs(values);
+  // At rest a sensor may repeat its values for long: that is usual there alone.
+  std::erase_if(runs, [&](const Run& run) {
+    return run.length >= kFewestInRun &&
+           relative_motion(log, run.begin, run.begin + run.length) < kMovesOn;
+  });
   std::stable_sort(runs.begin(), runs.end(),
                    [](const Run& a, const Run& b) { return a.length > b.length; });
   const auto n = static_cast<double>(log.rows());
@@ -67,7 +72,7 @@ Stalls stalls_of_sensor(const Log& log, const std::vector<std::string>& columns)
     rows += static_cast<double>(run.length);
     if (rows > kMostInRuns * n) break;
     const bool lost = (values.row(run.begin).array() == 0.0).all();
-    if (lost || relative_motion(log, run.begin, run.begin + run.length) < kMovesOn) continue;
+    if (lost) continue;
     held.push_back(run);
     ++tried;
     const Usual usual = usual_of(runs, k + 1);

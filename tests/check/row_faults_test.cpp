@@ -127,6 +127,20 @@ TEST(RowFaults, ForcesThatKeepTheLastValueSeveralTimesAreFrozen) {
   expect_first(report, "frozen", "fx");
 }
 
+// A sensor that repeats its values at rest tells nothing of one that keeps them on the move.
+TEST(RowFaults, ForcesThatAreKeptAtRestHideNoneThatAreKeptOnTheMove) {
+  const check::Report report = report_after([](Eigen::MatrixXd& values) {
+    for (const Eigen::Index row : {600, 1800, 2600}) {
+      for (Eigen::Index i = row; i < row + 100; ++i) {
+        values.row(i).segment(kX, 6) = values.row(row).segment(kX, 6);
+      }
+      keep(values, row + 20, 60, kFx, 3);
+    }
+    for (const Eigen::Index row : {300, 1200, 2200, 3100}) keep(values, row, 20, kFx, 3);
+  });
+  expect_first(report, "frozen", "fx");
+}
+
 TEST(RowFaults, CoarseForcesAreQuantisedThoughTheirDigitsAreRounded) {
   for (const double step : {3.7713 * kForceNoise, 11.037 * kForceNoise}) {
     expect_first(report_after([&](Eigen::MatrixXd& values) { round_columns(values, kFx, step); }),
