@@ -22,7 +22,8 @@ std::vector<Chain> chains_of(const Log& log, const Reading& declared) {
     if (!kind->combines) continue;
     const std::size_t before = chains.size();
     for (std::size_t k = 0; k < before; ++k) {
-      const Reading from = chains[k].empty() ? declared : chains[k].back();
+      Reading from = chains[k].empty() ? declared : chains[k].back();
+      say_nothing(from);
       std::vector<Reading> variants;
       kind->readings(log, from, variants);
       for (Reading& variant : variants) {

@@ -173,6 +173,7 @@ double adopt_rounds(const Log& log, Motions* motions, Adopted& out) {
   for (int k = 0; k < kRounds; ++k) {
     out.reading.prior = 1.0;
     out.reading.estimated = 0;
+    say_nothing(out.reading);
     const Round round = weigh(log, out.rows, motions, out.reading);
     if (k == 0) list_weights(round, out);
     const Reading& best = round.readings[static_cast<std::size_t>(round.best)];

@@ -161,6 +161,9 @@ TEST(CheckedLogs, UnitsAndASignThatOnlyTogetherMakeAToolAreFoundTogether) {
       })) << check::to_text(report);
     }
     EXPECT_EQ(report.faults.size(), 3U) << check::to_text(report);
+    for (const check::Fault& fault : report.faults) {  // an option mends its own fault alone
+      EXPECT_EQ(fault.flag == "--angle-unit deg", fault.id == "angle_unit") << fault.id;
+    }
   }
 }
 
