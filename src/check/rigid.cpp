@@ -156,7 +156,7 @@ Eigen::MatrixXd smoothed_friction(const Log& log, const Sampled& rows, const Rea
       every.centres.push_back(i);
     }
   }
-  const Eigen::MatrixXd velocity = every.smoothed(log.block(kPosition), rows.first);
+  const Eigen::MatrixXd velocity = every.smoothed(positions_in_base(log, reading), rows.first);
   const auto R_BE = orientations(log, reading);
   Eigen::MatrixXd signals = Eigen::MatrixXd::Zero(log.rows(), 21);
   for (std::size_t k = 0; k < every.centres.size(); ++k) {
