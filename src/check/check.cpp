@@ -19,12 +19,13 @@ constexpr std::size_t kReadingsListed = 8;
 /// What one fault does to the statistic of another: the consequence is not listed beside its cause,
 /// where that is certain or the likelier one.
 const std::vector<std::pair<std::string, std::string>> kConsequences{
-    {"counts", "force_unit"}, {"counts", "quantisation"},   {"wrap", "spikes"},
-    {"wrap", "contact"},      {"dropouts", "spikes"},       {"dropouts", "frozen"},
-    {"saturation", "frozen"}, {"frozen", "contact"},        {"saturation", "contact"},
-    {"held", "quantisation"}, {"held", "frozen"},           {"held", "delay"},
-    {"frozen", "held"},       {"clock_order", "jitter"},    {"moving_rows", "no_motion"},
-    {"frozen", "delay"},      {"contact", "position_axes"}, {"no_motion", "delay"}};
+    {"counts", "force_unit"},     {"counts", "quantisation"},   {"wrap", "spikes"},
+    {"wrap", "contact"},          {"dropouts", "spikes"},       {"dropouts", "frozen"},
+    {"saturation", "frozen"},     {"frozen", "contact"},        {"saturation", "contact"},
+    {"held", "quantisation"},     {"held", "frozen"},           {"frozen", "held"},
+    {"clock_order", "jitter"},    {"moving_rows", "no_motion"}, {"frozen", "delay"},
+    {"contact", "position_axes"}, {"no_motion", "delay"},       {"spikes", "contact"},
+    {"dropouts", "contact"}};
 
 void drop_consequences(std::vector<Fault>& faults) {
   const std::vector<Fault> all = faults;
@@ -37,6 +38,17 @@ void drop_consequences(std::vector<Fault>& faults) {
   });
 }
 
+/// Counts and a unit of force explain the same numbers: one or the other.
+void share_units_with_counts(std::vector<Fault>& faults) {
+  double counts = 0.0;
+  for (const Fault& fault : faults) {
+    if (fault.id == "counts") counts = std::max(counts, fault.probability);
+  }
+  for (Fault& fault : faults) {
+    if (fault.id == "force_unit") fault.probability = std::min(fault.probability, 1.0 - counts);
+  }
+}
+
 void drop_readings_of_forces(std::vector<Fault>& faults, const std::string& but = "") {
   std::erase_if(faults, [&](const Fault& fault) {
     return std::any_of(fault_kinds().begin(), fault_kinds().end(), [&](const FaultKind* kind) {
@@ -45,12 +57,19 @@ void drop_readings_of_forces(std::vector<Fault>& faults, const std::string& but 
   });
 }
 
-/// A column that is no force at all leaves nothing to fit a tool to.
-void drop_readings_of_broken_columns(std::vector<Fault>& faults) {
-  const bool broken = std::any_of(faults.begin(), faults.end(), [](const Fault& fault) {
-    return (fault.id == "wrap" || fault.id == "dropouts") && fault.probability >= kLikely;
-  });
-  if (broken) drop_readings_of_forces(faults);
+/// A column that is no force at all leaves nothing to fit a tool to: no reading, and where it wraps
+/// no shift in time and no offset either.
+void drop_readings_of_broken_columns(const Log& log, std::vector<Fault>& faults) {
+  const auto broken = [&](const char* id) {
+    return std::any_of(faults.begin(), faults.end(), [&](const Fault& fault) {
+      return fault.id == id && fault.probability >= kLikely;
+    });
+  };
+  if (log.is_wrist() && broken("wrap")) {
+    std::erase_if(faults,
+                  [](const Fault& fault) { return fault.id == "delay" || fault.id == "zeroed"; });
+  }
+  if (broken("wrap") || broken("dropouts")) drop_readings_of_forces(faults);
 }
 
 /// Certain ones that stop first; a register that wraps before what else its counts show; the rest
@@ -195,9 +214,10 @@ Report check(const Log& log) {
     if (kind->find == nullptr) continue;
     for (Fault& fault : kind->find(evidence)) report.faults.push_back(std::move(fault));
   }
+  share_units_with_counts(report.faults);
   std::erase_if(report.faults, [](const Fault& fault) { return fault.probability < kListed; });
   drop_consequences(report.faults);
-  drop_readings_of_broken_columns(report.faults);
+  drop_readings_of_broken_columns(log, report.faults);
   sort_faults(report.faults);
   report.readings = adopted.weights;
   if (report.readings.size() > kReadingsListed) report.readings.resize(kReadingsListed);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "check/arm.h"
+#include "check/combined.h"
 #include "check/joints.h"
 #include "check/kind.h"
 #include "check/statistics.h"
@@ -18,76 +19,8 @@ constexpr int kRounds = 3;            // faults that come together
 constexpr double kMentioned = 0.02;   // a rival of less probability is not listed
 constexpr Index kFewestCentres = 6;   // of a fit with seven unknowns
 constexpr double kNoEvidence = -1e9;  // ln of a weight next to none
-constexpr double kLeastMass = 1e-3;   // kg; below, no tool is told from none
-constexpr int kMassSteps = 32;        // from the estimate to the typical mass, even in logarithms
-
-double rms(const Eigen::MatrixXd& m) {
-  return m.rows() == 0 ? 0.0 : std::sqrt(m.squaredNorm() / static_cast<double>(m.rows()));
-}
 
 Eigen::MatrixXd centred(const Eigen::MatrixXd& m) { return m.rowwise() - m.colwise().mean(); }
-
-double motion_weight(const Log& log, const Kinematics& motion, const Reading& reading) {
-  double sum = 0.0;
-  if (log.smooth && log.step > 0.0) {
-    const double dt = log.step * reading.clock;
-    sum += plausibility(std::max(rms(motion.w) / dt, 1e-9), kTurnSpeed);
-    if (motion.has_position) {
-      sum += plausibility(std::max(reading.position * rms(motion.velocity) / dt, 1e-9), kSpeed);
-    }
-  }
-  if (motion.has_position) {
-    sum += plausibility(std::max(reading.position * rms(centred(motion.position)), 1e-9), kReach);
-    sum += plausibility(std::max(reading.position * rms(motion.position), 1e-9), kDistance);
-  }
-  return sum;
-}
-
-double angle_weight(const Log& log, const Reading& reading) {
-  double most = 0.0;
-  if (log.has_all(kEuler) && !log.has_quaternion()) {
-    most = rms(centred(log.block(kEuler))) / std::sqrt(3.0);
-  }
-  for (const std::size_t j : log.arm) {  // a limb's, with its limits
-    const Joint& joint = log.joints[j];
-    if (joint.turns) most = std::max(most, rms(centred(log.column(joint.position))));
-  }
-  return most > 0.0 ? plausibility(reading.angle * most, kTurn) : 0.0;
-}
-
-double mass_weight(const Log& log, const Sampled& rows, const RigidFit& fit,
-                   const Reading& reading) {
-  if (reading.compensated && !reading.weight_apart) return 0.0;
-  Typical typical = kMass;
-  if (log.declared.model) {
-    typical = {log.declared.model->mass, kNominalMassSpread, kNominalMassSpread};
-  }
-  // The likeliest mass under the prior and the recording together: one that a motion hardly shows,
-  // because it hardly turns the tool, is no surprise whatever its estimate.
-  const auto weight = [&](double mass) {
-    const double z = (mass - fit.free_mass) / std::max(fit.mass_spread, 1e-300);
-    // Controllers subtract a mass that is meant to be the tool's.
-    const double subtracted =
-        reading.weight_apart ? plausibility((mass - fit.weighed) / mass, kSubtracted) : 0.0;
-    return plausibility(mass, typical) + subtracted -
-           0.5 * independent_residuals(rows) * elementary::log(1.0 + z * z);
-  };
-  const double estimate = std::max(fit.free_mass, kLeastMass);
-  double best = weight(estimate);
-  for (int k = 1; k <= kMassSteps; ++k) {
-    const double share = static_cast<double>(k) / kMassSteps;
-    best = std::max(best, weight(estimate * elementary::pow(typical.median / estimate, share)));
-  }
-  return best;
-}
-
-double fit_weight(const Log& log, const Sampled& rows, const RigidFit& fit,
-                  const Reading& reading) {
-  const Eigen::MatrixXd logged = rows.smoothed(log.block({"fx", "fy", "fz"}), rows.value);
-  const double floor = kToolError * rms(centred(logged)) / std::sqrt(3.0);
-  // In the units of the log: a density of what was logged.
-  return -0.5 * independent_residuals(rows) * log_variance(fit.residual / reading.force, floor);
-}
 
 /// Kinematics by what they depend on: many readings share them.
 class Motions {
@@ -214,10 +147,6 @@ void list_weights(const Round& round, Adopted& out) {
 
 }  // namespace
 
-double independent_residuals(const Sampled& rows) {
-  return std::min(kMostIndependent, 0.75 * static_cast<double>(rows.centres.size()));
-}
-
 Reading declared_reading(const Log& log) {
   Reading reading;
   reading.position = log.declared.read.position_unit;
@@ -232,35 +161,50 @@ Reading declared_reading(const Log& log) {
   return reading;
 }
 
-double log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
-                  const Reading& reading) {
-  // Schwarz' penalty for what was estimated.
-  double sum = elementary::log(reading.prior) + angle_weight(log, reading) -
-               0.5 * reading.estimated * elementary::log(independent_residuals(rows));
-  if (log.smooth && log.step > 0.0) sum += clock_weight(log, reading.clock);
-  if (!log.joints.empty()) {
-    if (log.step > 0.0) sum += rates_weight(log, rows, reading);
-    if (log.arm.empty()) sum += angles_weight(log, rows, reading);
-  }
-  if (can_fit_arm(log, rows)) sum += arm_weight(log, rows, reading);
-  if (motion == nullptr) return sum;
-  sum += motion_weight(log, *motion, reading);
-  const auto weight = [&](const Reading& as) {
-    const RigidFit fit = fit_rigid(log, rows, *motion, as, {0, true});
-    return mass_weight(log, rows, fit, as) + fit_weight(log, rows, fit, as);
-  };
-  const double own = weight(reading);
-  if (!motion->has_position || reading.fault == "position_unit") return sum + own;
-  // Positions in a larger unit would explain, too, that nothing of their accelerations is felt.
-  Reading quasi_static = reading;
-  quasi_static.position = 0.0;
-  return sum + std::max(own, weight(quasi_static) + elementary::log(kQuasiStatic));
-}
-
 /// Whether the force never changes: then no reading of the log explains more of it than another.
 bool is_dead(const Log& log) {
   return never_changes(log.column("fx")) && never_changes(log.column("fy")) &&
          never_changes(log.column("fz"));
+}
+
+/// Faults one after another from `out.reading` on; the prior of all that are applied.
+double adopt_rounds(const Log& log, Motions* motions, Adopted& out) {
+  double prior = 1.0;
+  for (int k = 0; k < kRounds; ++k) {
+    out.reading.prior = 1.0;
+    out.reading.estimated = 0;
+    say_nothing(out.reading);
+    const Round round = weigh(log, out.rows, motions, out.reading);
+    if (k == 0) list_weights(round, out);
+    const Reading& best = round.readings[static_cast<std::size_t>(round.best)];
+    list_rivals(round, out);
+    if (best.fault.empty()) break;
+    out.faults.push_back(fault_from(round, best));
+    if (out.faults.back().probability < kLikely) break;
+    out.reading = best;
+    prior *= best.prior;
+  }
+  return prior;
+}
+
+/// Where one fault at a time has led somewhere, or to no tool that explains the force: several at
+/// once.
+void adopt_combined(const Log& log, double prior, Motions& motions, Adopted& out) {
+  const RigidFit fit = fit_rigid(log, out.rows, motions.of(out.reading), out.reading, {0, true});
+  const double share = fit.residual.squaredNorm() / centred(fit.force).squaredNorm();
+  if (prior == 1.0 && fit.mass > 0.0 && share < kMostForeign) return;
+  Reading rival = out.reading;
+  rival.prior = prior;
+  const Combined found = combine(log, out.rows, declared_reading(log), rival);
+  if (found.parts.empty()) return;
+  out.faults.clear(), out.weights.clear();
+  out.reading = found.parts.back();
+  adopt_rounds(log, &motions, out);
+  for (std::size_t k = 0; k < found.parts.size(); ++k) {
+    const Reading& part = found.parts[k];
+    const Round alone{{part}, {}, {{part.fault, found.probability[k]}}, 0};
+    out.faults.push_back(fault_from(alone, part));
+  }
 }
 
 Adopted adopt(const Log& log) {
@@ -271,19 +215,9 @@ Adopted adopt(const Log& log) {
                  !is_dead(log);
   out.independent = independent_residuals(out.rows);
   Motions motions(log, out.rows);
-  for (int k = 0; k < kRounds; ++k) {
-    out.reading.prior = 1.0;
-    out.reading.estimated = 0;
-    const Round round = weigh(log, out.rows, out.compared ? &motions : nullptr, out.reading);
-    if (k == 0) list_weights(round, out);
-    const Reading& best = round.readings[static_cast<std::size_t>(round.best)];
-    list_rivals(round, out);
-    if (best.fault.empty()) break;
-    out.faults.push_back(fault_from(round, best));
-    if (out.faults.back().probability < kLikely) break;
-    out.reading = best;
-  }
+  const double prior = adopt_rounds(log, out.compared ? &motions : nullptr, out);
   if (out.compared) {
+    adopt_combined(log, prior, motions, out);
     out.motion = motions.of(out.reading);
     out.fit = fit_rigid(log, out.rows, out.motion, out.reading);
   }

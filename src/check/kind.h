@@ -36,6 +36,7 @@ struct FaultKind {
   bool of_force = false;  ///< a reading of the forces or of their frame
   /// Readings whose numbers are estimated, by fits of the reading that they alter.
   void (*estimates)(const Fitting& fitting, std::vector<Reading>& out) = nullptr;
+  bool combines = false;  ///< its readings are weighed together with those of its like, too
 };
 
 #define FAULT(id) extern const FaultKind id##_fault;

@@ -150,6 +150,16 @@ std::vector<Eigen::Matrix3d> orientations(const Log& log, const Reading& reading
   return R;
 }
 
+Eigen::MatrixXd positions_in_base(const Log& log, const Reading& reading) {
+  Eigen::MatrixXd x = log.block(kPosition);
+  if (!reading.orientation.inverse_position) return x;
+  const auto R = orientations(log, reading);
+  for (Index i = 0; i < x.rows(); ++i) {
+    x.row(i) = -(R[static_cast<std::size_t>(i)] * x.row(i).transpose()).transpose();
+  }
+  return x;
+}
+
 Kinematics kinematics(const Log& log, const Sampled& rows, const Reading& reading) {
   Kinematics out;
   const auto n = static_cast<Index>(rows.centres.size());
@@ -161,7 +171,7 @@ Kinematics kinematics(const Log& log, const Sampled& rows, const Reading& readin
   out.position = out.velocity = out.acceleration = Eigen::MatrixXd::Zero(n, 3);
   out.has_position = log.has_all(kPosition);
   if (!out.has_position) return out;
-  const Eigen::MatrixXd x = log.block(kPosition);
+  const Eigen::MatrixXd x = positions_in_base(log, reading);
   out.position = rows.smoothed(x, rows.value);
   if (!moving) return out;
   out.velocity = rows.smoothed(x, rows.first);

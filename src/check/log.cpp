@@ -14,6 +14,8 @@ using Names = std::vector<std::string>;
 constexpr double kGapSteps = 5.0;      // a longer step is a gap, as in every reader
 constexpr double kSmoothRatio = 0.05;  // of von Neumann's ratio, 2 for rows in any order
 constexpr Eigen::Index kFewRows = 50;
+constexpr std::size_t kFewestBursts = 20;  // whose lengths agree by chance next to never
+constexpr double kRegular = 0.9;           // of bursts that are of one length
 
 Eigen::Index find_column(const Table& table, const std::string& name) {
   const auto it = std::find(table.columns.begin(), table.columns.end(), name);
@@ -91,6 +93,18 @@ double neighbours_ratio(const Log& log) {
       Eigen::Map<Eigen::VectorXd>(ratios.data(), static_cast<Eigen::Index>(ratios.size())));
 }
 
+/// Rows of a burst where a source hands over so many at once (packets of USB or a network): pieces
+/// between gaps are of one length, nearly all; 0 elsewhere. Gaps of a recording come as they like.
+Eigen::Index burst_of(const std::vector<Segment>& segments) {
+  if (segments.size() < kFewestBursts) return 0;
+  std::vector<Eigen::Index> lengths;
+  for (const Segment& piece : segments) lengths.push_back(piece.end - piece.begin);
+  std::sort(lengths.begin(), lengths.end());
+  const Eigen::Index usual = lengths[lengths.size() / 2];
+  const auto alike = std::count(lengths.begin(), lengths.end(), usual);
+  return static_cast<double>(alike) > kRegular * static_cast<double>(lengths.size()) ? usual : 0;
+}
+
 std::vector<Segment> segments_of(const Log& log) {
   std::vector<Segment> segments{{0, log.rows()}};
   for (Eigen::Index i = 1; i < log.t.size(); ++i) {
@@ -151,7 +165,7 @@ Names Log::positions() const {
 }
 
 Log make_log(const std::string& name, Table table, const Declared& declared) {
-  Log log{name, std::move(table), declared, {}, {}, {}, 0.0, false, {}};
+  Log log{name, std::move(table), declared, {}, {}, {}, 0.0, false, {}, 0};
   const bool axes = declared.system.kind == System::Kind::kAxes;
   log.joints = axes ? declared_joints(declared.system) : recognised_joints(log);
   for (const Joint& joint : log.joints) {
@@ -167,6 +181,11 @@ Log make_log(const std::string& name, Table table, const Declared& declared) {
   }
   log.smooth = log.rows() >= kFewRows && neighbours_ratio(log) < kSmoothRatio;
   log.segments = log.step > 0.0 ? segments_of(log) : std::vector<Segment>{{0, log.rows()}};
+  log.burst = burst_of(log.segments);
+  if (log.burst > 0) {  // rows are as regular as their number, their stamps are not
+    log.step = log.t[log.rows() - 1] / static_cast<double>(log.rows() - 1);
+    log.segments = {{0, log.rows()}};
+  }
   return log;
 }
 

@@ -24,6 +24,12 @@ constexpr double kMostForeign = 0.5;
 /// No plausibility of one quantity counts more than this [nats].
 constexpr double kMostSurprise = 30.0;
 
+/// Probability that what a channel's model leaves looks like a shift in time of its own: of a
+/// joint, whose friction and elasticity nobody describes, and of an axis of a wrist's force.
+constexpr double kJointShift = 0.5, kAxisShift = 0.02;
+/// Spikes of a single row over those of two rows, and over those of three.
+constexpr double kWiderRarer = 3.0;
+
 /// Relative error of a link's described mass, moment and inertia.
 constexpr double kLinkError = 0.3;
 /// Share of a joint's torque that a described arm may be wrong by.

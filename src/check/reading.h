@@ -16,6 +16,7 @@ struct Orientation {
   std::string order;                    ///< of elementary turns, "zyx"; of a quaternion, "wxyz"
   bool reversed = false;                ///< the first column belongs to the last letter
   bool inverse = false;                 ///< the log holds R_EB
+  bool inverse_position = false;        ///< and the base's position in E: x = -R_BE x_logged
   Eigen::Vector3d sign{1.0, 1.0, 1.0};  ///< of the Euler angles
 
   bool operator==(const Orientation&) const = default;
@@ -45,6 +46,12 @@ struct Reading {
   int estimated = 0;          ///< numbers chosen to suit the log
 };
 
+/// What was said of a reading's fault is not said of the next one, which begins from it.
+inline void say_nothing(Reading& reading) {
+  reading.words.clear(), reading.channel.clear(), reading.flag.clear(), reading.remedy.clear();
+  reading.harmless = false;
+}
+
 /// Rows of the log on which readings are compared, smoothed over some 0.12 s, with derivatives
 /// per sample: units of the clock come later.
 struct Sampled {
@@ -72,6 +79,8 @@ Kinematics kinematics(const Log& log, const Sampled& rows, const Reading& readin
 
 /// R_BE of every row.
 std::vector<Eigen::Matrix3d> orientations(const Log& log, const Reading& reading);
+/// Positions in B of every row, in the unit of the log, (T,3).
+Eigen::MatrixXd positions_in_base(const Log& log, const Reading& reading);
 
 /// F = m field - m (dw x c + w x (w x c)) + bias, by robust least squares. Where the weight is
 /// apart, field is without gravity, and there is a term weighed·R^T g.
@@ -91,6 +100,8 @@ struct FitOptions {
   bool friction = false;   ///< beside the tool: what is easily taken for a delay or a contact
   /// Its columns as smoothed_friction() has them; null: of the smoothed velocity.
   const Eigen::MatrixXd* columns = nullptr;
+  /// [N] Above 0 each axis has a variance and weights of its own, of this deviation at least.
+  double axis_floor = 0.0;
 };
 /// (n,21), three rows of seven columns each: friction of every row of the log, dry friction
 /// changing its sign over `speed` [m/s], smoothed as the force is. Dry friction of a smoothed

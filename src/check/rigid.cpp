@@ -84,7 +84,7 @@ Design design_of(const Log& log, const Sampled& rows, const Kinematics& motion,
 
 /// Weighted least squares with a faint ridge for what the motion does not show; without the tool,
 /// its four columns are held at zero, the mass and its moment.
-Eigen::VectorXd solve(const Design& design, const Eigen::VectorXd& weight, bool with_tool,
+Eigen::VectorXd solve(const Design& design, const Eigen::MatrixXd& weight, bool with_tool,
                       Eigen::MatrixXd& normal) {
   const Index columns = design.rows[0].cols();
   normal.setZero(columns, columns);
@@ -92,8 +92,9 @@ Eigen::VectorXd solve(const Design& design, const Eigen::VectorXd& weight, bool 
   for (std::size_t i = 0; i < design.rows.size(); ++i) {
     const auto& A = design.rows[i];
     const auto k = static_cast<Index>(i);
-    normal.noalias() += weight[k] * A.transpose() * A;
-    right.noalias() += weight[k] * A.transpose() * design.force.row(k).transpose();
+    const Eigen::MatrixXd weighted = weight.row(k).asDiagonal() * A;
+    normal.noalias() += weighted.transpose() * A;
+    right.noalias() += weighted.transpose() * design.force.row(k).transpose();
   }
   // Moments are known to some 0.3 kg m, where an equation is good to 0.3 N.
   for (Index k = 0; k < 4; ++k) normal(k, k) += with_tool ? (k == 0 ? 1e-9 : 1.0) : 1e15;
@@ -102,10 +103,29 @@ Eigen::VectorXd solve(const Design& design, const Eigen::VectorXd& weight, bool 
   return normal.ldlt().solve(right);
 }
 
-double fit_once(const Design& design, bool with_tool, RigidFit& fit, Eigen::MatrixXd& normal,
-                Eigen::VectorXd& x) {
+/// Cauchy's weights of rows alone, or of each axis by a variance of its own, relative to the mean
+/// one; (n,3).
+Eigen::MatrixXd weights_of(const RigidFit& fit, double axis_floor) {
+  constexpr double kHalf = kOwnScale * kOwnScale;
+  if (axis_floor <= 0.0) {
+    const Eigen::ArrayXd squares = fit.residual.rowwise().squaredNorm().array();
+    return (1.0 + squares / (3.0 * kHalf * fit.variance)).inverse().matrix().replicate(1, 3);
+  }
+  Eigen::MatrixXd weight(fit.residual.rows(), 3);
+  for (Index j = 0; j < 3; ++j) {
+    const Eigen::VectorXd squares = fit.residual.col(j).cwiseAbs2();
+    const double variance = median(squares) / chi_square_median(1) + axis_floor * axis_floor;
+    weight.col(j) =
+        fit.variance / variance * (1.0 + squares.array() / (kHalf * variance)).inverse();
+  }
+  return weight;
+}
+
+double fit_once(const Design& design, bool with_tool, double axis_floor, RigidFit& fit,
+                Eigen::MatrixXd& normal, Eigen::VectorXd& x) {
   const auto n = static_cast<Index>(design.rows.size());
-  Eigen::VectorXd weight = Eigen::VectorXd::Ones(n), squares(n);
+  Eigen::MatrixXd weight = Eigen::MatrixXd::Ones(n, 3);
+  Eigen::VectorXd squares(n);
   fit.residual.resize(n, 3);
   for (int k = 0; k < kMostReweightings; ++k) {
     x = solve(design, weight, with_tool, normal);
@@ -117,7 +137,7 @@ double fit_once(const Design& design, bool with_tool, RigidFit& fit, Eigen::Matr
     const double before = k == 0 ? 0.0 : fit.variance;
     fit.variance = std::max(median(squares) / chi_square_median(3), 1e-300);
     if (std::abs(fit.variance - before) <= kSettled * before) break;
-    weight = (1.0 + squares.array() / (3.0 * kOwnScale * kOwnScale * fit.variance)).inverse();
+    weight = weights_of(fit, axis_floor);
   }
   return x[0];
 }
@@ -136,7 +156,7 @@ Eigen::MatrixXd smoothed_friction(const Log& log, const Sampled& rows, const Rea
       every.centres.push_back(i);
     }
   }
-  const Eigen::MatrixXd velocity = every.smoothed(log.block(kPosition), rows.first);
+  const Eigen::MatrixXd velocity = every.smoothed(positions_in_base(log, reading), rows.first);
   const auto R_BE = orientations(log, reading);
   Eigen::MatrixXd signals = Eigen::MatrixXd::Zero(log.rows(), 21);
   for (std::size_t k = 0; k < every.centres.size(); ++k) {
@@ -169,12 +189,12 @@ RigidFit fit_rigid(const Log& log, const Sampled& rows, const Kinematics& motion
   Design design = design_of(log, rows, motion, reading, options);
   Eigen::MatrixXd normal;
   Eigen::VectorXd x;
-  fit.free_mass = fit_once(design, true, fit, normal, x);
+  fit.free_mass = fit_once(design, true, options.axis_floor, fit, normal, x);
   const Eigen::VectorXd first = Eigen::VectorXd::Unit(normal.rows(), 0);
   fit.mass_spread = std::sqrt(3.0 * static_cast<double>(design.rows.size()) * fit.variance *
                               std::max(0.0, normal.ldlt().solve(first)[0]));
   // No tool has a negative mass: then the reading explains nothing but a constant.
-  if (fit.free_mass <= 0.0) fit_once(design, false, fit, normal, x);
+  if (fit.free_mass <= 0.0) fit_once(design, false, options.axis_floor, fit, normal, x);
   fit.mass = std::max(0.0, x[0]);
   fit.moment = x.segment<3>(1);
   fit.bias = x.segment<3>(4);

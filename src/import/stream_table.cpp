@@ -54,6 +54,24 @@ const LogStream& stream_of(const ForeignLog& log, const std::string& name) {
   fail(Exit::kData, log.file, ": has no stream ", shown(name), "; it has ", excerpt(all, 200));
 }
 
+/// Without rows that repeat the one before in time and in every column: a line written twice.
+void drop_twins(const LogStream& stream, const std::vector<double>& times,
+                const std::vector<std::vector<double>>& columns, std::vector<std::size_t>* rows,
+                std::vector<std::string>* notes) {
+  const auto same = [&](std::size_t a, std::size_t b) {
+    return times[a] == times[b] &&
+           std::all_of(columns.begin(), columns.end(),
+                       [&](const auto& column) { return column[a] == column[b]; });
+  };
+  const std::size_t before = rows->size();
+  rows->erase(std::unique(rows->begin(), rows->end(), same), rows->end());
+  if (const std::size_t twins = before - rows->size(); twins > 0) {
+    notes->push_back(stream.name + ": " + std::to_string(twins) +
+                     (twins == 1 ? " row repeats" : " rows repeat") +
+                     " the one before, time and all: left out");
+  }
+}
+
 /// Rows in the order in which they are used: numbers everywhere, times increasing.
 std::vector<std::size_t> usable_rows(const ForeignLog& log, const LogStream& stream,
                                      const std::vector<double>& times,
@@ -87,6 +105,7 @@ std::vector<std::size_t> usable_rows(const ForeignLog& log, const LogStream& str
     }
   }
   if (!message) {
+    drop_twins(stream, times, columns, &rows, notes);
     std::vector<std::size_t> kept = unbroken_rows(rows, times, columns);
     if (const std::size_t lost = rows.size() - kept.size(); lost > 0) {
       const auto first = std::mismatch(kept.begin(), kept.end(), rows.begin()).second;

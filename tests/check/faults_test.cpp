@@ -142,6 +142,31 @@ TEST(CheckedLogs, TwoFaultsOfUnitsAreFoundTogether) {
   EXPECT_TRUE(has("position_unit")) << check::to_text(report);
 }
 
+// A force of the other sign under angles in degrees: neither alone makes a tool of it.
+TEST(CheckedLogs, UnitsAndASignThatOnlyTogetherMakeAToolAreFoundTogether) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    conceal::FaultyLog made = conceal::make_faulty("angle_deg", seed);
+    const auto column = [&](const char* name) {
+      const auto at = std::find(made.table.columns.begin(), made.table.columns.end(), name);
+      return made.table.values.col(at - made.table.columns.begin());
+    };
+    for (const char* name : {"fx", "fy", "fz"}) column(name) *= -1.0;
+    column("t") *= 1e3;
+    check::Declared declared;
+    declared.model = parse_tool_model(made.simulator, "sim.json", Exit::kData);
+    const check::Report report = check::check(check::make_log("three.csv", made.table, declared));
+    for (const char* fault : {"angle_unit", "clock_unit", "reaction"}) {
+      EXPECT_TRUE(std::any_of(report.faults.begin(), report.faults.end(), [&](const auto& found) {
+        return found.id == fault && found.probability >= check::kCertain;
+      })) << check::to_text(report);
+    }
+    EXPECT_EQ(report.faults.size(), 3U) << check::to_text(report);
+    for (const check::Fault& fault : report.faults) {  // an option mends its own fault alone
+      EXPECT_EQ(fault.flag == "--angle-unit deg", fault.id == "angle_unit") << fault.id;
+    }
+  }
+}
+
 /// A motor's current in steps of 0.05 A, two rows each, that a drive limits to +-`limit`; at rest
 /// for `rest` rows at the end of each of the swings.
 check::Report check_of_current(double limit, Eigen::Index rest) {

@@ -108,6 +108,23 @@ TEST(RoughLogs, BrokenRowsAreLeftOutAndSaid) {
       << imported.notes.front();
 }
 
+// More than one in a hundred; a row with the same time and another value would be refused.
+TEST(RoughLogs, RowsThatAreThereTwiceAreLeftOut) {
+  std::ostringstream text;
+  text << std::setprecision(12) << "t [s],Position1,Velocity1,Torque1\n";
+  for (int k = 0; k < 200; ++k) {
+    const Row row = row_at(k, 1e-2);
+    for (int times = k % 20 == 7 ? 2 : 1; times > 0; --times) {
+      text << row.t << "," << row.q << "," << row.v << ",1\n";
+    }
+  }
+  const Imported imported = import_text(text.str());
+  EXPECT_EQ(imported.table.values.rows(), 200);
+  ASSERT_FALSE(imported.notes.empty());
+  EXPECT_NE(imported.notes.front().find("10 rows repeat"), std::string::npos)
+      << imported.notes.front();
+}
+
 TEST(RoughLogs, AClockThatWasSetAnewIsNoBrokenRow) {
   std::vector<std::size_t> rows(1000);
   std::vector<double> times(1000);

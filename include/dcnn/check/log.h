@@ -39,6 +39,7 @@ struct Log {
   double step = 0.0;    ///< median of its steps; 0 without a clock
   bool smooth = false;  ///< neighbouring rows are near each other, as samples of a motion are
   std::vector<Segment> segments;  ///< without a gap of more than 5 steps
+  Eigen::Index burst = 0;  ///< rows that are stamped at once, where `step` is the mean; 0 elsewhere
 
   Eigen::Index rows() const { return table.values.rows(); }
   bool has(const std::string& column) const;

@@ -31,6 +31,7 @@ void angle_units(const Log& log, const Reading& base, std::vector<Reading>& out)
 
 const FaultKind angle_unit_fault{
     "angle_unit", true,    "declare the unit of the angles, or write radians",
-    "",           nullptr, angle_units};
+    "",           nullptr, angle_units,
+    false,        nullptr, true};
 
 }  // namespace dcnn::check

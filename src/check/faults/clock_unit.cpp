@@ -20,6 +20,7 @@ void clock_units(const Log& log, const Reading& base, std::vector<Reading>& out)
 
 }  // namespace
 
-const FaultKind clock_unit_fault{"clock_unit", true, "write t in seconds", "", nullptr, clock_units};
+const FaultKind clock_unit_fault{
+    "clock_unit", true, "write t in seconds", "", nullptr, clock_units, false, nullptr, true};
 
 }  // namespace dcnn::check

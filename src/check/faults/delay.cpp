@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "check/held.h"
 #include "check/joints.h"
 #include "check/rows.h"
 #include "core/elementary.h"
@@ -9,7 +10,6 @@ namespace dcnn::check {
 namespace {
 
 constexpr Eigen::Index kMostShift = 40;
-constexpr double kOwnShift = 0.5;
 constexpr std::size_t kFewestForDelay = 100;  // rows, of a fit of a joint's torque
 /// Speeds [m/s] over which dry friction changes its sign: about what the window makes of any, and a
 /// sharp one.
@@ -77,8 +77,48 @@ Eigen::VectorXd gains_of(const JointShift& joint, Eigen::Index reach) {
   return independent * (double(cost[reach]) - cost.array());
 }
 
-/// One delay for the torques of all joints. What a joint's model leaves may look like a shift of
-/// its own, with the probability kOwnShift; no such shift is another joint's.
+/// Rows by which the force lags because it is held for k rows, or leads because the pose is: the
+/// value is older by (k-1)/2 rows in the mean.
+Eigen::Index held_shift(const Log& log) {
+  const auto lag = [&](const std::vector<std::string>& names) {
+    const Held held = held_of(log, names);
+    return held.probability >= kLikely ? held.length / 2 : 0;
+  };
+  return lag({"fx", "fy", "fz"}) - lag(log.positions());
+}
+
+/// One delay for all channels, by each one's gains (shifts,channels) of log-likelihood for shifts
+/// from -K to K, against the shift that held values explain. What a channel's model leaves may look
+/// like a shift of its own, with the probability `own_shift`; no such shift is another channel's.
+std::vector<Fault> delay_of(const Evidence& e, const Eigen::MatrixXd& gains, double own_shift,
+                            Eigen::Index held, const std::string& channel,
+                            const std::string& what) {
+  const Eigen::Index reach = gains.rows() / 2;
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(gains.rows());
+  for (Eigen::Index k = 0; k < gains.cols(); ++k) {
+    const Eigen::VectorXd likelihood =
+        elementary::exp(gains.col(k).array() - double(gains.col(k).maxCoeff()));
+    const double own = own_shift * likelihood.mean();
+    weight.array() += elementary::log(own + (1.0 - own_shift) * likelihood.array());
+  }
+  // What is held explains its shift to a row.
+  const Eigen::Index slack = held == 0 ? 0 : 1;
+  const Eigen::Index begin =
+      std::clamp<Eigen::Index>(reach + std::min<Eigen::Index>(held, 0) - slack, 0, 2 * reach);
+  const Eigen::Index end = std::clamp<Eigen::Index>(
+      reach + std::max<Eigen::Index>(held, 0) + slack + 1, 1, 2 * reach + 1);
+  weight.array() -= double(weight.segment(begin, end - begin).maxCoeff());
+  weight.segment(begin, end - begin).setConstant(-INFINITY);
+  Eigen::Index best = 0;
+  const double most = weight.maxCoeff(&best);
+  if (!std::isfinite(most)) return {};
+  const double sum = elementary::exp(weight.array() - most).sum();
+  const double odds =
+      kFaultPrior / static_cast<double>(2 * reach) * sum * elementary::exp(std::min(most, 600.0));
+  return delay_fault_of(e, odds, best - reach, channel, what);
+}
+
+/// One delay for the torques of all joints.
 std::vector<Fault> find_joint_delay(const Evidence& e) {
   const Sampled& rows = e.adopted.rows;
   if (rows.half == 0 || rows.centres.size() < kFewestForDelay) return {};
@@ -88,70 +128,86 @@ std::vector<Fault> find_joint_delay(const Evidence& e) {
     motions.push_back(joint_motion(e.log, rows, e.adopted.reading, *joint));
   }
   const Eigen::Index reach = std::min(kMostShift, e.log.rows() / 20);
-  Eigen::VectorXd weight = Eigen::VectorXd::Zero(2 * reach + 1);
+  Eigen::MatrixXd gains(2 * reach + 1, static_cast<Eigen::Index>(joints.size()));
   for (std::size_t k = 0; k < joints.size(); ++k) {
-    const Eigen::VectorXd gain = gains_of(JointShift(e, joints, motions, k), reach);
-    const double most = gain.maxCoeff();
-    const Eigen::VectorXd likelihood = elementary::exp(gain.array() - most);
-    const double own = kOwnShift * likelihood.mean();
-    weight.array() += elementary::log(own + (1.0 - kOwnShift) * likelihood.array());
+    gains.col(static_cast<Eigen::Index>(k)) = gains_of(JointShift(e, joints, motions, k), reach);
   }
-  weight.array() -= double(weight[reach]);
-  weight[reach] = -INFINITY;
-  Eigen::Index best = 0;
-  const double most = weight.maxCoeff(&best);
-  const double sum = elementary::exp(weight.array() - most).sum();
-  const double odds =
-      kFaultPrior / static_cast<double>(2 * reach) * sum * elementary::exp(std::min(most, 600.0));
-  return delay_fault_of(e, odds, best - reach, joints.empty() ? "" : joints[0]->measured,
-                        "the joints' torque");
+  return delay_of(e, gains, kJointShift, 0, joints.empty() ? "" : joints[0]->measured,
+                  "the joints' torque");
 }
 
-/// Gain of log-likelihood by shifting the force, for shifts -K … K; penalised by their number.
+/// The force less what a rigid tool explains, for any shift in rows, axis by axis: physics that
+/// acts along one of them leaves the others' weights as they are.
+class ForceShift {
+ public:
+  explicit ForceShift(const Evidence& e) : e_(e) {
+    const Adopted& a = e.adopted;
+    for (const double speed : kFrictionSpeeds) {
+      if (!a.motion.has_position) break;
+      frictions_.push_back(smoothed_friction(e.log, a.rows, a.reading, speed));
+    }
+    if (frictions_.empty()) frictions_.emplace_back();
+    const Eigen::MatrixXd about = a.fit.force.rowwise() - a.fit.force.colwise().mean();
+    floor_ = kToolError * about.norm() / std::sqrt(static_cast<double>(about.size()));
+  }
+
+  /// With the friction that suits this shift best, (n,3).
+  Eigen::MatrixXd residual(Eigen::Index shift) const {
+    Eigen::MatrixXd least;
+    for (const Eigen::MatrixXd& friction : frictions_) {
+      FitOptions options{shift, true, friction.size() > 0 ? &friction : nullptr};
+      options.axis_floor = floor_;
+      Eigen::MatrixXd here =
+          fit_rigid(e_.log, e_.adopted.rows, e_.adopted.motion, e_.adopted.reading, options)
+              .residual;
+      if (least.size() == 0 || costs(here).sum() < costs(least).sum()) least = std::move(here);
+    }
+    return least;
+  }
+
+  Eigen::Vector3d costs(const Eigen::MatrixXd& residual) const {
+    Eigen::Vector3d costs;
+    for (Eigen::Index j = 0; j < 3; ++j) costs[j] = 0.5 * log_variance(residual.col(j), floor_);
+    return costs;
+  }
+
+  /// Gains of log-likelihood of each axis by shifts from -reach to reach, (shifts,3).
+  Eigen::MatrixXd gains(Eigen::Index reach) const {
+    Eigen::MatrixXd cost(2 * reach + 1, 3);
+    Eigen::MatrixXd best;
+    double least = INFINITY;
+    for (Eigen::Index s = -reach; s <= reach; ++s) {
+      Eigen::MatrixXd here = residual(s);
+      cost.row(s + reach) = costs(here).transpose();
+      if (cost.row(s + reach).sum() < least) {
+        least = cost.row(s + reach).sum();
+        best = std::move(here);
+      }
+    }
+    // A delay leaves a residual that is alike for long; how many are independent the better one
+    // tells.
+    Eigen::MatrixXd gain(cost.rows(), 3);
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      const double independent = std::min(kMostIndependent, independent_of(best.col(j)));
+      gain.col(j) = independent * (double(cost(reach, j)) - cost.col(j).array());
+    }
+    return gain;
+  }
+
+ private:
+  const Evidence& e_;
+  std::vector<Eigen::MatrixXd> frictions_;
+  double floor_ = 0.0;
+};
+
+/// One delay for all axes of the force. What physics beyond the tool leaves along one of them may
+/// look like a shift of its own, as for joints.
 std::vector<Fault> find_delay(const Evidence& e) {
   const Adopted& a = e.adopted;
   if (!a.compared) return find_joint_delay(e);
   if (a.rows.half == 0 || a.fit.mass <= 0.0) return {};
   const Eigen::Index reach = std::min(kMostShift, e.log.rows() / 20);
-  const double spread =
-      std::sqrt((a.fit.force.rowwise() - a.fit.force.colwise().mean()).squaredNorm() /
-                static_cast<double>(3 * a.fit.force.rows()));
-  std::vector<Eigen::MatrixXd> frictions;
-  for (const double speed : kFrictionSpeeds) {
-    if (!a.motion.has_position) break;
-    frictions.push_back(smoothed_friction(e.log, a.rows, a.reading, speed));
-  }
-  if (frictions.empty()) frictions.emplace_back();
-  const auto residual = [&](Eigen::Index shift, const Eigen::MatrixXd& friction) {
-    const FitOptions options{shift, true, friction.size() > 0 ? &friction : nullptr};
-    return fit_rigid(e.log, a.rows, a.motion, a.reading, options).residual;
-  };
-  const double floor = kToolError * spread;
-  const auto cost = [&](Eigen::Index shift, const Eigen::MatrixXd& friction) {
-    return 0.5 * log_variance(residual(shift, friction), floor);
-  };
-  // Each hypothesis with the friction that suits it best.
-  const auto least_cost = [&](Eigen::Index shift) {
-    double least = cost(shift, frictions[0]);
-    for (std::size_t k = 1; k < frictions.size(); ++k) {
-      least = std::min(least, cost(shift, frictions[k]));
-    }
-    return least;
-  };
-  Eigen::Index best = 0;
-  double least = cost(0, frictions[0]);
-  for (Eigen::Index shift = -reach; shift <= reach; ++shift) {
-    const double here = cost(shift, frictions[0]);
-    if (here < least) least = here, best = shift;
-  }
-  if (best == 0) return {};
-  // A delay leaves a residual that is alike for long; how many are independent the better one
-  // tells.
-  const double independent = independent_of(residual(best, frictions[0]));
-  const double gain = independent * (least_cost(0) - least_cost(best));
-  const double odds =
-      kFaultPrior / static_cast<double>(2 * reach) * elementary::exp(std::min(gain, 600.0));
-  return delay_fault_of(e, odds, best, "fx", "the force");
+  return delay_of(e, ForceShift(e).gains(reach), kAxisShift, held_shift(e.log), "fx", "the force");
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ void force_units(const Log& log, const Reading& base, std::vector<Reading>& out)
 
 }  // namespace
 
-const FaultKind force_unit_fault{"force_unit", true, "write forces in newtons", "", nullptr,
-                                 force_units, true};
+const FaultKind force_unit_fault{
+    "force_unit", true, "write forces in newtons", "", nullptr, force_units, true, nullptr, true};
 
 }  // namespace dcnn::check

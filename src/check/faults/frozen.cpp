@@ -3,6 +3,7 @@
 
 #include "check/priors.h"
 #include "check/rows.h"
+#include "check/stalls.h"
 #include "core/elementary.h"
 
 namespace dcnn::check {
@@ -59,10 +60,32 @@ void find_frozen_column(const Log& log, const std::string& name, std::vector<Fau
   out.push_back(fault);
 }
 
+void add_stalls(const Log& log, const Stalls& stalls, const std::string& name,
+                std::vector<Fault>& out) {
+  if (stalls.runs.empty()) return;
+  const Run& longest = stalls.runs[0];
+  const std::size_t times = stalls.runs.size();
+  Fault fault = fault_of(frozen_fault, posterior_of_p(stalls.p), name,
+                         name + " and its companions keep their values for " +
+                             std::to_string(longest.length) + " rows" +
+                             (times > 1 ? " at most, " + std::to_string(times) + " times," : "") +
+                             " while the robot moves");
+  set_interval(log, longest.begin, longest.begin + longest.length, fault);
+  out.push_back(fault);
+}
+
 std::vector<Fault> find_frozen(const Evidence& e) {
   std::vector<Fault> out;
   if (!e.log.smooth) return out;
   for (const std::string& name : measured_columns(e.log)) find_frozen_column(e.log, name, out);
+  const bool found = std::any_of(out.begin(), out.end(),
+                                 [](const Fault& fault) { return fault.probability >= kLikely; });
+  if (found) return out;
+  for (const auto& names : e.log.sensors()) {
+    if (names.size() > 1) add_stalls(e.log, stalls_of_sensor(e.log, names), names[0], out);
+  }
+  const std::vector<std::string> positions = e.log.positions();
+  if (!positions.empty()) add_stalls(e.log, stalls_of_pose(e.log), positions[0], out);
   return out;
 }
 

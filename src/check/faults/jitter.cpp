@@ -6,11 +6,16 @@
 namespace dcnn::check {
 namespace {
 
-constexpr double kOffTick = 0.2;     // of the median step; what every reader of recordings refuses
+constexpr double kOffTick = 0.2;  // of the median step; what every reader of recordings refuses
 constexpr double kToleratedShare = 0.01;
 
 std::vector<Fault> find_jitter(const Evidence& e) {
   if (e.log.step <= 0.0 || !e.log.smooth) return {};
+  if (e.log.burst > 0) {
+    return {fault_of(jitter_fault, 1.0, "t",
+                     "rows are stamped in bursts of " + std::to_string(e.log.burst) +
+                         ": t is when they were handed over, not when they were taken")};
+  }
   const Eigen::VectorXd steps = steps_of(e.log.t);
   Eigen::Index off = 0;
   for (const double step : steps) {
@@ -26,7 +31,7 @@ std::vector<Fault> find_jitter(const Evidence& e) {
 
 }  // namespace
 
-const FaultKind jitter_fault{"jitter", false, "log on a regular clock, or put the log on one", "--resample",
-                             find_jitter};
+const FaultKind jitter_fault{"jitter", false, "log on a regular clock, or put the log on one",
+                             "--resample", find_jitter};
 
 }  // namespace dcnn::check

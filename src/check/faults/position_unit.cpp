@@ -17,13 +17,15 @@ void position_units(const Log& log, const Reading& base, std::vector<Reading>& o
     add(1e-3, "positions are in millimetres, not in metres", "--position-unit mm");
     add(1e-2, "positions are in centimetres, not in metres", "");
   } else {
-    add(1.0 / base.position, "positions are in metres, not in the unit declared", "--position-unit m");
+    add(1.0 / base.position, "positions are in metres, not in the unit declared",
+        "--position-unit m");
   }
 }
 
 }  // namespace
 
-const FaultKind position_unit_fault{"position_unit", true, "declare the unit of x, y, z", "",
-                                    nullptr, position_units};
+const FaultKind position_unit_fault{
+    "position_unit", true, "declare the unit of x, y, z", "", nullptr, position_units, false,
+    nullptr,         true};
 
 }  // namespace dcnn::check

@@ -1,19 +1,33 @@
 #include <algorithm>
+#include <cmath>
 
 #include "check/rows.h"
 
 namespace dcnn::check {
 namespace {
 
-/// Rows exactly at the largest value, and those at the next level below it.
+constexpr Eigen::Index kFewestAtLimit = 4;  // rows of a run
+constexpr double kJumps = 5.0;              // deviations of the channel's noise, as of dropouts
+
+/// Rows exactly at the largest value, and those at the next level below it. A limit is come to from
+/// nearby; a channel that jumps to zero and back was lost.
 struct End {
   Eigen::Index at = 0, next = 0, longest = 0, begin = 0;
 };
 
-End end_of(const Eigen::VectorXd& x, double grid) {
+/// Without `lost` runs: those in which all columns of the sensor stand still.
+End end_of(const Eigen::VectorXd& x, double grid, double noise, const std::vector<Run>& lost) {
   End end;
   const double most = x.maxCoeff();
+  const auto far = [&](Eigen::Index i) {
+    return i >= 0 && i < x.size() && std::abs(x[i] - most) > kJumps * noise;
+  };
   for (const Run& run : runs_of(x)) {
+    if (run.value == 0.0 && far(run.begin - 1) && far(run.begin + run.length)) continue;
+    const bool all = std::any_of(lost.begin(), lost.end(), [&](const Run& other) {
+      return other.begin <= run.begin && run.begin + run.length <= other.begin + other.length;
+    });
+    if (all) continue;
     if (run.value == most) {
       end.at += run.length;
       if (run.length > end.longest) end.longest = run.length, end.begin = run.begin;
@@ -38,14 +52,23 @@ double rows_of_an_event(const Eigen::VectorXd& x) {
   return squares / std::max(rows, 1.0);
 }
 
-void find_saturation_in(const Log& log, const std::string& name, std::vector<Fault>& out) {
+/// Runs in which several columns of a sensor keep their values together.
+std::vector<Run> runs_together(const Log& log, const std::vector<std::string>& names) {
+  if (names.size() < 2) return {};
+  std::vector<Run> runs = group_runs(log.block(names));
+  std::erase_if(runs, [](const Run& run) { return run.length < kFewestAtLimit; });
+  return runs;
+}
+
+void find_saturation_in(const Log& log, const std::string& name, const std::vector<Run>& lost,
+                        std::vector<Fault>& out) {
   const Eigen::VectorXd x = log.column(name);
   const double noise = noise_of(x), grid = std::max(resolution(x), 0.3 * noise);
   if (grid <= 0.0) return;
   const double together = rows_of_an_event(x);
   for (const double side : {1.0, -1.0}) {
-    const End end = end_of(side * x, grid);
-    if (end.longest < 4) continue;
+    const End end = end_of(side * x, grid, std::max(noise, 0.5 * resolution(x)), lost);
+    if (end.longest < kFewestAtLimit) continue;
     // Were the end a level like any other, the density at a peak is at most thrice that below,
     // where neighbours within the noise count together.
     const double expected = 3.0 * static_cast<double>(end.next + 1) * resolution(x) / grid;
@@ -62,7 +85,10 @@ void find_saturation_in(const Log& log, const std::string& name, std::vector<Fau
 std::vector<Fault> find_saturation(const Evidence& e) {
   std::vector<Fault> out;
   if (!e.log.smooth) return out;
-  for (const std::string& name : measured_columns(e.log)) find_saturation_in(e.log, name, out);
+  for (const auto& names : e.log.sensors()) {
+    const std::vector<Run> lost = runs_together(e.log, names);
+    for (const std::string& name : names) find_saturation_in(e.log, name, lost, out);
+  }
   return out;
 }
 

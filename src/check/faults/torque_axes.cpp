@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
+#include "check/priors.h"
 #include "check/torque.h"
 #include "core/elementary.h"
 
@@ -127,8 +129,10 @@ std::vector<Fault> find_torques(const Evidence& e) {
     const TorqueReading* likeliest = nullptr;
   };
   std::map<std::string, Kind> kinds;
+  double right = 0.0;  // of the likeliest reading without a fault
   for (Index k = 0; k < share.size(); ++k) {
     const TorqueReading& reading = readings[static_cast<std::size_t>(k)];
+    if (reading.kind == nullptr) right = std::max(right, share[k]);
     if (reading.kind == nullptr) continue;
     Kind& kind = kinds[reading.kind->id];
     kind.probability += share[k];
@@ -137,7 +141,10 @@ std::vector<Fault> find_torques(const Evidence& e) {
   std::vector<Fault> out;
   for (const auto& [id, kind] : kinds) {
     const TorqueReading& reading = *kind.likeliest;
-    out.push_back(fault_of(*reading.kind, kind.probability, reading.channel, reading.words));
+    // Many readings of a kind, each less likely than none, are told apart by nothing: the words are
+    // about one of them.
+    const double told = kind.most < right ? kind.most : kind.probability;
+    out.push_back(fault_of(*reading.kind, told, reading.channel, reading.words));
     if (reading.kind == &torque_unit_fault) out.back().remedy = "write torques in newton metres";
   }
   return out;

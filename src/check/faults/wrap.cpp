@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "check/excursions.h"
 #include "check/rows.h"
 
 namespace dcnn::check {
@@ -88,8 +89,10 @@ bool is_register(double range) {
 }
 
 void find_wrap_in(const Log& log, const std::string& name, std::vector<Fault>& out) {
-  const Eigen::VectorXd x = log.column(name);
-  const Wrap wrap = wrap_of(x);
+  const Eigen::VectorXd logged = log.column(name);
+  // A few rows that were misread jump there and back; what wraps goes on at the other end.
+  const Excursions few = excursions_of(logged);
+  const Wrap wrap = wrap_of(posterior_of_p(few.p) < kLikely ? logged : without(few, logged));
   if (wrap.jumps == 0) return;
   // Each end is met within kEdge of the range by chance in the square of that; a range that is a
   // power of two by chance in 3 % of a factor of two, a jump a full turn in kTurnError on either

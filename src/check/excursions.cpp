@@ -1,0 +1,143 @@
+#include "check/excursions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "check/statistics.h"
+#include "core/elementary.h"
+#include "data/median.h"
+#include "data/resolution.h"
+#include "data/spikes.h"
+#include "dcnn/core/number.h"
+
+namespace dcnn::check {
+namespace {
+
+using Eigen::Index;
+constexpr Index kWidest = 3;            // rows
+constexpr double kLeastHeight = 8.0;    // deviations, as of single rows (data/spikes.cpp)
+constexpr double kAlike = 0.3;          // of a height: neighbours, and the rows moved, as there
+constexpr double kTurnTolerance = 0.1;  // of a turn: steps of an angle that begins anew
+
+/// Least distance of rows [i, i + width) from the middle of the two rows on either side, with its
+/// sign; 0 where the rows lie on both sides of it.
+Eigen::VectorXd distances(const Eigen::VectorXd& x, Index width) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(x.size());
+  for (Index i = 2; i + width + 1 < x.size(); ++i) {
+    double near[4] = {x[i - 2], x[i - 1], x[i + width], x[i + width + 1]};
+    std::sort(near, near + 4);
+    const auto off = x.segment(i, width).array() - 0.5 * (near[1] + near[2]);
+    if (off.minCoeff() > 0.0) out[i] = off.minCoeff();
+    if (off.maxCoeff() < 0.0) out[i] = off.maxCoeff();
+  }
+  return out;
+}
+
+/// Of what is not zero: a channel at its limit repeats one value.
+double deviation_of_moving(const Eigen::VectorXd& distance) {
+  std::vector<double> sizes;
+  for (const double value : distance) {
+    if (value != 0.0) sizes.push_back(std::abs(value));
+  }
+  if (sizes.empty()) return 0.0;
+  return kDeviationOfMedian *
+         median(Eigen::Map<Eigen::VectorXd>(sizes.data(), static_cast<Index>(sizes.size())));
+}
+
+bool stands_out(const Eigen::VectorXd& x, Index i, Index width, double height) {
+  const Eigen::Vector4d near(x[i - 2], x[i - 1], x[i + width], x[i + width + 1]);
+  const auto rows = x.segment(i, width).array();
+  return near.maxCoeff() - near.minCoeff() <= kAlike * height &&
+         rows.maxCoeff() - rows.minCoeff() <= kAlike * height && (rows != 0.0).all();
+}
+
+Excursions of_width(const Eigen::VectorXd& x, Index width) {
+  Excursions out;
+  out.width = width;
+  const Eigen::VectorXd distance = distances(x, width);
+  const double scale = std::max(deviation_of_moving(distance), 0.5 * resolution(x));
+  if (scale <= 0.0) return out;
+  std::vector<std::pair<double, Index>> found;  // height, row
+  for (Index i = 2; i + width + 1 < x.size(); ++i) {
+    const double height = std::abs(distance[i]);
+    if (height >= kLeastHeight * scale && stands_out(x, i, width, height)) {
+      found.emplace_back(height / scale, i);
+    }
+  }
+  std::sort(found.rbegin(), found.rend());
+  double least = 1.0;
+  std::size_t count = 0;
+  for (std::size_t k = 1; k <= found.size(); ++k) {
+    const double mean =
+        static_cast<double>(x.size()) * 19.0 / elementary::pow(found[k - 1].first, 5);
+    const double p = poisson_tail(static_cast<double>(k), mean);
+    if (p < least) least = p, count = k;
+  }
+  if (count == 0) return out;
+  for (std::size_t k = 0; k < count; ++k) out.rows.push_back(found[k].second);
+  std::sort(out.rows.begin(), out.rows.end());
+  out.height = found[0].first;
+  // As many numbers of rows were tried as stand out.
+  out.p = std::min(1.0, static_cast<double>(found.size()) * least);
+  return out;
+}
+
+void unwrap(Eigen::Ref<Eigen::VectorXd> angles) {
+  double turns = 0.0;
+  for (Index i = 1; i < angles.size(); ++i) {
+    const double step = angles[i] + turns - angles[i - 1];
+    for (const double turn : {2.0 * std::numbers::pi, 360.0}) {
+      if (std::abs(std::abs(step) - turn) < kTurnTolerance * turn)
+        turns -= std::copysign(turn, step);
+    }
+    angles[i] += turns;
+  }
+}
+
+void align_signs(Eigen::Ref<Eigen::MatrixXd> quaternions) {
+  for (Index i = 1; i < quaternions.rows(); ++i) {
+    if (quaternions.row(i).dot(quaternions.row(i - 1)) < 0.0) quaternions.row(i) *= -1.0;
+  }
+}
+
+}  // namespace
+
+std::string Excursions::words(const std::string& column) const {
+  const bool one = rows.size() == 1;
+  return std::to_string(rows.size()) + (one ? " stretch of " : " stretches of ") +
+         std::to_string(width) + " rows of " + column + (one ? " is " : " are up to ") +
+         brief(height) + " deviations off " + (one ? "its" : "their") + " neighbours";
+}
+
+Excursions excursions_of(const Eigen::VectorXd& values) {
+  const Spikes single = spikes_of(values);
+  Excursions best{1, single.rows, single.height, single.p};
+  for (Index width = 2; width <= kWidest; ++width) {
+    Excursions wider = of_width(values, width);
+    wider.p = std::min(1.0, kWiderRarer * wider.p);
+    if (wider.p < best.p) best = std::move(wider);
+  }
+  return best;
+}
+
+Eigen::VectorXd without(const Excursions& excursions, Eigen::VectorXd values) {
+  for (const Index row : excursions.rows) {
+    const double before = values[row - 1], after = values[row + excursions.width];
+    values.segment(row, excursions.width).setConstant(0.5 * (before + after));
+  }
+  return values;
+}
+
+Eigen::MatrixXd continuous_positions(const Log& log) {
+  const std::vector<std::string> names = log.positions();
+  Eigen::MatrixXd columns = log.block(names);
+  if (log.has_quaternion()) {
+    const auto at = std::find(names.begin(), names.end(), kQuaternion[0]);
+    if (at != names.end()) align_signs(columns.middleCols(at - names.begin(), 4));
+  }
+  for (std::size_t k = 0; k < names.size(); ++k) unwrap(columns.col(static_cast<Index>(k)));
+  return columns;
+}
+
+}  // namespace dcnn::check

@@ -1,0 +1,62 @@
+#include "check/held.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "check/statistics.h"
+
+namespace dcnn::check {
+namespace {
+
+constexpr double kFresh = 5.0;  // resolutions that a value jumps when it is new, at least
+constexpr double kTwoWays = 0.5;
+constexpr std::size_t kFewestNew = 20;  // values, of which regularity is told
+
+/// Whether new values come every k rows: p-value of so many runs of one length, were a run's end as
+/// likely in any row (geometric lengths with the same mean).
+double regularity_p(const std::vector<Run>& runs, double mean, Eigen::Index* length) {
+  constexpr Eigen::Index kLongest = 63;  // rows; longer runs stand still and tell of no clock
+  std::vector<Eigen::Index> count(kLongest + 1, 0);
+  for (const Run& run : runs) {
+    if (run.length <= kLongest) ++count[static_cast<std::size_t>(run.length)];
+  }
+  const auto most = std::max_element(count.begin() + 2, count.end());
+  *length = most - count.begin();
+  const double end = 1.0 / mean;
+  double chance = end;
+  for (Eigen::Index k = 1; k < *length; ++k) chance *= 1.0 - end;
+  const auto n = static_cast<double>(runs.size());
+  const double expected = n * chance, spread = std::sqrt(n * chance * (1.0 - chance));
+  return tail(std::max(0.0, (static_cast<double>(*most) - expected) / std::max(spread, 1e-9)));
+}
+
+/// Resolutions that the values of a column jump by when they are new, the median.
+double freshness(const Eigen::VectorXd& x) {
+  const double grid = resolution(x);
+  std::vector<double> moved;
+  for (const double jump : steps_of(x)) {
+    if (jump != 0.0) moved.push_back(std::abs(jump));
+  }
+  if (moved.empty() || grid <= 0.0) return 0.0;
+  return median(
+             Eigen::Map<Eigen::VectorXd>(moved.data(), static_cast<Eigen::Index>(moved.size()))) /
+         grid;
+}
+
+}  // namespace
+
+Held held_of(const Log& log, const std::vector<std::string>& names) {
+  const std::vector<Run> runs = group_runs(log.block(names));
+  if (runs.size() < kFewestNew) return {};
+  const double mean = static_cast<double>(log.rows()) / static_cast<double>(runs.size());
+  if (mean < 1.0 + kTwoWays) return {};
+  double fresh = 0.0;
+  for (const std::string& name : names) fresh = std::max(fresh, freshness(log.column(name)));
+  if (fresh < kFresh) return {};
+  Held out;
+  const double p = regularity_p(runs, mean, &out.length);
+  out.probability = posterior_of_p(p);
+  return out;
+}
+
+}  // namespace dcnn::check
