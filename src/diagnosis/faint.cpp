@@ -22,9 +22,9 @@ std::optional<std::vector<Member>> likeliest(const Search& search, const HoldOut
   if (trials.size() > kMostTried) trials.resize(kMostTried);
   for (const Trial& trial : trials) {
     const JointFit other = joint_fit(setting, with_member(fit.members, trial.member));
-    const double log_odds =
-        evidence::log_named_of(setting, grid, other) - log_none +
-        holdout.log_support(holdout.prediction(other.members, other.base), without, search.floors());
+    const double log_odds = evidence::log_named_of(setting, grid, other) - log_none +
+                            holdout.log_support(holdout.prediction(other.members, other.base),
+                                                without, search.floors());
     if (log_odds > most) most = log_odds, best = other.members;
   }
   return best;

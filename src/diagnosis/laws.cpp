@@ -54,7 +54,8 @@ Laws worthy_laws(const Setting& setting, const JointFit& fit) {
   Laws laws{laws_in(setting, fit), {}};
   std::erase_if(laws.found, [&](const Discovered& law) {
     const double paid = dearer(setting) * discovery::prior::kNumber * fitted_numbers(law);
-    return law.gain < least_gain_of_law(setting) + paid || (dearer(setting) > 1.0 && !law.established);
+    return law.gain < least_gain_of_law(setting) + paid ||
+           (dearer(setting) > 1.0 && !law.established);
   });
   for (const Discovered& found : laws.found) {
     laws.members.push_back(member_of(setting.study, found.law, law_json(found)));

@@ -52,8 +52,9 @@ std::optional<std::string> note_of_zeros(const Search& search) {
   const Case& study = search.study();
   if (!study.zeros_differ) return std::nullopt;
   const Apart most = zeros_apart(search);
-  return "the zero of " + study.targets[most.channel] + " is another one in each recording, by up to " +
-         brief(most.distance) + " " + study.units[most.channel] + ", " + brief(100.0 * most.share) +
+  return "the zero of " + study.targets[most.channel] +
+         " is another one in each recording, by up to " + brief(most.distance) + " " +
+         study.units[most.channel] + ", " + brief(100.0 * most.share) +
          " % of its noise: it decides nothing";
 }
 

@@ -69,9 +69,10 @@ Json report_of_joint(double apart) {
     for (int row = 0; row < 6000; ++row) {
       const double t = 0.004 * row + 40.0 * log;
       const double q = 0.5 * std::sin(0.9 * t + log) + 0.3 * std::sin(2.1 * t);
-      const double acceleration =
-          -0.405 * std::sin(0.9 * t + log) - 1.323 * std::sin(2.1 * t);
-      const double simulated = 0.4 * acceleration, zero = log == 0 ? 0.0 : log == 1 ? apart : -apart;
+      const double acceleration = -0.405 * std::sin(0.9 * t + log) - 1.323 * std::sin(2.1 * t);
+      const double simulated = 0.4 * acceleration, zero = log == 0   ? 0.0
+                                                          : log == 1 ? apart
+                                                                     : -apart;
       char line[200];
       std::snprintf(line, sizeof(line), "%.4f,%.9f,%.9f,%.9f\n", t, q,
                     simulated + zero + 0.05 * rng.normal(), simulated);

@@ -133,8 +133,8 @@ TEST(GravityTilt, TurnsGravityAlongXAboutYThenZ) {
   ToolModel model;
   model.gravity = {9.81, 0.0, 0.0};
   change_model(make_effect("gravity_tilt", "", {{"tilt_y_rad", 0.3}, {"tilt_z_rad", 0.2}}), model);
-  const Vector3d wanted = 9.81 * Vector3d(std::cos(0.3) * std::cos(0.2),
-                                          std::cos(0.3) * std::sin(0.2), -std::sin(0.3));
+  const Vector3d wanted =
+      9.81 * Vector3d(std::cos(0.3) * std::cos(0.2), std::cos(0.3) * std::sin(0.2), -std::sin(0.3));
   EXPECT_LT((model.gravity - wanted).norm(), 1e-12);
 }
 
