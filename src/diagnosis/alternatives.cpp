@@ -41,7 +41,7 @@ std::vector<double> noisier(const std::vector<Floor>& other, const std::vector<F
 
 std::vector<std::vector<Alternative>> Search::alternatives() const {
   constexpr double kBend = 0.06;  // of a gain: what another bend of a law is worth
-  const double price = setting_->price;
+  const double price = setting_->price, loud = rest_loudness();
   Scale at_hand(*setting_, fit_);
   const auto brings_noise = [&](const Member& m) { return brings_position_noise(study_, m); };
   const auto has_noise = [&](const JointFit& fit) {
@@ -84,7 +84,7 @@ std::vector<std::vector<Alternative>> Search::alternatives() const {
       // nothing speaks for it.
       const int numbers = trial.member.parameters(), more = numbers - own.parameters();
       const double near = 0.1 * kAsLikely * price;
-      double least = more > 0 ? kLeastOfMore * price * more : price * more - near;
+      double least = more > 0 ? kLeastOfMore * price * more * loud : price * more - near;
       // A small force hides how it bends.
       if (more > 0 && same_family(trial.member, own))
         least = std::min(least, kBend * own_gain - near);

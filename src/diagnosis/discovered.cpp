@@ -69,17 +69,19 @@ std::vector<Member> without_law(std::vector<Member> members, std::size_t place) 
 /// explains as much, but for what any law must gain to be accepted in the place of names. It then
 /// stands, and laws are looked for beside it.
 bool name_in_place_of_one(Search& search, Laws& laws) {
+  constexpr std::size_t kMostTrials = 3;  // a limit of computation
   const std::vector<Member> before = search.fit().members;
   for (std::size_t k = 0; k < laws.found.size(); ++k) {
     Laws others = laws;
     others.found.erase(others.found.begin() + static_cast<std::ptrdiff_t>(k));
     others.members.erase(others.members.begin() + static_cast<std::ptrdiff_t>(k));
     search.put_beside(others.members);
-    const auto trials = search.additions(/*events=*/false);
-    if (!trials.empty()) {
+    auto trials = search.additions(/*events=*/false);
+    if (trials.size() > kMostTrials) trials.resize(kMostTrials);
+    for (const Trial& trial : trials) {
       // Without the law the others have moved far off, to explain a part of what it did.
       std::vector<Member> named = without_law(before, k);
-      named.push_back(trials.front().member);
+      named.push_back(trial.member);
       search.settle(named);
       const double lost = search.fit().chi2 - joint_fit(search.setting(), before).chi2,
                    saved = search.setting().price *
@@ -138,7 +140,7 @@ Laws in_place_of_names(Search& search, const HoldOut& holdout) {
         holdout.log_support(holdout.prediction(with.members, with.base),
                             holdout.prediction(fit.members, fit.base), search.floors());
     if (support < 0.0) continue;
-    search.leave_out(names);
+    search.adopt(rest);  // each of the names may be right: none is refuted
     return laws;
   }
   return {};

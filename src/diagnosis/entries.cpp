@@ -157,7 +157,7 @@ double priced(const JointFit& fit, double price) {
 /// gain is a mass. A number counts that gains its price.
 void Search::hold_untold() {
   if (study_.axis) return;
-  const double price = setting_->price;
+  const double price = setting_->price * rest_loudness();
   JointFit fitted = joint_fit(*setting_, Holding(fit_, price).sparser().members);
   bool changed = priced(fitted, price) < priced(fit_, price);
   if (!changed) fitted = fit_;

@@ -37,7 +37,7 @@ bool bends_a_spring(const Member& cogging, const std::vector<Member>& members) {
 /// Where little is left, and slowly, the offset wanders as no drift does: that falls on all columns
 /// alike, and this is how loud it is. Else a wrong law may leave it, and 1.
 double Search::rest_loudness() const {
-  if (study_.axis) return 1.0;
+  if (study_.axis || is_overdispersed()) return 1.0;
   const double left = left_over(bands_);
   const bool slow = bands_.front().excess > kSlowPart * left;
   return slow && left < kSmallRest * explained(false) ? loudest(bands_) : 1.0;

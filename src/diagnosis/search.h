@@ -142,6 +142,9 @@ class Search {
   /// without it: what trials of other effects there are to be compared with.
   double net_gain_as_trial(std::size_t member) const;
   void forget_places();
+  /// What is left counts as noise: of poses at rest, which have no spectrum, and beside a tool's
+  /// own numbers that held-out data have chosen.
+  bool is_overdispersed() const { return study_.is_static() || beside_own_numbers_; }
   /// Chi-square that the members took off: all, for what an error of the motion makes of their
   /// forces; or those with numbers, for what an error of a law may hide (what has no number of its
   /// own, as the inertial terms, cannot be a little wrong).
@@ -245,8 +248,9 @@ class Search {
   bool events_allowed_ = true, remains_ = false;
   double begun_ = 0.0;  // passes before the search among names alone, or beside laws, began
   bool ended_early_ = false;
-  Index samples_ = 0;     // of the recordings
-  bool tuned_ = false;    // the smoother, to a mode
+  Index samples_ = 0;                // of the recordings
+  bool beside_own_numbers_ = false;  // which held-out data have chosen
+  bool tuned_ = false;               // the smoother, to a mode
   bool ringing_ = false;  // what shakes the motion unseen rings in the modes that were found
 };
 

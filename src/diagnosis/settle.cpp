@@ -172,9 +172,12 @@ void Search::settle(const std::vector<Member>& members) {
   left_ = difference(study_, predict(study_, fit_.members));
   // What no effect explains errs as noise does, and is that much louder (overdispersion: McCullagh
   // and Nelder, Generalized Linear Models, 1989, 4.5): a number counts that takes off a share of
-  // what is left. A machine always leaves something, in far fewer independent rows than it has.
+  // what is left. A machine always leaves something, in far fewer independent rows than it has. Of
+  // a tool that moves an unknown is weighed in its own terms, and laws are looked for in it.
   constexpr double kSlowNoisePrice = 20.0;
-  const double share = study_.axis ? kMachineShare : kNumberPrice / setting_->mask.sum();
+  const double share = study_.axis          ? kMachineShare
+                       : is_overdispersed() ? kNumberPrice / setting_->mask.sum()
+                                            : 0.0;
   setting_->price = std::max(kNumberPrice, share * fit_.chi2);
   // Of noise that rises as 1/f the next recording would show another slope.
   if (!slow_.empty()) setting_->price = std::max(kSlowNoisePrice, setting_->price);

@@ -101,6 +101,7 @@ bool Search::look_again() {
 }
 
 void Search::add_beside() {
+  beside_own_numbers_ = true;
   ended_early_ = ended_early_ || is_spent();
   begun_ = passes();
   while (!is_spent() && grow()) {
