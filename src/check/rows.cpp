@@ -30,12 +30,24 @@ double relative_motion(const Log& log, const std::string& position, Index begin,
   return whole > 0.0 ? std::sqrt(steps.segment(begin, end - begin - 1).mean() / whole) : 0.0;
 }
 
-double relative_motion(const Log& log, Index begin, Index end) {
-  double most = 0.0;
+RelativeSpeed::RelativeSpeed(const Log& log) {
   for (const std::string& name : log.positions()) {
-    most = std::max(most, relative_motion(log, name, begin, end));
+    const Eigen::VectorXd squares = steps_of(log.column(name)).cwiseAbs2();
+    const double usual = squares.mean();
+    if (usual <= 0.0) continue;
+    std::vector<double> sums{0.0};
+    for (const double square : squares) sums.push_back(sums.back() + square / usual);
+    sums_.push_back(std::move(sums));
   }
-  return most;
+}
+
+double RelativeSpeed::in(Index begin, Index end) const {
+  double most = 0.0;
+  for (const auto& sums : sums_) {
+    const auto first = static_cast<std::size_t>(begin), last = static_cast<std::size_t>(end - 1);
+    most = std::max(most, sums[last] - sums[first]);
+  }
+  return std::sqrt(most / static_cast<double>(std::max<Index>(end - begin - 1, 1)));
 }
 
 double independent_of(const Eigen::MatrixXd& residual) {

@@ -14,9 +14,18 @@ namespace dcnn::check {
 std::vector<Run> group_runs(const Eigen::MatrixXd& columns);
 /// Measured columns one by one.
 std::vector<std::string> measured_columns(const Log& log);
-/// Rms step of the positions' columns in rows [begin, end), relative to that of the whole log.
-double relative_motion(const Log& log, Eigen::Index begin, Eigen::Index end);
-/// The same of one of them alone: of a joint's position where its torque is looked at.
+/// How fast the robot moves: rms step of the positions' columns in some rows, relative to that of
+/// the whole log, of the column where that is most.
+class RelativeSpeed {
+ public:
+  explicit RelativeSpeed(const Log& log);
+  /// In rows [begin, end).
+  double in(Eigen::Index begin, Eigen::Index end) const;
+
+ private:
+  std::vector<std::vector<double>> sums_;  // by column: of squares of relative steps up to each row
+};
+/// The same of one column alone: of a joint's position where its torque is looked at.
 double relative_motion(const Log& log, const std::string& position, Eigen::Index begin,
                        Eigen::Index end);
 /// Rows as times of the log's clock; nothing without one.

@@ -14,22 +14,28 @@ constexpr double kMovesOn = 0.3;     // of the usual speed: a sensor at rest may
 constexpr double kMostInRuns = 0.5;  // of the log in such runs: what is usual is no exception
 constexpr Index kStepsBeside = 8;    // before and after a run
 
-/// Chance that two neighbours are equal, and the longest run, of all but the `count` first runs.
-struct Usual {
-  double repeats = 0.0, longest = 1.0;
-};
-
-Usual usual_of(const std::vector<Run>& runs, std::size_t count) {
-  Usual usual;
-  double rows = 0.0, equal = 0.0;
-  for (std::size_t k = count; k < runs.size(); ++k) {
-    const auto length = static_cast<double>(runs[k].length);
-    rows += length, equal += length - 1.0;
-    usual.longest = std::max(usual.longest, length);
+/// Chance that two neighbours are equal, and the longest run, of runs of descending length but for
+/// the first ones.
+class Usual {
+ public:
+  explicit Usual(const std::vector<Run>& runs) : runs_(runs) {
+    for (const Run& run : runs) add(run, 1.0);
   }
-  usual.repeats = equal / std::max(rows, 1.0);
-  return usual;
-}
+  void leave_out_next() { add(runs_[left_out_++], -1.0); }
+  double repeats() const { return equal_ / std::max(rows_, 1.0); }
+  double longest() const {
+    return left_out_ < runs_.size() ? static_cast<double>(runs_[left_out_].length) : 1.0;
+  }
+
+ private:
+  void add(const Run& run, double sign) {
+    const auto length = static_cast<double>(run.length);
+    rows_ += sign * length, equal_ += sign * (length - 1.0);
+  }
+  const std::vector<Run>& runs_;
+  std::size_t left_out_ = 0;
+  double rows_ = 0.0, equal_ = 0.0;
+};
 
 /// Of each row's step, columns by their rms step; (rows-1).
 Eigen::VectorXd relative_steps(const Eigen::MatrixXd& columns) {
@@ -41,12 +47,11 @@ Eigen::VectorXd relative_steps(const Eigen::MatrixXd& columns) {
   return squares.cwiseSqrt();
 }
 
-/// Whether every sensor brings new values in most rows of the run.
-bool sensors_go_on(const Log& log, const Run& run) {
-  const auto sensors = log.sensors();
-  return !sensors.empty() && std::all_of(sensors.begin(), sensors.end(), [&](const auto& names) {
-    const Eigen::MatrixXd values = log.block(names).middleRows(run.begin, run.length);
-    return 2 * static_cast<Index>(group_runs(values).size()) > run.length;
+/// Whether every sensor, of columns (T,k), brings new values in most rows of the run.
+bool go_on(const std::vector<Eigen::MatrixXd>& sensors, const Run& run) {
+  return !sensors.empty() && std::all_of(sensors.begin(), sensors.end(), [&](const auto& values) {
+    const Eigen::MatrixXd here = values.middleRows(run.begin, run.length);
+    return 2 * static_cast<Index>(group_runs(here).size()) > run.length;
   });
 }
 
@@ -56,28 +61,29 @@ Stalls stalls_of_sensor(const Log& log, const std::vector<std::string>& columns)
   const Eigen::MatrixXd values = log.block(columns);
   std::vector<Run> runs = group_runs(values);
   // At rest a sensor may repeat its values for long: that is usual there alone.
+  const RelativeSpeed speed(log);
   std::erase_if(runs, [&](const Run& run) {
-    return run.length >= kFewestInRun &&
-           relative_motion(log, run.begin, run.begin + run.length) < kMovesOn;
+    return run.length >= kFewestInRun && speed.in(run.begin, run.begin + run.length) < kMovesOn;
   });
   std::stable_sort(runs.begin(), runs.end(),
                    [](const Run& a, const Run& b) { return a.length > b.length; });
   const auto n = static_cast<double>(log.rows());
   Stalls out;
+  Usual usual(runs);
   std::vector<Run> held;
   double rows = 0.0, tried = 0.0;
   std::size_t best = 0;
   for (std::size_t k = 0; k + 1 < runs.size() && runs[k].length >= kFewestInRun; ++k) {
     const Run& run = runs[k];
+    usual.leave_out_next();
     rows += static_cast<double>(run.length);
     if (rows > kMostInRuns * n) break;
     const bool lost = (values.row(run.begin).array() == 0.0).all();
     if (lost) continue;
     held.push_back(run);
     ++tried;
-    const Usual usual = usual_of(runs, k + 1);
-    const double q = std::max(usual.repeats, 1.0 / n);
-    const double length = static_cast<double>(run.length) / usual.longest;
+    const double q = std::max(usual.repeats(), 1.0 / n);
+    const double length = static_cast<double>(run.length) / usual.longest();
     const double p = poisson_tail(static_cast<double>(held.size()),
                                   n * elementary::exp(length * elementary::log(q)));
     if (p < out.p) out.p = p, best = held.size();
@@ -95,6 +101,8 @@ Stalls stalls_of_pose(const Log& log) {
   const Eigen::MatrixXd columns = log.block(names);
   const std::vector<Run> runs = group_runs(columns);
   const Eigen::VectorXd steps = relative_steps(columns);
+  std::vector<Eigen::MatrixXd> sensors;
+  for (const auto& sensor : log.sensors()) sensors.push_back(log.block(sensor));
   const auto count = static_cast<Index>(runs.size());
   const auto step_before = [&](Index k) {
     return double(steps[runs[static_cast<std::size_t>(k)].begin - 1]);
@@ -102,7 +110,7 @@ Stalls stalls_of_pose(const Log& log) {
   double tried = 0.0;
   for (Index k = kStepsBeside; k + kStepsBeside < count; ++k) {
     const Run& run = runs[static_cast<std::size_t>(k)];
-    if (run.length < kFewestInRun || !sensors_go_on(log, run)) continue;
+    if (run.length < kFewestInRun || !go_on(sensors, run)) continue;
     double beside = 0.0;
     for (Index j = k - kStepsBeside + 1; j <= k + 1 + kStepsBeside && j < count; ++j) {
       if (j != k + 1) beside = std::max(beside, step_before(j));

@@ -21,7 +21,7 @@ double delay_after(Eigen::Index rows, const std::function<void(Eigen::MatrixXd&)
     table.values.row(i).tail(3) = force.row(std::max<Eigen::Index>(0, i - rows));
   }
   double most = 0.0;
-  for (const check::Fault& fault : report_of(std::move(table)).faults) {
+  for (const check::Fault& fault : moving_tool::report_of(std::move(table)).faults) {
     if (fault.id == "delay") most = std::max(most, fault.probability);
   }
   return most;

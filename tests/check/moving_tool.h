@@ -10,21 +10,21 @@
 
 namespace dcnn::moving_tool {
 
-inline constexpr Eigen::Index kRows = 4000;
-inline constexpr double kStep = 0.004, kForceNoise = 0.05;
+inline constexpr Eigen::Index kToolRows = 4000;
+inline constexpr double kToolStep = 0.004, kForceNoise = 0.05;
 
 /// A tool of 1 kg on a motion that never rests, with noise of the pose's and the force's sensors.
 inline Table log() {
   Table table{{"t", "x", "y", "z", "alpha", "beta", "gamma", "fx", "fy", "fz"},
-              Eigen::MatrixXd(kRows, 10)};
+              Eigen::MatrixXd(kToolRows, 10)};
   std::mt19937 random(11);
   std::normal_distribution<double> noise;
   const auto position = [](double t) {
     return Eigen::Vector3d(0.4 + 0.1 * std::sin(1.7 * t), 0.1 * std::cos(1.3 * t),
                            0.3 + 0.06 * std::sin(2.1 * t));
   };
-  for (Eigen::Index i = 0; i < kRows; ++i) {
-    const double t = kStep * static_cast<double>(i), h = 1e-3;
+  for (Eigen::Index i = 0; i < kToolRows; ++i) {
+    const double t = kToolStep * static_cast<double>(i), h = 1e-3;
     const Eigen::Vector3d acceleration =
         (position(t + h) - 2.0 * position(t) + position(t - h)) / (h * h);
     const Eigen::Vector3d angles(0.5 * std::sin(0.9 * t), 0.4 * std::sin(1.1 * t + 1.0),

@@ -15,7 +15,7 @@ using namespace moving_tool;
 check::Report report_after(const std::function<void(Eigen::MatrixXd&)>& change) {
   Table table = moving_tool::log();
   change(table.values);
-  return report_of(std::move(table));
+  return moving_tool::report_of(std::move(table));
 }
 
 void expect_first(const check::Report& report, const std::string& fault,
@@ -55,7 +55,7 @@ void round_columns(Eigen::MatrixXd& values, Eigen::Index column, double step) {
 }
 
 TEST(RowFaults, NothingIsWrongWithTheLogItself) {
-  const check::Report report = report_of(moving_tool::log());
+  const check::Report report = moving_tool::report_of(moving_tool::log());
   EXPECT_TRUE(report.faults.empty()) << check::to_text(report);
 }
 
@@ -200,7 +200,8 @@ TEST(RowFaults, ChannelsLostToZeroAreNotLimitedThere) {
 TEST(RowFaults, RowsThatAreStampedInBurstsAreOfOneRate) {
   const check::Report report = report_after([](Eigen::MatrixXd& values) {
     for (Eigen::Index i = 0; i < values.rows(); ++i) {
-      values(i, kT) = kStep * static_cast<double>(i - i % 16) + 1e-5 * static_cast<double>(i % 16);
+      values(i, kT) =
+          kToolStep * static_cast<double>(i - i % 16) + 1e-5 * static_cast<double>(i % 16);
     }
   });
   expect_first(report, "jitter", "t");
@@ -211,17 +212,17 @@ TEST(RowFaults, RowsThatAreStampedInBurstsAreOfOneRate) {
 TEST(RowFaults, AMotionWithPausesWithoutAClockIsNoListOfPoses) {
   Table table = moving_tool::log();
   constexpr Eigen::Index kPiece = 20, kRest = 60;
-  Eigen::MatrixXd paused(kRows, table.values.cols() - 1);
+  Eigen::MatrixXd paused(kToolRows, table.values.cols() - 1);
   std::mt19937 random(2);
   std::normal_distribution<double> noise;
-  for (Eigen::Index i = 0; i < kRows; ++i) {
+  for (Eigen::Index i = 0; i < kToolRows; ++i) {
     const Eigen::Index cycle = i / (kPiece + kRest), in = std::min(i % (kPiece + kRest), kPiece);
     paused.row(i) = table.values.row(cycle * kPiece + in).rightCols(paused.cols());
     for (Eigen::Index j = 0; j < 6; ++j) paused(i, j) += (j < 3 ? 1e-5 : 6e-5) * noise(random);
   }
   table.columns.erase(table.columns.begin());
   table.values = paused;
-  expect_first(report_of(std::move(table)), "moving_rows", "t");
+  expect_first(moving_tool::report_of(std::move(table)), "moving_rows", "t");
 }
 
 }  // namespace

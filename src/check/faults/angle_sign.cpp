@@ -17,6 +17,7 @@ void angle_signs(const Log& log, const Reading& base, std::vector<Reading>& out)
 
 }  // namespace
 
-const FaultKind angle_sign_fault{"angle_sign", true, "turn the sign of this column", "", nullptr, angle_signs, true};
+const FaultKind angle_sign_fault{"angle_sign", true, "turn the sign of this column", "", nullptr,
+                                 angle_signs,  true};
 
 }  // namespace dcnn::check

@@ -11,12 +11,15 @@ std::vector<Fault> find_clock_order(const Evidence& e) {
   if (back == 0) return {};
   return {fault_of(clock_order_fault, 1.0, "t",
                    "t does not increase at " + std::to_string(back) + " of " +
-                       std::to_string(steps.size()) + " steps (repeated rows, or a clock that was set)")};
+                       std::to_string(steps.size()) +
+                       " steps (repeated rows, or a clock that was set)")};
 }
 
 }  // namespace
 
-const FaultKind clock_order_fault{"clock_order", true, "sort the rows, remove repeated ones, or cut the log where its clock was set",
-                                  "", find_clock_order};
+const FaultKind clock_order_fault{
+    "clock_order", true,
+    "sort the rows, remove repeated ones, or cut the log where its clock was set", "",
+    find_clock_order};
 
 }  // namespace dcnn::check

@@ -17,10 +17,11 @@ void find_dropouts_in(const Log& log, const std::vector<std::string>& names,
   const auto joint = std::find_if(log.joints.begin(), log.joints.end(), [&](const Joint& one) {
     return one.measured == names[0] && !one.position.empty();
   });
+  const RelativeSpeed speed(log);
   const auto moves = [&](Eigen::Index begin, Eigen::Index end) {
     if (log.positions().empty()) return true;
     const double motion = joint == log.joints.end()
-                              ? relative_motion(log, begin, end)
+                              ? speed.in(begin, end)
                               : relative_motion(log, joint->position, begin, end);
     return motion >= kMovesAtAll;
   };

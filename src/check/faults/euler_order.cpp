@@ -9,13 +9,13 @@ void euler_orders(const Log& log, const Reading& base, std::vector<Reading>& out
     const char* order;
     bool reversed;
     const char* words;
-  } kOrders[] = {
-      {"zyx", true, "Rz(gamma) Ry(beta) Rx(alpha): alpha and gamma are exchanged (roll, pitch, yaw)"},
-      {"xyz", false, "Rx(alpha) Ry(beta) Rz(gamma)"},
-      {"xyz", true, "Rx(gamma) Ry(beta) Rz(alpha)"},
-      {"zxy", false, "Rz(alpha) Rx(beta) Ry(gamma)"},
-      {"yxz", false, "Ry(alpha) Rx(beta) Rz(gamma)"},
-      {"zyz", false, "Rz(alpha) Ry(beta) Rz(gamma)"}};
+  } kOrders[] = {{"zyx", true,
+                  "Rz(gamma) Ry(beta) Rx(alpha): alpha and gamma are exchanged (roll, pitch, yaw)"},
+                 {"xyz", false, "Rx(alpha) Ry(beta) Rz(gamma)"},
+                 {"xyz", true, "Rx(gamma) Ry(beta) Rz(alpha)"},
+                 {"zxy", false, "Rz(alpha) Rx(beta) Ry(gamma)"},
+                 {"yxz", false, "Ry(alpha) Rx(beta) Rz(gamma)"},
+                 {"zyz", false, "Rz(alpha) Ry(beta) Rz(gamma)"}};
   for (const auto& [order, reversed, words] : kOrders) {
     Reading reading = base;
     reading.orientation.order = order;
@@ -28,7 +28,8 @@ void euler_orders(const Log& log, const Reading& base, std::vector<Reading>& out
 
 }  // namespace
 
-const FaultKind euler_order_fault{"euler_order", true, "convert the angles, or log a quaternion", "", nullptr,
-                                  euler_orders, true};
+const FaultKind euler_order_fault{
+    "euler_order", true, "convert the angles, or log a quaternion", "", nullptr,
+    euler_orders,  true};
 
 }  // namespace dcnn::check

@@ -1,5 +1,5 @@
-#include <array>
 #include <algorithm>
+#include <array>
 
 #include "check/kind.h"
 
@@ -12,11 +12,13 @@ std::string axes_words(const Eigen::Matrix3d& P) {
   for (Eigen::Index i = 0; i < 3; ++i) {
     for (Eigen::Index j = 0; j < 3; ++j) {
       if (P(i, j) == 0.0) continue;
-      words += std::string(i == 0 ? "" : ", ") + "xyz"[i] + " = " + (P(i, j) > 0 ? "f" : "-f") + "xyz"[j];
+      words += std::string(i == 0 ? "" : ", ") + "xyz"[i] + " = " + (P(i, j) > 0 ? "f" : "-f") +
+               "xyz"[j];
     }
   }
   const bool mirrored = P.determinant() < 0.0;
-  return "the sensor's axes are " + std::string(mirrored ? "swapped or mirrored" : "turned by right angles") +
+  return "the sensor's axes are " +
+         std::string(mirrored ? "swapped or mirrored" : "turned by right angles") +
          " against the pose frame: " + words;
 }
 
@@ -46,8 +48,13 @@ void axis_orders(const Log& log, const Reading& base, std::vector<Reading>& out)
 
 }  // namespace
 
-const FaultKind force_axes_fault{"force_axes", true,
-                                 "rename the columns, or give the mounting as sensor.rotation_rpy in sim.json",
-                                 "", nullptr, axis_orders, true};
+const FaultKind force_axes_fault{
+    "force_axes",
+    true,
+    "rename the columns, or give the mounting as sensor.rotation_rpy in sim.json",
+    "",
+    nullptr,
+    axis_orders,
+    true};
 
 }  // namespace dcnn::check

@@ -16,7 +16,8 @@ void force_signs(const Log& log, const Reading& base, std::vector<Reading>& out)
 
 }  // namespace
 
-const FaultKind force_sign_fault{"force_sign", true, "turn the sign of this column, and of its torque",
-                                 "", nullptr, force_signs, true};
+const FaultKind force_sign_fault{
+    "force_sign", true, "turn the sign of this column, and of its torque", "", nullptr,
+    force_signs,  true};
 
 }  // namespace dcnn::check

@@ -41,7 +41,7 @@ void find_frozen_column(const Log& log, const std::string& name, std::vector<Fau
       held.begin(), held.end(), [](const Run& a, const Run& b) { return a.length < b.length; });
   if (longest == held.end() || longest->length < 8) return;
   const Eigen::Index end = longest->begin + longest->length;
-  if (relative_motion(log, longest->begin, end) < kMoves) return;
+  if (RelativeSpeed(log).in(longest->begin, end) < kMoves) return;
   // Repeats outside of the run tell how often this channel repeats at all; held samples come in
   // rows.
   double others = 0.0, second = 1.0;

@@ -15,6 +15,7 @@ std::vector<Fault> find_gaps(const Evidence& e) {
 
 }  // namespace
 
-const FaultKind gaps_fault{"gaps", false, "nothing, where the gaps are few; else record again", "", find_gaps};
+const FaultKind gaps_fault{"gaps", false, "nothing, where the gaps are few; else record again", "",
+                           find_gaps};
 
 }  // namespace dcnn::check

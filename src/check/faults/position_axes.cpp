@@ -24,7 +24,8 @@ void position_orders(const Log& log, const Reading& base, std::vector<Reading>& 
 
 }  // namespace
 
-const FaultKind position_axes_fault{"position_axes", false, "rename the columns or turn the sign", "", nullptr,
-                                    position_orders, true};
+const FaultKind position_axes_fault{
+    "position_axes", false, "rename the columns or turn the sign", "", nullptr,
+    position_orders, true};
 
 }  // namespace dcnn::check

@@ -14,7 +14,7 @@ void quaternion_orders(const Log& log, const Reading& base, std::vector<Reading>
 
 }  // namespace
 
-const FaultKind quaternion_order_fault{"quaternion_order", true, "rename the columns to qx,qy,qz,qw", "",
-                                       nullptr, quaternion_orders};
+const FaultKind quaternion_order_fault{
+    "quaternion_order", true, "rename the columns to qx,qy,qz,qw", "", nullptr, quaternion_orders};
 
 }  // namespace dcnn::check

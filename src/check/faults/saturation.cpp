@@ -24,10 +24,13 @@ End end_of(const Eigen::VectorXd& x, double grid, double noise, const std::vecto
   };
   for (const Run& run : runs_of(x)) {
     if (run.value == 0.0 && far(run.begin - 1) && far(run.begin + run.length)) continue;
-    const bool all = std::any_of(lost.begin(), lost.end(), [&](const Run& other) {
-      return other.begin <= run.begin && run.begin + run.length <= other.begin + other.length;
-    });
-    if (all) continue;
+    const auto after =
+        std::upper_bound(lost.begin(), lost.end(), run.begin,
+                         [](Eigen::Index begin, const Run& other) { return begin < other.begin; });
+    const bool within =
+        after != lost.begin() &&
+        run.begin + run.length <= std::prev(after)->begin + std::prev(after)->length;
+    if (within) continue;
     if (run.value == most) {
       end.at += run.length;
       if (run.length > end.longest) end.longest = run.length, end.begin = run.begin;
