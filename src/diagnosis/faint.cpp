@@ -33,7 +33,8 @@ std::optional<std::vector<Member>> likeliest(const Search& search, const HoldOut
 }  // namespace
 
 void add_faint(Search& search, const HoldOut& holdout) {
-  if (holdout.empty() || search.remains() || !search.fit().members.empty()) return;
+  if (!search.study().is_static() || holdout.empty()) return;
+  if (search.remains() || !search.fit().members.empty()) return;
   if (const auto members = likeliest(search, holdout)) search.adopt(*members);
 }
 

@@ -1,4 +1,4 @@
-// Effects too faint for the fitted recordings alone, which held-out recordings bear out.
+// Effects too faint for the fitted poses alone, which held-out poses bear out.
 #pragma once
 
 #include "diagnosis/holdout.h"
@@ -6,8 +6,10 @@
 
 namespace dcnn {
 
-/// Where nothing was found and nothing remains: adds the name that is likeliest by evidence of the
-/// fitted rows and support of the held-out ones together, if it is likelier than none.
+/// Of poses at rest, which are few, where nothing was found and nothing remains: adds the name that
+/// is likeliest by evidence of the fitted rows and support of the held-out ones together, if it is
+/// likelier than none. (A recording in motion has rows enough: what it does not show by itself was
+/// a false name where noise grew with the speed.)
 void add_faint(Search& search, const HoldOut& holdout);
 
 }  // namespace dcnn

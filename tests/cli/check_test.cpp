@@ -123,13 +123,12 @@ TEST(CheckTool, ALikelyFaultIsTheFirstLineOfADiagnosis) {
   EXPECT_FALSE(read_json(folder / "report/report.json", Exit::kData)["check"].empty());
 }
 
-// A flywheel's force lags nothing, but to a check that knows rigid bodies alone: the diagnosis says
-// so.
+// A drag touches nothing, but to a check that knows rigid bodies alone: the diagnosis says so.
 TEST(CheckTool, ASuspicionThatTheDiagnosisDoesNotBearOutIsSaidToBeNone) {
   const test::TemporaryFolder folder;
   const auto set = (folder / "set").string();
-  ASSERT_EQ(run("conceal", {"--scenario", "poor:2/crosstalk/1", "--seed", "1712632582", "--out",
-                            set, "--seal", folder / "seal"})
+  ASSERT_EQ(run("conceal", {"--scenario", "single:2/quadratic_drag/2", "--seed", "11", "--out", set,
+                            "--seal", folder / "seal"})
                 .exit_code,
             0);
   const auto scenario = folder / "set/s0001";
@@ -140,7 +139,7 @@ TEST(CheckTool, ASuspicionThatTheDiagnosisDoesNotBearOutIsSaidToBeNone) {
   const Json report = read_json(folder / "report/report.json", Exit::kData);
   ASSERT_EQ(report["check"].size(), 1u) << report["check"];
   const auto line = report["check"][0].get<std::string>();
-  EXPECT_TRUE(contains(line, ": delay: ") && contains(line, "finds none")) << line;
+  EXPECT_TRUE(contains(line, ": contact: ") && contains(line, "finds none")) << line;
 }
 
 TEST(CheckTool, ADiagnosisOfAForceInTheBaseFrameIsRefused) {
