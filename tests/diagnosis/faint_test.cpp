@@ -23,8 +23,10 @@ Json report_of_loud_poses(double delta_mass, int seed) {
 }
 
 TEST(FaintEffects, AreNamedWhereHeldOutPosesBearThemOut) {
-  const Json report = report_of_loud_poses(0.3, 7);
-  EXPECT_EQ(test::names(report), std::vector<std::string>{"mass"}) << report["findings"].dump(1);
+  for (const int seed : {1, 2, 4, 6}) {  // the fitted ones alone tell nothing of 150 g
+    const Json report = report_of_loud_poses(0.15, seed);
+    EXPECT_EQ(test::names(report), std::vector<std::string>{"mass"}) << report["findings"].dump(1);
+  }
 }
 
 TEST(FaintEffects, AreNotNamedWhereNothingIsMissing) {
