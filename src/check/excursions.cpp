@@ -5,8 +5,6 @@
 #include <numbers>
 
 #include "check/statistics.h"
-#include "core/elementary.h"
-#include "data/median.h"
 #include "data/resolution.h"
 #include "data/spikes.h"
 #include "dcnn/core/number.h"
@@ -34,17 +32,6 @@ Eigen::VectorXd distances(const Eigen::VectorXd& x, Index width) {
   return out;
 }
 
-/// Of what is not zero: a channel at its limit repeats one value.
-double deviation_of_moving(const Eigen::VectorXd& distance) {
-  std::vector<double> sizes;
-  for (const double value : distance) {
-    if (value != 0.0) sizes.push_back(std::abs(value));
-  }
-  if (sizes.empty()) return 0.0;
-  return kDeviationOfMedian *
-         median(Eigen::Map<Eigen::VectorXd>(sizes.data(), static_cast<Index>(sizes.size())));
-}
-
 bool stands_out(const Eigen::VectorXd& x, Index i, Index width, double height) {
   const Eigen::Vector4d near(x[i - 2], x[i - 1], x[i + width], x[i + width + 1]);
   const auto rows = x.segment(i, width).array();
@@ -69,8 +56,7 @@ Excursions of_width(const Eigen::VectorXd& x, Index width) {
   double least = 1.0;
   std::size_t count = 0;
   for (std::size_t k = 1; k <= found.size(); ++k) {
-    const double mean =
-        static_cast<double>(x.size()) * 19.0 / elementary::pow(found[k - 1].first, 5);
+    const double mean = static_cast<double>(x.size()) * heavy_tail(found[k - 1].first);
     const double p = poisson_tail(static_cast<double>(k), mean);
     if (p < least) least = p, count = k;
   }

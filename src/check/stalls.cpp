@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "data/spikes.h"
 
 namespace dcnn::check {
 namespace {
@@ -117,7 +118,7 @@ Stalls stalls_of_pose(const Log& log) {
     }
     ++tried;
     const double z = step_before(k + 1) / beside;
-    const double p = std::min(1.0, 19.0 / elementary::pow(z, 5));
+    const double p = std::min(1.0, heavy_tail(z));
     if (p < out.p) out.p = p, out.runs = {run};
   }
   out.p = std::min(1.0, std::max(tried, 1.0) * out.p);

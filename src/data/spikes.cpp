@@ -29,25 +29,11 @@ Eigen::VectorXd off_neighbours(const Eigen::VectorXd& x) {
   return out;
 }
 
-/// Two-sided tail of Student's t with five degrees of freedom far out: noise of sensors at its
-/// worst.
-double heavy_tail(double z) { return 19.0 / elementary::pow(z, 5); }
-
 /// Of single rows: lambda expected, `count` found.
 double poisson_p(double lambda, int count) {
   double p = 1.0;
   for (int k = 1; k <= std::min(count, 50); ++k) p *= lambda / k;
   return std::min(1.0, p);
-}
-
-/// Of the rows that differ from their neighbours: a channel at its limit repeats one value.
-double deviation_of_moving(const Eigen::VectorXd& far) {
-  std::vector<double> sizes;
-  for (const double value : far) {
-    if (value != 0.0) sizes.push_back(std::abs(value));
-  }
-  if (sizes.empty()) return 0.0;
-  return kDeviationOfMedian * median(std::move(sizes));
 }
 
 struct Spike {
@@ -71,6 +57,17 @@ std::vector<Spike> lonely_rows(const Eigen::VectorXd& x, const Eigen::VectorXd& 
 }
 
 }  // namespace
+
+double heavy_tail(double z) { return 19.0 / elementary::pow(z, 5); }
+
+double deviation_of_moving(const Eigen::VectorXd& distances) {
+  std::vector<double> sizes;
+  for (const double value : distances) {
+    if (value != 0.0) sizes.push_back(std::abs(value));
+  }
+  if (sizes.empty()) return 0.0;
+  return kDeviationOfMedian * median(std::move(sizes));
+}
 
 std::string Spikes::words(const std::string& column) const {
   const bool one = rows.size() == 1;

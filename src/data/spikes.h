@@ -19,6 +19,14 @@ struct Spikes {
   std::string words(const std::string& column) const;
 };
 
+/// Two-sided tail of Student's t with five degrees of freedom far out, at z deviations: noise of
+/// sensors at its worst.
+double heavy_tail(double z);
+
+/// Deviation, by their median, of distances that are not zero: a channel at its limit repeats one
+/// value. 0 where all are.
+double deviation_of_moving(const Eigen::VectorXd& distances);
+
 /// Of values (T) in the order of time. A row is single where its two neighbours on either side lie
 /// within 0.3 of its distance from them, which an impact of several rows does not leave so.
 Spikes spikes_of(const Eigen::VectorXd& values);

@@ -37,25 +37,16 @@ Json law_json(const Discovered& found, const law::Terms& terms) {
 
 int fitted_numbers(const Discovered& law) { return (law.deviation.array() > 0.0).count(); }
 
-namespace {
-
-/// By how much more than noise a law must gain: on a machine, which leaves more beside any law.
-double dearer(const Setting& setting) {
-  return setting.study.axis ? setting.price / kNumberPrice : 1.0;
-}
-
-}  // namespace
-
 double least_gain_of_law(const Setting& setting) {
-  return discovery::prior::kAccepted * dearer(setting);
+  return discovery::prior::kAccepted * setting.price / kNumberPrice;
 }
 
 Laws worthy_laws(const Setting& setting, const JointFit& fit) {
   Laws laws{laws_in(setting, fit), {}};
+  const double dearer = setting.price / kNumberPrice;
   std::erase_if(laws.found, [&](const Discovered& law) {
-    const double paid = dearer(setting) * discovery::prior::kNumber * fitted_numbers(law);
-    return law.gain < least_gain_of_law(setting) + paid ||
-           (dearer(setting) > 1.0 && !law.established);
+    const double paid = dearer * discovery::prior::kNumber * fitted_numbers(law);
+    return law.gain < least_gain_of_law(setting) + paid || (dearer > 1.0 && !law.established);
   });
   for (const Discovered& found : laws.found) {
     laws.members.push_back(member_of(setting.study, found.law, law_json(found)));

@@ -170,10 +170,10 @@ void Search::settle(const std::vector<Member>& members) {
   if (study_.axis && floor_moved()) fit_beside_base(fit_.members);
   if (choose_rounding_noise()) fit_beside_base(fit_.members);
   left_ = difference(study_, predict(study_, fit_.members));
-  // What no effect explains errs as noise does, and is that much louder (overdispersion: McCullagh
-  // and Nelder, Generalized Linear Models, 1989, 4.5): a number counts that takes off a share of
-  // what is left. A machine always leaves something, in far fewer independent rows than it has. Of
-  // a tool that moves an unknown is weighed in its own terms, and laws are looked for in it.
+  // Overdispersion: what no effect explains counts as noise, its variance times chi-square per row,
+  // and so does a number's price (McCullagh and Nelder, Generalized Linear Models, 1989, 4.5). A
+  // machine always leaves something, in far fewer independent rows than it has. Of a tool that
+  // moves an unknown is weighed in its own terms, and laws are looked for in it.
   constexpr double kSlowNoisePrice = 20.0;
   const double share = study_.axis          ? kMachineShare
                        : is_overdispersed() ? kNumberPrice / setting_->mask.sum()
