@@ -16,10 +16,6 @@ double run_p(double n, double length, double q) {
   return std::min(1.0, n * elementary::exp(length * elementary::log(std::max(q, 1.0 / n))));
 }
 
-bool at_an_end(const Eigen::VectorXd& x, double value) {
-  return value == x.maxCoeff() || value == x.minCoeff();
-}
-
 /// Of a value that stands still: that it is a fault's, where a command may be round as well.
 double fault_at(const Log& log, double value, double p) {
   const double fault = posterior_of_p(p);
@@ -32,10 +28,12 @@ void find_frozen_column(const Log& log, const std::string& name, std::vector<Fau
   const Eigen::VectorXd x = log.column(name);
   const std::vector<Run> runs = runs_of(x);
   const bool whole = runs.size() == 1;
+  const double least = x.minCoeff(), most = x.maxCoeff();
   // At zero a channel is off, or was lost; at its ends it may be at a limit.
   std::vector<Run> held;
   for (const Run& run : runs) {
-    if (whole || (run.value != 0.0 && !at_an_end(x, run.value))) held.push_back(run);
+    const bool at_an_end = run.value == least || run.value == most;
+    if (whole || (run.value != 0.0 && !at_an_end)) held.push_back(run);
   }
   const auto longest = std::max_element(
       held.begin(), held.end(), [](const Run& a, const Run& b) { return a.length < b.length; });
