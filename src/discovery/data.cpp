@@ -131,6 +131,7 @@ VectorXd Data::product(const std::vector<Piece>& pieces, const Sketch& of) const
   for (const Piece& piece : pieces) {
     std::vector<double> numbers;
     if (piece.factor.memory != law::Memory::kNone) numbers.push_back(piece.memory);
+    if (piece.factor.memory == law::Memory::kSecondOrder) numbers.push_back(piece.damping);
     if (piece.factor.centred) numbers.push_back(piece.centre);
     numbers.push_back(piece.scale);
     numbers.push_back(piece.extra);

@@ -7,6 +7,13 @@ namespace {
 
 using law::Memory;
 
+/// What swings with an acceleration or a force: liquid, a hanging load, a flexible part.
+void add_swings(const Data& data, std::size_t c, std::vector<Atom>& list) {
+  for (const double hz : {0.3, 0.5, 0.8, 1.2, 1.8, 2.7, 4.0, 6.0}) {
+    list.push_back({swinging(piece("linear", c, data.rms(c)), hz)});
+  }
+}
+
 void add_rate(const Data& data, std::size_t c, std::vector<Atom>& list) {
   const double rms = data.rms(c);
   const auto add = [&](const Piece& p) { list.push_back({p}); };
@@ -20,7 +27,10 @@ void add_rate(const Data& data, std::size_t c, std::vector<Atom>& list) {
   for (const double tau : {0.05, 0.2, 0.6, 2.0}) {
     add(remembering(piece("linear", c, rms), Memory::kLag, tau));
   }
-  if (!law::coordinates()[c].is_rate) return;
+  if (!law::coordinates()[c].is_rate) {
+    add_swings(data, c, list);
+    return;
+  }
   for (const double width : {0.01, 0.04, 0.15}) {
     add(remembering(piece("linear", c, 1.0), Memory::kDahl, width * data.path_range(c)));
   }
@@ -100,6 +110,7 @@ void add_load(const Data& data, std::size_t c, std::vector<Atom>& list) {
     add(remembering(piece("linear", c, rms), Memory::kLag, tau));
   }
   add(remembering(piece("linear", c, rms), Memory::kPlay, 0.1 * range));
+  add_swings(data, c, list);
 }
 
 void add_products(const Data& data, std::vector<Atom>& list) {
@@ -147,6 +158,13 @@ Piece centred(Piece piece, double centre) {
 Piece remembering(Piece piece, Memory memory, double size) {
   piece.factor.memory = memory;
   piece.memory = size;
+  return piece;
+}
+
+Piece swinging(Piece piece, double hz) {
+  piece.factor.memory = Memory::kSecondOrder;
+  piece.memory = hz;
+  piece.damping = 0.2;
   return piece;
 }
 

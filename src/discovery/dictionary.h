@@ -18,6 +18,8 @@ Kind kind_of(std::size_t coordinate);
 Piece piece(const char* shape, std::size_t coordinate, double scale, double extra = 0.0);
 Piece centred(Piece piece, double centre);
 Piece remembering(Piece piece, law::Memory memory, double size);
+/// Behind a state of second order with this natural frequency, lightly damped.
+Piece swinging(Piece piece, double hz);
 
 /// A factor linear in the coordinate, about the middle of its range where it has no zero.
 Piece linear_in(const Data& data, std::size_t coordinate);

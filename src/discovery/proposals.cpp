@@ -34,6 +34,12 @@ void add_modulators(const Data& data, std::size_t c, std::vector<Piece>& list) {
       list.push_back(piece("one_sided", c, side * data.rms(c), 1.0));
     }
   }
+  if (law::coordinates()[c].is_rate) {  // a contact that grows with its age
+    for (const double length : {0.001, 0.01}) {
+      const Piece aged = piece("affine", c, 1.0, 0.1);
+      list.push_back(remembering(aged, Memory::kDwell, length * data.path_range(c)));
+    }
+  }
   if (kind != Kind::kPlace) return;
   for (const double at : {-0.4, 0.0, 0.4}) {
     list.push_back(centred(piece("gaussian", c, 0.3 * range), middle + at * range));
@@ -120,6 +126,9 @@ std::vector<Piece> with_memories(const Data& data, const Piece& from) {
   if (from.factor.memory != Memory::kNone) return list;
   const std::size_t c = from.factor.coordinate;
   list.push_back(remembering(from, Memory::kLag, 0.2));
+  if (kind_of(c) == Kind::kRate || kind_of(c) == Kind::kLoad) {
+    for (const double hz : {0.7, 2.0}) list.push_back(swinging(from, hz));
+  }
   if (kind_of(c) == Kind::kPlace || kind_of(c) == Kind::kLoad) {
     list.push_back(remembering(from, Memory::kPlay, 0.1 * data.half_range(c)));
   }

@@ -48,6 +48,9 @@ void add_handles(const Data& data, Piece& piece, std::vector<Handle>& list) {
       piece.factor.memory == law::Memory::kLag || piece.factor.memory == law::Memory::kHighPass;
   if (clock_memory) {
     list.push_back(positive(piece.memory, 2.0 * data.dt(), 0.5 * data.seconds()));
+  } else if (piece.factor.memory == law::Memory::kSecondOrder) {
+    list.push_back(positive(piece.memory, 1.0 / data.seconds(), 0.25 / data.dt()));
+    list.push_back(positive(piece.damping, law::kLeastDamping, law::kMostDamping));
   } else if (piece.factor.memory == law::Memory::kPlay) {
     list.push_back(positive(piece.memory, 1e-3 * data.half_range(c), data.half_range(c)));
   } else if (piece.factor.memory != law::Memory::kNone) {

@@ -45,6 +45,7 @@ void each_number(AnySketch& sketch, const Visit& visit) {
   if (sketch.lag > 0.0) visit(sketch.lag);
   for (auto& piece : sketch.pieces) {
     if (piece.factor.memory != law::Memory::kNone) visit(piece.memory);
+    if (piece.factor.memory == law::Memory::kSecondOrder) visit(piece.damping);
     if (piece.factor.centred) visit(piece.centre);
     visit(piece.scale);
     if (*law::shapes()[piece.factor.shape].extra) visit(piece.extra);

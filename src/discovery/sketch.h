@@ -10,7 +10,7 @@ namespace dcnn::discovery {
 
 struct Piece {
   law::Factor factor;
-  double memory = 0.0, centre = 0.0, scale = 1.0, extra = 0.0;
+  double memory = 0.0, damping = 0.0, centre = 0.0, scale = 1.0, extra = 0.0;
 };
 
 struct Sketch {

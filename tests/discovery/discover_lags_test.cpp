@@ -49,6 +49,36 @@ TEST(Discover, ForceBehindALag) {
   EXPECT_NE(law::expression(laws[0].law).find("lag(load"), std::string::npos);
 }
 
+TEST(Discover, LiquidThatSwings) {
+  // 40 g on a spring of 0.9 Hz along the base's x, damping ratio 0.12, by semi-implicit Euler
+  // steps of 0.1 ms: another integrator than the law's.
+  const auto swung = [](const Scene& at) {
+    MatrixXd force = MatrixXd::Zero(at.motion.samples(), 3);
+    const double w = 2.0 * M_PI * 0.9;
+    double s = 0.0, rate = 0.0;
+    for (Index k = 1; k < force.rows(); ++k) {
+      for (int i = 0; i < 200; ++i) {
+        const double part = i / 200.0;
+        const double a = (1.0 - part) * at.motion.a_B(k - 1, 0) + part * at.motion.a_B(k, 0);
+        rate += 1e-4 * (w * w * (a - s) - 2.0 * 0.12 * w * rate);
+        s += 1e-4 * rate;
+      }
+      const Eigen::Vector3d e = at.motion.R_BS[static_cast<std::size_t>(k)].row(0);
+      force.row(k) = -0.04 * s * e.transpose();
+    }
+    return force;
+  };
+  const Scene at = scene(3, 2000), other = scene(77, 2000);
+  const auto laws = discover(problem_of(at, swung(at) + white(2000, kBlockNoise, 20), kBlockNoise));
+  ASSERT_EQ(laws.size(), 1U);
+  EXPECT_TRUE(laws[0].established);
+  const MatrixXd error = prediction(other, laws) - swung(other);
+  EXPECT_LE(std::sqrt(error.squaredNorm() / static_cast<double>(error.size())), 0.32 * kBlockNoise)
+      << law::expression(laws[0].law);
+  EXPECT_NE(law::expression(laws[0].law).find("second_order(a_base_x"), std::string::npos)
+      << law::expression(laws[0].law);
+}
+
 // "Stronger by 10^6 % where the speed is near 0" is "where the speed is near 0": one number fewer.
 TEST(Discover, AModulatorOfWhichOnlyOneIsNoPartLosesIt) {
   static const Scene at = scene(3, 500);

@@ -82,6 +82,25 @@ TEST(DiscoveredLaw, OutputLagIsTheStepResponseOfAFirstOrderLag) {
   EXPECT_NEAR(wrench.force(499, 0), 2.0 * (1.0 - std::exp(-0.997 / 0.25)), 1e-4);
 }
 
+TEST(DiscoveredLaw, SecondOrderIsItsStepResponse) {
+  Eigen::VectorXd v = Eigen::VectorXd::Ones(1500);
+  v(0) = 0.0;
+  const double hz = 1.3, damping = 0.15, dt = 0.002;
+  const auto effect = discovered(
+      R"({"axis": "base_x",
+          "factors": [{"shape": "linear", "of": "v_base_x", "memory": "second_order"}]})",
+      {{"amplitude_n", 2.0}, {"memory_1_hz", hz}, {"damping_1", damping}, {"scale_1_mps", 1.0}});
+  const Wrench wrench = applied(effect, moving(v, dt), no_wrench(1500));
+  // The first step is a ramp of one sample: a step half a sample later but for terms of dt^2.
+  const double w = 2.0 * M_PI * hz, wd = w * std::sqrt(1.0 - damping * damping);
+  for (Index k = 10; k < 1500; ++k) {
+    const double t = (static_cast<double>(k) - 0.5) * dt;
+    const double step =
+        1.0 - std::exp(-damping * w * t) * (std::cos(wd * t) + damping * w / wd * std::sin(wd * t));
+    ASSERT_NEAR(wrench.force(k, 0), 2.0 * step, 1e-4);
+  }
+}
+
 TEST(DiscoveredLaw, PlayLeavesADeadZoneAtEveryTurn) {
   Motion motion = still_motion(300);
   motion.euler.col(1) = Eigen::ArrayXd::LinSpaced(300, 0.0, 12.0).sin();
@@ -284,7 +303,7 @@ TEST(DiscoveredLaw, RefusesUnknownWordsAndUnitsThatItsStructureDoesNotHave) {
 TEST(DiscoveredLaw, EveryShapeAndMemoryIsFiniteAndTold) {
   const Motion motion = example_motion(200);
   for (std::size_t shape = 0; shape < law::shapes().size(); ++shape) {
-    for (int memory = 0; memory <= static_cast<int>(law::Memory::kDwell); ++memory) {
+    for (int memory = 0; memory <= static_cast<int>(law::Memory::kSecondOrder); ++memory) {
       law::Law law{{2, false, false, false, {{shape, 5, static_cast<law::Memory>(memory), true}}},
                    {}};
       const auto list = law::numbers_of(law.structure);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dcnn/physics/effect.h"
+#include "dcnn/physics/first_order.h"
 
 namespace dcnn::law {
 
@@ -79,7 +80,12 @@ enum class Memory {
   kPlay,      ///< s follows q at the distance of a width (Krasnosel'skii and Pokrovskii 1989)
   kDahl,   ///< ds = (dx - abs(dx) s)/width, x the coordinate or, of a rate, its integral; |s| <= 1
   kDwell,  ///< s' = 1 - abs(x') s/length: seconds of contact (Dieterich 1979)
+  kSecondOrder,  ///< s'' = w^2 (q - s) - 2 d w s', w the natural frequency, d the damping ratio
 };
+/// Numbers of a state: a size, and the damping ratio of the second order.
+int numbers_of(Memory memory);
+/// Of a state of second order: below 1, where two lags do the same.
+constexpr double kLeastDamping = 0.005, kMostDamping = 0.98;
 
 struct Factor {
   std::size_t shape = 0, coordinate = 0;  ///< places in shapes() and coordinates()
@@ -165,6 +171,7 @@ class LagRun {
 /// The state that a factor's coordinate drives, and its value; allocates nothing.
 class FactorRun {
  public:
+  /// `numbers`: those of the state, the centre, the scale, and that of the shape, where there are.
   FactorRun(const Factor& factor, const double* numbers);
   /// `h` s after the sample before; `first` begins a stretch, states in equilibrium.
   double step(double q, double h, bool first);
@@ -177,6 +184,10 @@ class FactorRun {
   double size_ = 1.0, centre_ = 0.0, scale_ = 1.0, extra_ = 0.0;
   double s_ = 0.0, before_ = 0.0;
   LagRun<double> lag_;
+  // Of second order: the state is the imaginary part of x' = pole x + q, times a gain.
+  std::complex<double> pole_, x_;
+  double gain_ = 1.0;
+  FirstOrder<std::complex<double>> swing_;
 };
 
 /// The force of a law sample by sample; step() allocates nothing.

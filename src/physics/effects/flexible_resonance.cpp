@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "physics/effect_law.h"
-#include "physics/first_order.h"
+#include "dcnn/physics/first_order.h"
 
 namespace dcnn::effects::flexible_resonance {
 namespace {

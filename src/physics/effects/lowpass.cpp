@@ -1,5 +1,5 @@
 #include "physics/effect_law.h"
-#include "physics/first_order.h"
+#include "dcnn/physics/first_order.h"
 
 namespace dcnn::effects::lowpass {
 namespace {

@@ -1,6 +1,7 @@
 // The shapes that factors of a law have, and the states that a coordinate drives.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/elementary.h"
 #include "dcnn/physics/law.h"
@@ -44,6 +45,12 @@ double falling(double u, double p) {  // Stribeck's: 1 + p at rest, 1 far from i
 double dahl(double s, double dx, double width) {
   const double end = dx < 0.0 ? -1.0 : 1.0;
   return end + (s - end) * elementary::exp(-std::abs(dx) / width);
+}
+
+/// Root of p^2 + 2 d w p + w^2 with a positive imaginary part, rad/s.
+std::complex<double> pole_of(double hz, double damping) {
+  const double w = 2.0 * std::numbers::pi * hz;
+  return {-damping * w, w * std::sqrt(1.0 - damping * damping)};
 }
 
 /// s' = 1 - speed s/length over h at constant speed.
@@ -94,11 +101,19 @@ const std::vector<Shape>& shapes() {
   return list;
 }
 
+int numbers_of(Memory memory) {
+  return memory == Memory::kNone ? 0 : memory == Memory::kSecondOrder ? 2 : 1;
+}
+
 FactorRun::FactorRun(const Factor& factor, const double* numbers)
     : shape_(&shapes()[factor.shape]),
       memory_(factor.memory),
-      is_rate_(coordinates()[factor.coordinate].is_rate) {
-  if (memory_ != Memory::kNone) size_ = *numbers++;
+      is_rate_(coordinates()[factor.coordinate].is_rate),
+      pole_(factor.memory == Memory::kSecondOrder ? pole_of(numbers[0], numbers[1]) : 0.0),
+      swing_(pole_) {
+  if (memory_ != Memory::kNone) size_ = *numbers;
+  if (memory_ == Memory::kSecondOrder) gain_ = std::norm(pole_) / pole_.imag();
+  numbers += numbers_of(memory_);
   if (factor.centred) centre_ = *numbers++;
   scale_ = *numbers++;
   if (*shape_->extra) extra_ = *numbers;
@@ -119,6 +134,9 @@ double FactorRun::state(double q, double h, bool first) {
     case Memory::kDahl:
       s_ = first ? 0.0 : dahl(s_, moved, size_);
       return s_;
+    case Memory::kSecondOrder:
+      x_ = first ? -q / pole_ : swing_.advance(x_, before_, q, h);
+      return gain_ * x_.imag();
     default:
       s_ = first ? 0.0 : dwell(s_, std::abs(moved), h, size_);
       return s_;

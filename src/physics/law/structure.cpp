@@ -8,7 +8,8 @@
 namespace dcnn::law {
 namespace {
 
-const std::vector<std::string> kMemories{"none", "lag", "high_pass", "play", "dahl", "dwell"};
+const std::vector<std::string> kMemories{"none", "lag",   "high_pass",   "play",
+                                         "dahl", "dwell", "second_order"};
 constexpr std::size_t kMostFactors = 4;
 const std::vector<std::string> kToldAgain{"expression", "latex", "words", "coordinates", "states"};
 
@@ -57,6 +58,7 @@ std::string suffix_of(const std::string& unit) {
   if (unit == "rad/s^2") return "_radps2";
   if (unit == "m^2/s^2") return "_m2ps2";
   if (unit == "N") return "_n";
+  if (unit == "Hz") return "_hz";
   return unit.empty() ? "" : "_" + unit;
 }
 
@@ -69,6 +71,7 @@ std::string path_unit(const Coordinate& q) {
 std::string memory_unit(const Factor& factor, const Coordinate& q) {
   if (factor.memory == Memory::kPlay) return q.unit;
   if (factor.memory == Memory::kDahl || factor.memory == Memory::kDwell) return path_unit(q);
+  if (factor.memory == Memory::kSecondOrder) return "Hz";
   return "s";
 }
 
@@ -90,6 +93,9 @@ void add_numbers(const Factor& factor, const std::string& index, const Terms& te
     list.push_back({stem + index + suffix, unit, reference, low, high});
   };
   if (factor.memory != Memory::kNone) add("memory_", memory_unit(factor, q), false, 1e-9, 1e9);
+  if (factor.memory == Memory::kSecondOrder) {
+    add("damping_", "", false, kLeastDamping, kMostDamping);
+  }
   const std::string unit = state_unit(factor, q);
   if (factor.centred) add("centre_", unit, !shape.free_centre, -1e9, 1e9);
   add("scale_", unit, !shape.free_scale, shape.signed_scale ? -1e9 : 1e-9, 1e9);

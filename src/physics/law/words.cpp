@@ -15,7 +15,7 @@ struct FactorText {
   const Factor* factor;
   const Shape* shape;
   const Coordinate* q;
-  std::string index = {}, memory = {}, centre = {}, scale = {};
+  std::string index = {}, memory = {}, damping = {}, centre = {}, scale = {};
   double centre_value = 0.0, scale_value = 1.0, extra = 0.0;
 };
 
@@ -35,6 +35,7 @@ std::vector<FactorText> texts_of(const Law& law, const Terms& terms) {
                list[i].name.starts_with(stem + text.index + "_");
       };
       if (begins("memory_")) text.memory = told;
+      if (begins("damping_")) text.damping = told;
       if (begins("centre_")) text.centre = told, text.centre_value = value;
       if (begins("scale_")) text.scale = told, text.scale_value = value;
       if (begins("power_") || begins("ratio_") || begins("gain_")) text.extra = value;
@@ -53,11 +54,10 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 const char* memory_name(Memory memory) {
-  static const std::map<Memory, const char*> names{{Memory::kLag, "lag"},
-                                                   {Memory::kHighPass, "highpass"},
-                                                   {Memory::kPlay, "play"},
-                                                   {Memory::kDahl, "dahl"},
-                                                   {Memory::kDwell, "dwell"}};
+  static const std::map<Memory, const char*> names{
+      {Memory::kLag, "lag"},     {Memory::kHighPass, "highpass"},
+      {Memory::kPlay, "play"},   {Memory::kDahl, "dahl"},
+      {Memory::kDwell, "dwell"}, {Memory::kSecondOrder, "second_order"}};
   return names.at(memory);
 }
 
@@ -65,7 +65,8 @@ const char* memory_name(Memory memory) {
 std::string argument(const FactorText& text) {
   std::string q = text.q->name;
   if (text.factor->memory != Memory::kNone) {
-    q = std::string(memory_name(text.factor->memory)) + "(" + q + ", " + text.memory + ")";
+    q = std::string(memory_name(text.factor->memory)) + "(" + q + ", " + text.memory +
+        (text.damping.empty() ? "" : ", " + text.damping) + ")";
   }
   if (text.factor->centred) q = "(" + q + " - " + text.centre + ")";
   return "(" + q + "/" +
@@ -100,7 +101,8 @@ std::string latex_factor(const FactorText& text) {
                                                                     : text.q->unit;
   if (text.factor->memory != Memory::kNone) {
     q = std::string("\\mathcal{M}_{\\text{") + memory_name(text.factor->memory) + "}," +
-        replaced(text.memory, " ", "\\,") + "}[" + q + "]";
+        replaced(text.memory, " ", "\\,") + (text.damping.empty() ? "" : "," + text.damping) +
+        "}[" + q + "]";
   }
   if (text.factor->centred) q += " - " + latex_number(text.centre_value, state);
   const std::string u = "\\tfrac{" + q + "}{" + latex_number(text.scale_value, state) + "}";
@@ -123,6 +125,9 @@ std::string subject(const FactorText& text) {
       return q + " behind a play of " + text.memory + " to either side";
     case Memory::kDahl:
       return "the presliding of " + q + " over " + text.memory;
+    case Memory::kSecondOrder:
+      return q + " behind a second-order lag of " + text.memory + " and damping ratio " +
+             text.damping;
     case Memory::kDwell:
       return "the time that " + q + " needed for the last " + text.memory;
     default:
