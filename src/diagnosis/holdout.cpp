@@ -174,6 +174,22 @@ double HoldOut::mean_rmse(const std::vector<Member>& members, const Eigen::Vecto
   return sum / static_cast<double>(study_.channel_count());
 }
 
+double HoldOut::left_where_fitted(const Search& search, Index channel) const {
+  const Case& fitted = search.study();
+  double square = 0.0, rows = 0.0;
+  for (std::size_t k = 0; k < fitted.logs.size(); ++k) {
+    for (const Segment& s : inner_segments(fitted, k)) {
+      for (Index i = s.begin; i < s.end; ++i) {
+        if (blocks_ && held_[k][static_cast<std::size_t>(i)]) continue;
+        const double left = search.left()[k](i, channel);
+        square += left * left;
+        rows += 1.0;
+      }
+    }
+  }
+  return std::sqrt(square / std::max(1.0, rows));
+}
+
 std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
                                                const std::vector<Floor>& floors) const {
   constexpr double kMost = 1.2, kChance = 1.96;
@@ -186,16 +202,17 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
   const double chance = kChance / std::sqrt(2.0 * std::max(1.0, rows / block));
   const Case& fitted = search.study();
   // What the band above the motion hardly tells of the noise below may all be left of the fit.
+  // Slow noise is none of recordings without one whole period of it.
+  const double periods = search.bands().empty() ? 0.0 : search.bands().front().dof;
   std::optional<std::vector<Floor>> all;
-  if (!fitted.is_static()) {
+  if (!fitted.is_static() && periods >= 3.0 * static_cast<double>(fitted.channel_count())) {
     const Signals left = unfiltered_left(fitted, search.fit().members);
     all = noise_of_all(fitted, left, noise_level(fitted, left), search.floors());
   }
   std::optional<Excess> worst;
   for (std::size_t j = 0; j < errors.size(); ++j) {
     const double fitted_noise = search.floors()[j].whole_deviation();
-    const double left =
-        std::sqrt(mean_square(search.study(), search.left(), static_cast<Index>(j)));
+    const double left = left_where_fitted(search, static_cast<Index>(j));
     // Of recordings of their own the noise is as loud as they say; of held-out blocks as it is
     // beside them, for it is bounded by the error that is judged.
     double noise = blocks_ ? fitted_noise : floors[j].whole_deviation();
@@ -204,9 +221,12 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
       noise = std::max(noise, most * std::min(1.0, noise / fitted_noise));
     }
     // Of an axis the error of the motion has a spectrum of its own in the floor. Poses are few: a
-    // free matrix may leave less of them than noise, and what the fit leaves was weighed.
+    // free matrix may leave less of them than noise, and what the fit leaves was weighed. What no
+    // band was tested for, because the recordings are too short, may be anything.
+    const bool tested = std::any_of(search.bands().begin(), search.bands().end(),
+                                    [](const BandTest& band) { return band.dof > 0.0; });
     const bool left_is_noise =
-        fitted.is_static() || (!fitted.axis && !search.floors()[j].pose_gain.empty());
+        fitted.is_static() || (tested && !fitted.axis && !search.floors()[j].pose_gain.empty());
     if (left_is_noise) noise = std::max(noise, left);
     const double ratio = errors[j] / std::max(1e-300, noise);
     if (ratio > kMost * (1.0 + chance) && (!worst || ratio > worst->ratio)) {

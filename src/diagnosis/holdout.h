@@ -71,6 +71,8 @@ class HoldOut {
                                              const Signals& with, const Signals& without,
                                              const std::vector<Floor>& floors,
                                              const std::vector<double>& noisier) const;
+  /// RMS of what the model leaves of the rows that it was fitted to.
+  double left_where_fitted(const Search& search, Eigen::Index channel) const;
   /// Of recordings of their own.
   std::vector<Floor> own_floors(const Search& search) const;
   /// Of a recording that was zeroed: from the rows that are not held out, or from these where all

@@ -49,7 +49,7 @@ std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& 
     band.from_hz *= setting.study.motion_hz / 20.0;
     band.to_hz *= setting.study.motion_hz / 20.0;
   }
-  std::vector<double> sum(bands.size(), 0.0), dof(bands.size(), 0.0);
+  std::vector<double> sum(bands.size(), 0.0);
   const auto& info = setting.whitener.row_info();
   const double dt = setting.whitener.block_seconds();
   // Runs of rows of one channel that follow each other in time.
@@ -72,15 +72,16 @@ std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& 
         for (std::size_t b = 0; b < bands.size(); ++b) {
           if (hz < bands[b].from_hz || hz >= bands[b].to_hz) continue;
           sum[b] += (single ? 1.0 : 2.0) * power(k) / expected;
-          dof[b] += single ? 1.0 : 2.0;
+          bands[b].dof += single ? 1.0 : 2.0;
         }
       }
     }
     begin = end;
   }
   for (std::size_t b = 0; b < bands.size(); ++b) {
-    bands[b].excess = sum[b] - dof[b];
-    bands[b].z = dof[b] > 0.0 ? bands[b].excess / std::sqrt(2.0 * dof[b]) : 0.0;
+    const double dof = bands[b].dof;
+    bands[b].excess = sum[b] - dof;
+    bands[b].z = dof > 0.0 ? bands[b].excess / std::sqrt(2.0 * dof) : 0.0;
   }
   return bands;
 }

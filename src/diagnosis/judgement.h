@@ -12,8 +12,9 @@ namespace dcnn {
 /// What is left in one band of frequencies, against the floor.
 struct BandTest {
   double from_hz, to_hz;
-  double z;       ///< (sum - dof)/sqrt(2 dof) of the whitened periodogram
-  double excess;  ///< sum - dof
+  double z;          ///< (sum - dof)/sqrt(2 dof) of the whitened periodogram
+  double excess;     ///< sum - dof
+  double dof = 0.0;  ///< 0: too few blocks follow each other for a periodogram
 
   bool stands_out() const { return z > 5.0; }
   /// Power over what the floor makes.

@@ -22,6 +22,25 @@ TEST(PoorRecordings, OfTwoSecondsHaveSpectraToo) {
   EXPECT_EQ(report["verdict"], "consistent") << report["findings"].dump(1);
 }
 
+/// Dry friction of ten times the noise within 0.7 s: no band has a spectrum, and what a model
+/// leaves of so few rows is no noise that held-out rows may be excused by.
+TEST(PoorRecordings, OfLessThanASecondAreNeverCalledComplete) {
+  const double noise = 0.04;
+  const Json world = test::configuration(
+      Json::array({test::hidden("coulomb_friction", "tool_z", {{"fc_n", 0.4}, {"v0_mps", 0.01}})}));
+  for (const Index first : {500, 2500, 4500, 7000}) {
+    const test::Bench bench(world);
+    test::change(bench, [&](Recording& log) {
+      log.table.values = log.table.values.middleRows(first, 350).eval();
+    });
+    const Json report = bench.diagnose(/*holdout=*/false).report;
+    const double left = report["fit"]["holdout_rmse_after"][2];
+    const auto verdict = report["verdict"].get<std::string>();
+    const bool complete = verdict == "consistent" || verdict == "explained";
+    EXPECT_FALSE(complete && left > 3.0 * noise) << first << ": " << verdict << ", " << left;
+  }
+}
+
 /// Seven poses leave three degrees of freedom of each channel's noise: an offset of 0.2 N beside
 /// noise of 0.05 N may be chance.
 TEST(PoorRecordings, OfSevenPosesMakeNobodySure) {
