@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/sample_at.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {
@@ -22,16 +23,6 @@ struct Cells {
   Eigen::MatrixXd sum;     // (cells, channels), of residual·weight
   Eigen::VectorXd weight;  // (cells) number of blocks
 };
-
-/// The sample of a motion nearest to a time, whatever gaps it has.
-Index sample_at(const Motion& motion, double t) {
-  const auto begin = motion.t.begin(), end = motion.t.end();
-  const auto after = std::lower_bound(begin, end, t);
-  if (after == begin) return 0;
-  if (after == end) return motion.samples() - 1;
-  const bool nearer = t - *(after - 1) < *after - t;
-  return (nearer ? after - 1 : after) - begin;
-}
 
 /// Adds the cells of a recording: none lie in a gap longer than an event.
 void add_cells(const Motion& motion, std::size_t log, Cells& cells) {

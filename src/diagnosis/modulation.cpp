@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/judgement.h"
+#include "diagnosis/sample_at.h"
 #include "diagnosis/scan.h"
 
 namespace dcnn {
@@ -21,8 +22,7 @@ std::vector<Eigen::VectorXd> modulators(const Setting& setting, const Signals& p
     for (Index row = 0; row < rows.size(); ++row) {
       const auto& at = info[static_cast<std::size_t>(row)];
       const Motion& motion = study.logs[at.log].motion;
-      const auto k = static_cast<Index>(std::llround((at.t - motion.t(0)) / study.dt()));
-      rows(row) = values[at.log](std::clamp<Index>(k, 0, motion.samples() - 1));
+      rows(row) = values[at.log](sample_at(motion, at.t));
     }
     const double low = rows.minCoeff(), high = rows.maxCoeff();
     if (!(high > low)) return;
