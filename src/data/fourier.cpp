@@ -244,4 +244,17 @@ Eigen::VectorXd Fourier::inverse(const Eigen::VectorXcd& X) const {
 
 Eigen::VectorXcd fourier(const Eigen::VectorXd& x) { return Fourier(x.size())(x); }
 
+Eigen::VectorXd cosine_transform(const Eigen::VectorXd& x) {
+  const Index n = x.size();
+  Eigen::VectorXd mirrored(2 * n);  // whose transform is 2 exp(i pi k/(2 N)) times the sum
+  mirrored << x, x.reverse();
+  const Eigen::VectorXcd X = fourier(mirrored);
+  Eigen::VectorXd sums(n);
+  for (Index k = 0; k < n; ++k) {
+    const double half = -std::numbers::pi * static_cast<double>(k) / (2.0 * static_cast<double>(n));
+    sums(k) = 0.5 * product(X(k), elementary::polar(1.0, half)).real();
+  }
+  return sums;
+}
+
 }  // namespace dcnn

@@ -39,6 +39,19 @@ TEST_P(FourierOfLength, IsUndoneByItsInverse) {
   EXPECT_LT((Fourier(GetParam()).inverse(fourier(x)) - x).cwiseAbs().maxCoeff(), 1e-14);
 }
 
+TEST_P(FourierOfLength, GivesTheCosineTransform) {
+  const Index n = GetParam();
+  const Eigen::VectorXd x = noise(n), X = cosine_transform(x);
+  for (const Index k : {Index{0}, n / 3, n / 2, n - 1}) {
+    double sum = 0.0;
+    for (Index i = 0; i < n; ++i) {
+      const double turn = static_cast<double>(k) * (static_cast<double>(i) + 0.5);
+      sum += x(i) * std::cos(std::numbers::pi * turn / static_cast<double>(n));
+    }
+    EXPECT_NEAR(X(k), sum, 1e-12 * static_cast<double>(n)) << k;
+  }
+}
+
 // Every radix, products of them, primes and powers of a prime that has no step of its own.
 INSTANTIATE_TEST_SUITE_P(Lengths, FourierOfLength,
                          testing::Values(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 13, 14, 15, 16, 22, 25,

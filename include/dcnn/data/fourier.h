@@ -35,4 +35,7 @@ class Fourier {
 /// The same for one signal.
 Eigen::VectorXcd fourier(const Eigen::VectorXd& x);
 
+/// sum_n x_n cos(pi k (n + 1/2)/N), k = 0 … N-1 (the type-II cosine transform, not normalised).
+Eigen::VectorXd cosine_transform(const Eigen::VectorXd& x);
+
 }  // namespace dcnn

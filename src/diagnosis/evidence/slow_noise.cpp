@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "core/elementary.h"
+#include "dcnn/data/fourier.h"
 #include "diagnosis/evidence/marginal.h"
 #include "diagnosis/evidence/priors.h"
 
@@ -24,15 +24,11 @@ std::map<std::uint32_t, std::vector<Term>> transformed(const Grid& grid,
   std::map<std::uint32_t, std::vector<Term>> terms;
   for (const Grid::Run& run : grid.runs()) {
     const auto n = static_cast<double>(run.count);
+    const Eigen::VectorXd sums = cosine_transform(residual.segment(run.first, run.count));
     for (Index k = 1; k < run.count; ++k) {
       const double hz = static_cast<double>(k) / (2.0 * n * grid.seconds());
       if (hz > kHighest) break;
-      const double turn = std::numbers::pi * static_cast<double>(k) / n;
-      double sum = 0.0;
-      for (Index i = 0; i < run.count; ++i) {
-        sum += residual(run.first + i) * elementary::cos(turn * (static_cast<double>(i) + 0.5));
-      }
-      terms[run.channel].push_back({hz, sum * sum * 2.0 / n});
+      terms[run.channel].push_back({hz, sums(k) * sums(k) * 2.0 / n});
     }
   }
   return terms;

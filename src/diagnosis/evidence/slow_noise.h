@@ -7,7 +7,7 @@ namespace dcnn::evidence {
 
 /// ln of the Bayes factor, its prior included, of noise of density 1 + corner/f over that of
 /// density 1, in the cosine transforms of the residual's runs: the corner of each channel
-/// log-uniform between 0.01 and 2 Hz (priors.h: kSlowNoise).
+/// log-uniform between kLeastCorner and kMostCorner (priors.h, kSlowNoise).
 struct SlowNoise {
   double log_factor = 0.0;
   /// No band of an octave holds more than kMostSlowNoise times the floor: else it is no sensor's.
