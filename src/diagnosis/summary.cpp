@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dcnn/diagnosis/diagnose.h"
+#include "dcnn/physics/effect_words.h"
 #include "diagnosis/plain_findings.h"
 #include "diagnosis/words.h"
 
@@ -81,6 +82,27 @@ std::string against(const Json& finding) {
   return " (held-out " + names + (channels.size() == 1 ? " speaks" : " speak") + " against it)";
 }
 
+/// A finding in words, with what it shares its probability with where it is not itself the likelier
+/// half: "either dry friction of 0.4 N (30 %) or presliding (40 %), which these recordings do not
+/// tell apart".
+std::string with_equals(const Json& finding) {
+  const std::string words = finding["words"];
+  const Json own = finding.value("confidence", Json());
+  const Json shared = finding.value("shared_with", Json::object());
+  if (own.is_null() || own.get<double>() >= 0.5 || shared.empty() || is_doubtful(finding)) {
+    return words;
+  }
+  std::vector<std::pair<double, std::string>> others;
+  for (const auto& [name, share] : shared.items()) {
+    others.emplace_back(share.get<double>(), words_of_effect(name));
+  }
+  std::sort(others.rbegin(), others.rend());
+  const auto percent = [](double share) { return " (" + brief(100.0 * share) + " %)"; };
+  std::string text = "either " + words + percent(own);
+  for (const auto& [share, name] : others) text += " or " + name + percent(share);
+  return text + ", which these recordings do not tell apart";
+}
+
 struct Missing {
   std::string words;     ///< findings and what has no name
   std::string others;    ///< findings of which the held-out error does not tell
@@ -95,7 +117,7 @@ Missing what_is_missing(const Json& report) {
     std::string& list = is_doubtful(finding)         ? doubtful
                         : is_without_effect(finding) ? others
                                                      : text;
-    list += (list.empty() ? "" : "; ") + finding["words"].get<std::string>() + against(finding);
+    list += (list.empty() ? "" : "; ") + with_equals(finding) + against(finding);
   }
   if (arm) return {capitalised(report["arm"]["words"].get<std::string>()), "", doubtful};
   if (!report["unnamed"]["words"].is_null()) {
