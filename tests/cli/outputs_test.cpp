@@ -125,6 +125,14 @@ INSTANTIATE_TEST_SUITE_P(Every, Outputs, ::testing::ValuesIn(kCases));
 const std::string kShippedTool = DCNN_SOURCE_DIR "/data/sample/sim.json";
 const std::string kLog = DCNN_SOURCE_DIR "/data/sample/test.csv";
 
+TEST_F(Outputs, OfACommandThatIsJudgedByACopyOfWhatItLearnsFrom) {
+  for (const char* name : {"a.csv", "b.csv"}) write_file(at(name), "t,fx\n0,1\n");
+  const auto result = test::run("diagnose", {"--sim", at("s.json"), "--fit", at("a.csv"),
+                                             "--holdout", at("b.csv"), "--out", at("r")});
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_NE(result.err.find("b.csv: is a copy of"), std::string::npos) << result.err;
+}
+
 TEST_F(Outputs, OfAPredictionAreReplacedByANewerOneLinksFollowedStreamsWritten) {
   std::filesystem::create_symlink("p.csv", at("link.csv"));
   for (int k = 0; k < 2; ++k) {

@@ -6,8 +6,8 @@
 
 namespace dcnn {
 
-/// Error(kUsage) where a recording is named twice, to be learned from or to be judged by or both:
-/// an error on rows that were fitted is no error on new data.
+/// Error(kUsage) where a recording or a copy of one is named twice, to be learned from or judged
+/// by: an error on rows that were fitted is no error on new data.
 void expect_apart(const std::vector<std::filesystem::path>& learned,
                   const std::vector<std::filesystem::path>& judged);
 
