@@ -35,6 +35,8 @@ std::vector<Sketch> direction_sketches(const Data& data);
 std::vector<Piece> modulators(const Data& data);
 /// Other shapes of a piece's coordinate.
 std::vector<Piece> other_shapes(const Data& data, const Piece& piece);
+/// What 1 + p f(u) is for large p: f(u) alone, which needs one number fewer. Nothing for others.
+std::vector<Piece> without_constant(const Piece& piece);
 /// The piece with a state between coordinate and shape.
 std::vector<Piece> with_memories(const Data& data, const Piece& piece);
 

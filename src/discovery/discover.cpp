@@ -142,6 +142,33 @@ void prune(const Problem& problem, Terms& terms) {
   }
 }
 
+/// Replaces terms by plainer forms that are worth as much beside the others: numbers that were
+/// fitted again may have made a factor needless, or its constant.
+void make_plainer(const Problem& problem, Terms& terms) {
+  constexpr int kSteps = 6;
+  constexpr double kSame = 0.1;  // of chi-square: where fits of one law end
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    const Problem rest = beside(problem, without(terms, k));
+    const Data data(rest);
+    for (;;) {
+      std::vector<Trial> trials;
+      for (const Sketch& sketch : plainer(terms[k])) {
+        trials.push_back(refined(data, sketch, kSteps));
+      }
+      if (trials.empty()) break;
+      trials.push_back(weighed(data, terms[k]));
+      rank(trials);
+      const law::Structure own = structure_of(terms[k]);
+      const auto at = std::find_if(trials.begin(), trials.end(), [&](const Trial& trial) {
+        return structure_of(trial.sketch) == own;
+      });
+      const Trial& best = at == trials.begin() ? trials[1] : trials.front();
+      if (best.score < at->score - kSame) break;
+      terms[k] = best.sketch;
+    }
+  }
+}
+
 /// Whether the terms leave nothing but noise.
 bool suffices(const Problem& problem, const Terms& terms) {
   const auto rows = static_cast<double>((problem.residual.array() != 0.0).count());
@@ -225,7 +252,9 @@ bool can_be_searched(const Problem& problem) {
 
 std::vector<Discovered> discover(const Problem& problem) {
   if (!can_be_searched(problem)) return {};
-  auto laws = accepted(problem, search(problem), true);
+  Terms terms = search(problem);
+  make_plainer(problem, terms);
+  auto laws = accepted(problem, terms, true);
   std::stable_sort(laws.begin(), laws.end(),
                    [](const Discovered& a, const Discovered& b) { return a.gain > b.gain; });
   return laws;
@@ -235,6 +264,7 @@ std::vector<Discovered> refitted(const Problem& problem, const std::vector<Disco
   Terms terms;
   for (const Discovered& found : laws) terms.push_back(sketch_of(found.law));
   settle(problem, terms, 8);
+  make_plainer(problem, terms);
   auto again = accepted(problem, terms, false);
   for (Discovered& found : again) {
     for (const Discovered& before : laws) {

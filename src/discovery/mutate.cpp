@@ -85,6 +85,27 @@ void add_deletions(const Sketch& from, std::vector<Sketch>& list) {
   }
 }
 
+}  // namespace
+
+std::vector<Sketch> plainer(const Sketch& from) {
+  std::vector<Sketch> list;
+  add_deletions(from, list);
+  std::erase_if(list, [numbers = free_numbers(from)](const Sketch& sketch) {
+    return free_numbers(sketch) >= numbers;
+  });
+  for (std::size_t k = 0; k < from.pieces.size(); ++k) {
+    for (const Piece& piece : without_constant(from.pieces[k])) {
+      Sketch sketch = from;
+      sketch.amplitude *= from.pieces[k].extra;
+      sketch.pieces[k] = piece;
+      list.push_back(sketch);
+    }
+  }
+  return list;
+}
+
+namespace {
+
 std::vector<Sketch> variants(const Data& data, const Trial& trial) {
   const Sketch& from = trial.sketch;
   std::vector<Sketch> list;

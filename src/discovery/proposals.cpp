@@ -53,7 +53,8 @@ void add_modulators(const Data& data, std::size_t c, std::vector<Piece>& list) {
   }
 }
 
-/// What 1 + p f(u) is for large p: f(u) alone, which needs one number fewer. Nothing for others.
+}  // namespace
+
 std::vector<Piece> without_constant(const Piece& from) {
   constexpr double kMostly = 3.0;  // times the constant: a limit of computation, the score decides
   if (std::abs(from.extra) < kMostly) return {};
@@ -74,8 +75,6 @@ std::vector<Piece> without_constant(const Piece& from) {
   }
   return {p};
 }
-
-}  // namespace
 
 std::vector<Piece> modulators(const Data& data) {
   std::vector<Piece> list;

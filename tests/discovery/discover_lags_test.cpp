@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "discovery/dictionary.h"
+#include "discovery/mutate.h"
 #include "discovery/support.h"
 
 namespace dcnn::discovery {
@@ -101,6 +102,27 @@ TEST(Discover, AModulatorOfWhichOnlyOneIsNoPartLosesIt) {
     slight.extra = 0.3;
     EXPECT_LT(other_shapes(data, slight).size(), other_shapes(data, from).size());
   }
+}
+
+// As a whole law it keeps its force, where that was -0.1 mN stronger by 10^6 %.
+TEST(Discover, APlainerLawPushesAsTheOneWithANeedlessConstant) {
+  static const Scene at = scene(3, 500);
+  const Problem problem = problem_of(at, white(500, kBlockNoise, 4), kBlockNoise);
+  const Data data(problem);
+  Sketch law;
+  law.direction = direction_named("base_x");
+  law.amplitude = -1e-4;
+  const std::size_t c = coordinate_named("gamma");
+  law.pieces = {linear_in(data, coordinate_named("v_base_x")),
+                centred(piece("affine", c, data.half_range(c), 1e4), data.middle(c))};
+  const VectorXd whole = law.amplitude * data.column(law);
+  double least = 1.0;
+  for (const Sketch& other : plainer(law)) {
+    EXPECT_LE(free_numbers(other), free_numbers(law));
+    const VectorXd left = whole - other.amplitude * data.column(other);
+    least = std::min(least, left.norm() / whole.norm());
+  }
+  EXPECT_LT(least, 1e-3);
 }
 
 }  // namespace
