@@ -15,7 +15,7 @@ std::string plain_text(const Json& value);
 std::string place_in_words(const Json& finding);
 /// "friction force: 0.4 N (0.398 to 0.401)", one for each number.
 std::vector<std::string> numbers_in_words(const Json& finding);
-/// "cable with Bouc-Wen hysteresis in a coordinate q (30 %)", one for each alternative.
+/// "cable with Bouc-Wen hysteresis over one coordinate (30 %)", one for each alternative.
 std::vector<std::string> alternatives_in_words(const Json& finding);
 /// "partly explained" for "partly-explained".
 std::string verdict_in_words(std::string verdict);

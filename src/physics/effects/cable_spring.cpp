@@ -14,7 +14,7 @@ const EffectKind effect{
     .name = "cable_spring",
     .stage = Stage::kForce,
     .kind = "structural",
-    .meaning = "cable or hose as a spring in a coordinate q",
+    .meaning = "cable or hose as a spring over one coordinate",
     .equation = "-k (q - rest) n",
     .example = R"({"k_nprad": 0.5, "rest_rad": 0.1})",
     .axis = AxisRule::kAngle,

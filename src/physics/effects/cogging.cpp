@@ -18,7 +18,7 @@ const EffectKind effect{
     .name = "cogging",
     .stage = Stage::kForce,
     .kind = "structural",
-    .meaning = "force periodic in a coordinate q",
+    .meaning = "force periodic in one coordinate",
     .equation = "amp sin(order q + phase) n",
     .example = R"({"amp_n": 0.1, "order": 12.0, "phase_rad": 0.5})",
     .axis = AxisRule::kAngle,

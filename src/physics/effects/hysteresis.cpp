@@ -108,7 +108,7 @@ const EffectKind effect{
     .name = "hysteresis",
     .stage = Stage::kForce,
     .kind = "structural",
-    .meaning = "cable with Bouc-Wen hysteresis in a coordinate q",
+    .meaning = "cable with Bouc-Wen hysteresis over one coordinate",
     .equation =
         "dz = (dq/w)(1 - beta sign(dq) abs(z)^(m-1) z - gamma abs(z)^m); -force z n; "
         "beta = 1 - asym, gamma = asym, m = 1 where asym is given",
