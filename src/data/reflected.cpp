@@ -12,27 +12,55 @@ namespace {
 
 constexpr double kPadSeconds = 2.0;
 constexpr double kEndSeconds = 1.0;  // in which what is taken out at an end decays
+/// Periods of the cut-off over which a quartic is fitted at an end, the longest first.
+constexpr double kPeriods[] = {2.5, 1.6, 1.0};
+constexpr Index kFewestOfQuartic = 8;  // samples, beside five numbers
 
-/// The second derivative [1/s^2] at the first of some samples: of the quartic through them.
-double bend(const Eigen::VectorXd& x, double dt) {
+/// A quartic through the first of some samples.
+struct Quartic {
+  double second;    ///< derivative at the first sample, 1/s^2
+  double variance;  ///< of what it leaves
+  double dof;
+};
+
+Quartic quartic_of(const Eigen::VectorXd& x, double dt) {
   const Index n = x.size();
-  if (n < 8) return 0.0;
   const Eigen::ArrayXd u = Eigen::ArrayXd::LinSpaced(n, 0.0, 1.0);
   Eigen::MatrixXd A(n, 5);
   A.col(0).setOnes();
   for (Index k = 1; k < A.cols(); ++k) A.col(k) = A.col(k - 1).cwiseProduct(u.matrix());
   const Eigen::VectorXd c = solve_symmetric(A.transpose() * A, A.transpose() * x);
-  const double seconds = dt * static_cast<double>(n - 1);
-  return 2.0 * c(2) / (seconds * seconds);
+  const double seconds = dt * static_cast<double>(n - 1), dof = static_cast<double>(n - A.cols());
+  return {2.0 * c(2) / (seconds * seconds), (x - A * c).squaredNorm() / dof, dof};
+}
+
+/// The second derivative [1/s^2] at the first sample of a signal that is low-passed at this
+/// frequency: of the quartic over the longest stretch that leaves no more than the shortest does,
+/// give or take three deviations of a variance (Lepski 1991): noise is averaged for as long as the
+/// motion allows.
+double bend(const Eigen::VectorXd& x, double dt, double cutoff_hz) {
+  const auto samples = [&](double periods) {
+    return std::min<Index>(x.size() / 3, std::llround(periods / (cutoff_hz * dt)));
+  };
+  const Index shortest = std::max(kFewestOfQuartic, samples(kPeriods[2]));
+  if (x.size() < 3 * kFewestOfQuartic) return 0.0;
+  const Quartic sure = quartic_of(x.head(shortest), dt);
+  const double most = sure.variance * (1.0 + 3.0 * std::sqrt(2.0 / sure.dof));
+  for (const double periods : kPeriods) {
+    const Index n = samples(periods);
+    if (n <= shortest) break;
+    const Quartic longer = quartic_of(x.head(n), dt);
+    if (longer.variance <= most) return longer.second;
+  }
+  return sure.second;
 }
 
 }  // namespace
 
 EndCurves::EndCurves(const Eigen::Ref<const Eigen::VectorXd>& x, double dt, double cutoff_hz)
     : decay(x.size()) {
-  const Index window = std::min<Index>(x.size() / 3, std::llround(2.5 / (cutoff_hz * dt)));
-  first = bend(x.head(window), dt);
-  last = bend(x.tail(window).reverse(), dt);
+  first = bend(x, dt, cutoff_hz);
+  last = bend(x.reverse(), dt, cutoff_hz);
   for (Index i = 0; i < decay.size(); ++i) {
     decay(i) = elementary::exp(-dt * static_cast<double>(i) / kEndSeconds);
   }

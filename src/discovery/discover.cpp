@@ -226,6 +226,7 @@ std::optional<std::size_t> least_worthy(const std::vector<Discovered>& laws) {
 /// The terms that are accepted beside the others, which are judged again without the rest.
 std::vector<Discovered> accepted(const Problem& problem, Terms terms, bool rivals) {
   for (;;) {
+    make_plainer(problem, terms);
     std::vector<Discovered> laws;
     for (std::size_t k = 0; k < terms.size(); ++k) {
       laws.push_back(judged_beside(problem, terms, k, rivals && terms.size() == 1));
@@ -252,9 +253,7 @@ bool can_be_searched(const Problem& problem) {
 
 std::vector<Discovered> discover(const Problem& problem) {
   if (!can_be_searched(problem)) return {};
-  Terms terms = search(problem);
-  make_plainer(problem, terms);
-  auto laws = accepted(problem, terms, true);
+  auto laws = accepted(problem, search(problem), true);
   std::stable_sort(laws.begin(), laws.end(),
                    [](const Discovered& a, const Discovered& b) { return a.gain > b.gain; });
   return laws;
@@ -264,7 +263,6 @@ std::vector<Discovered> refitted(const Problem& problem, const std::vector<Disco
   Terms terms;
   for (const Discovered& found : laws) terms.push_back(sketch_of(found.law));
   settle(problem, terms, 8);
-  make_plainer(problem, terms);
   auto again = accepted(problem, terms, false);
   for (Discovered& found : again) {
     for (const Discovered& before : laws) {

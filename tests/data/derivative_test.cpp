@@ -174,6 +174,26 @@ TEST(Smooth, KeepsTheAccelerationUpToTheEnds) {
   EXPECT_LT((s.first.array() - slope).abs().maxCoeff(), 0.01 * 0.1 * w);
 }
 
+/// Motion of half the cut-off, to the first and last sample: a quartic over several of its periods
+/// has the acceleration there of another motion.
+TEST(Smooth, KeepsTheAccelerationOfFastMotionAtTheEnds) {
+  const Index n = 2000, end = 25;
+  const double dt = 0.002, w = 2.0 * std::numbers::pi * 2.5;
+  Rng rng({17});
+  for (const double phase : {0.0, 0.7, 1.4, 2.1}) {
+    Eigen::VectorXd x(n), exact(n);
+    for (Index i = 0; i < n; ++i) {
+      const double turn = w * dt * static_cast<double>(i) + phase;
+      x(i) = 0.01 * std::sin(turn) + 5e-6 * rng.normal();
+      exact(i) = -0.01 * w * w * std::sin(turn);
+    }
+    const Eigen::VectorXd error = smooth(x, dt, {.cutoff_hz = 5.0}).second - exact;
+    const double most = 0.2 * 0.01 * w * w;
+    EXPECT_LT(error.head(end).norm() / 5.0, most) << phase;
+    EXPECT_LT(error.tail(end).norm() / 5.0, most) << phase;
+  }
+}
+
 /// Slow, large motion that ends on the move, a tremor, and white noise, over 40 s at 400 Hz.
 Eigen::VectorXd trembling(double noise) {
   constexpr double kDt = 0.0025;
