@@ -1,31 +1,15 @@
 #include "dcnn/experiment/evaluate.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include "dcnn/data/pose_noise.h"
-#include "dcnn/models/network_model.h"
 #include "experiment/references.h"
+#include "experiment/test_noise.h"
 
 namespace dcnn {
 namespace {
-
-/// Rows of all recordings under one another, as one model sees them.
-struct TestSet {
-  Stream stream;
-  Eigen::MatrixXd wanted, unfiltered, base;  // base: the part a simulator predicts
-  Index singular = 0, first_rows = 0;        // first_rows: those of the first recording
-  Eigen::VectorXd first_t;
-};
-
-void stack(Eigen::MatrixXd& under, const Eigen::MatrixXd& more) {
-  const auto old = under.rows();
-  under.conservativeResize(old + more.rows(), more.cols());
-  under.bottomRows(more.rows()) = more;
-}
 
 TestSet make_test_set(const Identifier& identifier, const std::vector<Recording>& recordings) {
   TestSet set;
@@ -47,10 +31,6 @@ TestSet make_test_set(const Identifier& identifier, const std::vector<Recording>
                     ? recordings.front().column("t")
                     : Eigen::VectorXd::LinSpaced(set.first_rows, 0, double(set.first_rows - 1));
   return set;
-}
-
-Eigen::MatrixXd every_kth(const Eigen::MatrixXd& rows, Index k) {
-  return rows(Eigen::seqN(0, (rows.rows() + k - 1) / k, k), Eigen::all);
 }
 
 /// The parts of a test set that are scored.
@@ -97,72 +77,6 @@ class RecordingCache {
   Evaluation& evaluation_;
   std::map<std::pair<std::string, bool>, std::vector<Recording>> cache_;
 };
-
-std::uint64_t noise_key(std::uint64_t seed, double level, int run) {
-  return Rng({seed, std::bit_cast<std::uint64_t>(level), static_cast<std::uint64_t>(run)}).bits();
-}
-
-NoiseSpec test_noise(const EvaluationRequest& request) {
-  NoiseSpec spec;
-  if (request.matlab_noise) {
-    spec.scope = NoiseSpec::Scope::kMatrix;
-    spec.power = NoiseSpec::Power::kMeanSquare;
-  }
-  return spec;
-}
-
-std::string describe(const EvaluationRequest& request) {
-  if (request.noise_on == NoiseSpec::Signal::kPose) {
-    return "pose before differentiation, variance of each coordinate over the training rows";
-  }
-  if (request.noisy_entries) {
-    return "entries of X* where a model has them, each by itself (a leak), else features";
-  }
-  return request.matlab_noise ? "features, mean square over the whole matrix (awgn 'measured')"
-                              : "features, variance of each over the training rows";
-}
-
-/// Noise on the pose of every recording, carried to the features: by the sum of draws that training
-/// uses where features are linear in the pose, else by making them anew.
-Eigen::MatrixXd with_noisy_pose(const TestSet& set, const Identifier& identifier,
-                                const std::vector<Recording>& recordings, double snr,
-                                std::uint64_t key) {
-  const double scale = std::pow(10.0, -snr / 20.0);
-  const bool linear = identifier.layout.spec.set == FeatureSpec::Set::kPose;
-  Eigen::MatrixXd noise;
-  for (std::size_t k = 0; k < recordings.size(); ++k) {
-    const auto own = Rng({key, k}).bits();
-    stack(noise, linear
-                     ? (scale * pose_noise(recordings[k], identifier.layout, own)).eval()
-                     : make_features(with_pose_noise(recordings[k], identifier.layout, scale, own),
-                                     identifier.layout)
-                           .x);
-  }
-  return linear ? (set.stream.x + noise).eval() : noise;
-}
-
-Eigen::MatrixXd noisy_features(const EvaluationRequest& request, const TestSet& set,
-                               const Identifier& identifier,
-                               const std::vector<Recording>& recordings, const SnrLevel& level,
-                               int run) {
-  if (!level) return set.stream.x;
-  const auto key = noise_key(request.seed, *level, run);
-  if (request.noise_on == NoiseSpec::Signal::kPose) {
-    return with_noisy_pose(set, identifier, recordings, *level, key);
-  }
-  const auto deviation =
-      noise_deviation(test_noise(request), identifier.model->map(), set.stream.x, level);
-  return with_noise(set.stream.x, deviation, key);
-}
-
-/// Of the rows to be scored, with noise on the entries of X*; empty where the model has none.
-Eigen::MatrixXd predict_noisy_entries(const EvaluationRequest& request, const Model& model,
-                                      const Stream& stream, const SnrLevel& level, int run) {
-  const auto* network = dynamic_cast<const NetworkModel*>(&model);
-  if (!request.noisy_entries || !level || network == nullptr) return {};
-  return network->predict_with_noisy_entries({every_kth(stream.x, request.every), {}}, *level,
-                                             noise_key(request.seed, *level, run));
-}
 
 EvaluationSummary summarise(const std::vector<EvaluationRow>& rows) {
   EvaluationSummary s{rows[0].model,
@@ -219,6 +133,17 @@ void add_references(const std::filesystem::path& model, const EvaluationRequest&
   references.rigid_file = file.string();
 }
 
+/// Noise on features does not reach a simulator, which is computed from the pose.
+void note_base_without_noise(const EvaluationRequest& request, const Identifier& identifier,
+                             const std::string& file, Evaluation& evaluation) {
+  const bool noisy = std::any_of(request.levels.begin(), request.levels.end(),
+                                 [](const SnrLevel& level) { return level.has_value(); });
+  if (!noisy || !identifier.base || request.noise_on == NoiseSpec::Signal::kPose) return;
+  evaluation.notes.push_back(file +
+                             ": holds a simulator, which this noise on the features of its model "
+                             "does not reach; --noise-on pose shows what noise does to both");
+}
+
 void check_targets(const Evaluation& evaluation, const Identifier& identifier,
                    const std::string& file) {
   require(evaluation.targets.names.empty() || evaluation.targets.names == identifier.targets.names,
@@ -260,7 +185,7 @@ Evaluation evaluate(const EvaluationRequest& request,
         if (predicted.size() == 0) {
           predicted = predict_every(*identifier.model, stream, request.every);
         }
-        predicted += set.base;
+        predicted += noisy_base(request, set, identifier, data, level, run);
         if (run == 0) beyond = share_beyond(*identifier.model, stream);
         rows.push_back(
             {identifier.name, file, level, run, score(predicted, set.wanted, identifier.targets)});
@@ -280,6 +205,7 @@ Evaluation evaluate(const EvaluationRequest& request,
       std::move(rows.begin(), rows.end(), std::back_inserter(evaluation.rows));
     }
     note_beyond(evaluation, file);
+    note_base_without_noise(request, identifier, file, evaluation);
     if (identifier.layout.dt > 0.0) evaluation.references.noise = white_noise(set.unfiltered);
     add_references(path, request, recordings, evaluation);
   }

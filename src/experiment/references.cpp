@@ -96,6 +96,7 @@ std::vector<std::string> warnings(const std::string& model, const std::vector<do
   if (ratio > kTie) {
     lines.push_back(model + ": its error is " + significant(ratio, 3) +
                     " times that of the rigid tool " + form_in_words(targets) +
+                    (targets.names.size() > 1 ? ", by the mean of the targets' ratios" : "") +
                     (references.rigid_file.empty() ? "" : ", which is " + references.rigid_file) +
                     "; dcnn-train --model auto keeps the better one");
   }

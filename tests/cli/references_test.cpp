@@ -101,6 +101,16 @@ TEST(References, AModelThatIsASimulatorSaysSoAndCountsNoParameters) {
   EXPECT_NE(beside.out.find(" parameters beside a simulator with dry friction)\n"),
             std::string::npos)
       << beside.out;
+  const auto scored = [&](const char* where) {
+    return test::run("eval", {folder / "ns.dcnn", "--data", kTest, "--snr", "clean,20", "--runs",
+                              "2", "--noise-on", where, "--json"});
+  };
+  const auto noisy = scored("pose"), spared = scored("features");
+  ASSERT_EQ(noisy.exit_code, 0) << noisy.err;
+  const Json summary = parse_json(noisy.out, "eval", Exit::kFailure)["summary"];
+  EXPECT_GT(summary[1]["rmse_mean"][0].get<double>(), 2.0 * summary[0]["rmse_mean"][0].get<double>())
+      << "noise on the pose reaches the simulator";
+  EXPECT_NE(spared.err.find("--noise-on pose shows"), std::string::npos) << spared.err;
 }
 
 TEST(References, AutoKeepsTheBestAndSaysWhy) {
