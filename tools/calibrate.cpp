@@ -5,8 +5,10 @@
 #include "dcnn/calibration/calibration.h"
 #include "dcnn/core/file.h"
 #include "dcnn/core/file_set.h"
+#include "dcnn/core/number.h"
 #include "dcnn/data/rotation.h"
 #include "dcnn/experiment/calibration_report.h"
+#include "dcnn/physics/motion.h"
 #include "support/doctor.h"
 #include "support/tool.h"
 
@@ -31,9 +33,29 @@ struct Input {
   std::optional<double> mass_kg;
 };
 
+/// Acceleration of the tool as a share of gravity, root mean square; 0 for poses at rest. Of a pose
+/// without a position that of a point kLever from the axis it turns about.
+double acceleration_of(const Recording& recording) {
+  constexpr double kLever = 0.1;  // m, a tool's centre of mass from its wrist
+  const Motion motion = motion_of(recording, ToolModel(), DerivativeSpec());
+  if (motion.is_static() || motion.samples() == 0) return 0.0;
+  const bool placed = motion.a_B.rows() == motion.samples();
+  const double square =
+      placed ? motion.a_B.squaredNorm() : kLever * kLever * motion.dw_S.squaredNorm();
+  return std::sqrt(square / static_cast<double>(motion.samples())) / 9.81;
+}
+
+/// Poses at rest: logged with a clock, a tool that hardly accelerates.
 Recording read_poses(const std::filesystem::path& path, ReadOptions read) {
+  constexpr double kMost = 0.03;  // of the weight, as inertial force: 2 degrees of its direction
   read.static_list = true;
-  return read_recording(path, read, System());
+  Recording recording = read_recording(path, read, System());
+  const double share = acceleration_of(recording);
+  require(share < kMost, Exit::kData, path.string(), ": the tool accelerates by ",
+          brief(9.81 * share),
+          " m/s^2 (rms) in these rows, which are no poses at rest; keep the "
+          "rows at rest, or identify tool and mounting from the motion: dcnn-identify");
+  return recording;
 }
 
 ForcePairs load(const Input& input, const ReadOptions& read, bool with_bias) {

@@ -69,5 +69,13 @@ TEST(CalibrateTool, MistakesAreOneLineWithTheirExitCode) {
             2);
 }
 
+TEST(CalibrateTool, RowsOfAMotionAreNoPosesAtRest) {
+  const test::TemporaryFolder folder;
+  const auto result = run("calibrate", {"--static", DCNN_SOURCE_DIR "/data/sample/test.csv",
+                                        "--out", (folder / "c.json").string()});
+  EXPECT_EQ(result.exit_code, 3) << result.out;
+  EXPECT_TRUE(contains(result.err, "no poses at rest")) << result.err;
+}
+
 }  // namespace
 }  // namespace dcnn
