@@ -71,8 +71,8 @@ double deviation_of_moving(const Eigen::VectorXd& distances) {
 
 std::string Spikes::words(const std::string& column) const {
   const bool one = rows.size() == 1;
-  return std::to_string(rows.size()) + (one ? " single row of " : " single rows of ") + column +
-         (one ? " is " : " are up to ") + brief(height) + " deviations off " +
+  return std::to_string(rows.size()) + (one ? " outlier in " : " outliers in ") + column +
+         (one ? ", " : ", up to ") + brief(height) + " standard deviations from " +
          (one ? "its" : "their") + " neighbours";
 }
 
@@ -109,7 +109,7 @@ void mend_spikes(Recording& recording, const std::vector<std::string>& columns) 
     const Eigen::VectorXd far = off_neighbours(x);
     for (const Index row : spikes.rows) x[row] -= far[row];
     recording.set(name, x);
-    recording.notes.push_back(spikes.words(name) + "; the middle of the neighbours stands there");
+    recording.notes.push_back(spikes.words(name) + "; replaced by the median of the neighbours");
   }
 }
 

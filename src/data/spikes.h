@@ -15,7 +15,7 @@ struct Spikes {
   /// Probability that noise with the tails of Student's t of five degrees of freedom makes as many.
   double p = 1.0;
 
-  /// "3 single rows of fx are up to 12 deviations off their neighbours"
+  /// "3 outliers in fx, up to 12 standard deviations from their neighbours"
   std::string words(const std::string& column) const;
 };
 

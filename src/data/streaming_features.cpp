@@ -15,8 +15,10 @@ StreamingFeatures::StreamingFeatures(const FeatureLayout& layout)
   const DerivativeSpec& derivative = layout.spec.derivative;
   require(layout.spec.set != FeatureSpec::Set::kAxes, Exit::kUsage,
           "features of a system of axes cannot be made from a pose; give a model of a wrist tool");
-  require(derivative.kind == DerivativeSpec::Kind::kCausalSavitzkyGolay && layout.dt > 0.0,
-          Exit::kUsage, "the model's derivatives look into the future; train it with --online");
+  require(
+      derivative.kind == DerivativeSpec::Kind::kCausalSavitzkyGolay && layout.dt > 0.0,
+      Exit::kUsage,
+      "the model's derivatives are not causal (they use later samples); train it with --online");
   window_ = derivative.window(layout.dt);
   const auto weights = [&](int order) -> Eigen::VectorXd {
     return savitzky_golay_weights(static_cast<int>(window_), derivative.order, order,

@@ -171,6 +171,7 @@ std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldO
     exchanges.made(before, *best);
     search.adopt(best->members);
     search.hold_untold();  // what a fault of the sensor has in common may be a mass
+    search.leave_idle_names();
     if (remained || !search.remains()) continue;
     search.adopt(before);  // the likelier one leaves what no noise explains
     leave_out_improbable(search, alternatives);

@@ -172,7 +172,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   if (loaded.holdout.logs.empty()) held_out = held_out_blocks(loaded.fit, true);
   Search search(std::move(loaded.fit), held_out, progress);
   search.run();
-  if (progress) progress("judging by what was held out");
+  if (progress) progress("evaluating on the held-out data");
   const HoldOut holdout(search.study(), loaded.holdout);
   const std::optional<double> noisy_hum = take_hum_for_noise(search, holdout);
   Json refuted_names = leave_refuted_impacts(search, holdout);

@@ -205,19 +205,23 @@ std::vector<Discovered> add_discovered(Search& search, const HoldOut& holdout) {
   if (!can_hold_laws(search.study())) return {};
   const std::vector<Member> before = search.fit().members;
   const Eigen::VectorXd base = search.fit().base;
+  search.say("searching for a law in place of the effects found");
   Laws laws = in_place_of_names(search, holdout);
   if (!laws.found.empty()) {
     search.put_beside(laws.members);
   } else if (search.remains()) {
+    search.say("searching for a law of what no effect explains");
     laws = laws_of_the_rest(search);
   }
   if (laws.found.empty()) return {};
+  search.say("fitting effects and laws together");
   leave_needless_names(search, laws);
   name_beside(search, laws);
   constexpr int kMostRounds = 5;  // a limit of computation: each round searches all places again
   int round = 0;
   while (round < kMostRounds && name_in_place_of_one(search, laws)) ++round;
   search.leave_untold_parts();
+  search.leave_idle_names();
   // Names may have given way to laws, and other names come beside them.
   const Signals by_laws = holdout.prediction(search.fit().members, search.fit().base),
                 by_names = holdout.prediction(before, base);

@@ -23,7 +23,7 @@ bool Search::grow() {
                     [](const Member& m) { return m.kind->axis == AxisRule::kLine; });
   const auto others = static_cast<std::ptrdiff_t>(fit_.members.size()) - frictions;
   if (others >= kMostMembers || frictions >= kMostFrictions) return false;
-  say("looking for what is missing beside " + std::to_string(fit_.members.size()) + " effects");
+  say("searching for effects (" + std::to_string(fit_.members.size()) + " found so far)");
   auto trials = additions();
   std::erase_if(trials, [&](const Trial& trial) {
     return trial.gain < least_gain(*setting_, trial.member.parameters(), fit_.members.empty());

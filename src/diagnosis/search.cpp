@@ -168,7 +168,7 @@ void Search::explore() {
       if (fit_.members.size() == apart_.size() + 2 && !study_.without.exchange) replace_pairs();
     }
     if (fit_.members.empty() || fit_.members.size() == apart_.size()) return;
-    say("trying other effects in place of those found");
+    say("trying other effects in place of those found so far");
     if (!study_.without.exchange && (swap() || replace_pairs())) continue;
     if (recut || study_.is_static()) return;
     recut = true;

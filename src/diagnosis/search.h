@@ -107,6 +107,8 @@ class Search {
   bool confirms_names();
   /// Fits these members; laws among them are no part of what is searched for.
   void hold(const std::vector<Member>& members);
+  /// Leaves names that explain nothing beside the others, numbers at their price.
+  void leave_idle_names();
   /// The members that are no laws without a name.
   std::vector<Member> names() const;
   /// Whitens again for what these members leave, and fits them.
@@ -120,6 +122,9 @@ class Search {
   /// The best additions to the model at hand, at most one per effect, refined, best first; contacts
   /// and steps among them where `events`.
   std::vector<Trial> additions(bool events = true) const;
+
+  /// Tells whoever follows the search what it does now.
+  void say(const std::string& text) const;
 
  private:
   /// Whether data on which it was not fitted have refuted this effect there.
@@ -213,7 +218,6 @@ class Search {
   void weigh();
   /// What the weighed structures say of something that no name explains.
   void judge_rest();
-  void say(const std::string& text) const;
   /// Passes after which effects are no more added and exchanged: some fifty times what a search for
   /// one effect takes, so that a search among laws none of which fits ends too.
   static constexpr double kMostPasses = 50'000.0;

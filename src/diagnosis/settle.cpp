@@ -72,10 +72,11 @@ Surroundings Search::surroundings(const std::vector<Member>& members) const {
   add_rounding(study_, floors);
   Whitener whitener(study_, floors, levels, noise_correlation(study_, raw, levels));
   const Index blocks = whitener.rows() / study_.channel_count();
-  require(blocks >= kFewestBlocks, Exit::kData, study_.logs.front().recording.name, ": ", blocks,
-          " blocks of ", whitener.block_seconds(),
-          " s are left of the recordings without the ends of their stretches, which cannot tell "
-          "noise from faults; record for longer, without gaps");
+  // The ends of a short stretch, a tenth of it each, are left out.
+  const double needed = static_cast<double>(kFewestBlocks) * whitener.block_seconds() / 0.8;
+  require(blocks >= kFewestBlocks, Exit::kData, study_.logs.front().recording.name,
+          ": too short to tell noise from missing physics: ", brief(longest_seconds(study_)),
+          " s; record at least ", brief(needed), " s without gaps");
   std::vector<Span> masked = masked_;
   masked.insert(masked.end(), impacts_.spans.begin(), impacts_.spans.end());
   masked.insert(masked.end(), outlying_.begin(), outlying_.end());

@@ -206,7 +206,7 @@ std::string what_does_better(const Json& report) {
   const Json& fit = report["fit"];
   const std::pair<const char*, const char*> rivals[] = {
       {"holdout_rms_measured", "A constant"},
-      {"holdout_rmse_parameters", "The simulator with its own numbers refitted"}};
+      {"holdout_rmse_parameters", "The simulator with its parameters refitted"}};
   std::string text;
   for (const auto& [key, words] : rivals) {
     const Json errors = fit.value(key, Json());

@@ -168,7 +168,7 @@ void Search::judge() {
   }
   if (!remains_ && !take_back_relatives()) return;
   remains_ = true;
-  say("something is left that no effect explains: names are tested again");
+  say("a residual remains: testing the found effects again");
   if (events_allowed_) {
     events_allowed_ = false;
     std::vector<Member> rest;

@@ -49,7 +49,7 @@ std::size_t Search::weigh_once() {
 }
 
 void Search::weigh() {
-  say("weighing what was found against nothing and against what nobody can name");
+  say("computing the probabilities of what was found, of nothing and of an unknown effect");
   std::size_t best = weigh_once();
   // A machine leaves more than its noise: there its law's own error decides what is a finding.
   if (study_.axis) return;
@@ -135,6 +135,20 @@ void Search::begin_anew() {
   std::vector<Member> members = apart_;
   std::erase_if(members, [](const Member& m) { return !m.law.is_null(); });
   hold(members);
+}
+
+void Search::leave_idle_names() {
+  for (;;) {
+    std::optional<std::size_t> idlest;
+    double least = 0.0;
+    for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+      if (stays(fit_.members[m]) || net_gain(m) >= least) continue;
+      least = net_gain(m), idlest = m;
+    }
+    if (!idlest) return;
+    hold(members_without(*idlest));
+    weigh_once();
+  }
 }
 
 std::vector<Member> Search::names() const {

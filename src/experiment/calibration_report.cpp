@@ -75,10 +75,10 @@ void add_numbers(const Calibration& c, HtmlReport& page) {
 
 std::string headline(const Calibration& c) {
   const double angle = kDegrees * angle_between(c.R_ES, Eigen::Matrix3d::Identity());
-  const double accuracy = kDegrees * turn_deviations(c).maxCoeff();
+  const double accuracy = 1.96 * kDegrees * turn_deviations(c).maxCoeff();
   return "The sensor is turned by " + fixed(angle, 2) + "° against the robot's frame, known to ± " +
-         significant(accuracy, 2) + "°; " + std::to_string(c.pairs) + " pairs agree with that to " +
-         significant(c.residual_rms, 2) + " N rms.";
+         significant(accuracy, 2) + "° (95 %); " + std::to_string(c.pairs) +
+         " pairs agree with that to " + significant(c.residual_rms, 2) + " N rms.";
 }
 
 std::string to_html(const Calibration& c, const ForcePairs& pairs) {

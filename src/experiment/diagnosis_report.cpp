@@ -130,7 +130,7 @@ void add_budget(const Json& report, HtmlReport& page) {
       chart,
       "Share of the squared difference that each kind of explanation takes beyond those to its "
       "left: "
-      "the simulator's own numbers refitted; functions of rates and angles; of the history of the "
+      "the simulator's own parameters refitted; functions of rates and angles; of the history of the "
       "motion; of the time; external forces. Counted on rows that nothing was fitted to.");
 }
 

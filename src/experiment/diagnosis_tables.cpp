@@ -29,7 +29,7 @@ std::vector<std::pair<std::string, std::string>> stages_of(const Json& fit) {
   const bool theirs = !fit.value("holdout_noise_floor", Json()).is_null();
   return {{"holdout_rms_measured", "measured, about its mean"},
           {"holdout_rmse_before", "as given"},
-          {"holdout_rmse_parameters", "own numbers refitted"},
+          {"holdout_rmse_parameters", "its parameters refitted, no effect"},
           {"holdout_rmse_after", "with all findings"},
           {theirs ? "holdout_noise_floor" : "noise_floor", "sensor's noise"}};
 }

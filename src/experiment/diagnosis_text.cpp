@@ -75,8 +75,8 @@ std::string errors_text(const Json& report) {
     return "none, sensor's noise " + mean(fit["noise_floor"]) + of_what(report);
   }
   const Json& refitted = fit["holdout_rmse_parameters"];
-  return "error " + mean(fit["holdout_rmse_before"]) + " as given, " +
-         (refitted.is_null() ? "" : mean(refitted) + " with its own numbers refitted, ") +
+  return "RMSE " + mean(fit["holdout_rmse_before"]) + " as given, " +
+         (refitted.is_null() ? "" : mean(refitted) + " with its parameters refitted, ") +
          mean(fit["holdout_rmse_after"]) + " with all findings; sensor's noise " +
          mean(heldout_noise(fit)) + of_what(report);
 }

@@ -21,7 +21,7 @@ void require_online(const Identifier& identifier, const std::string& where) {
   require(layout.spec.set != FeatureSpec::Set::kAxes && layout.dt > 0.0, Exit::kModel, where,
           ": no model of a wrist tool in motion; train one on recordings of a pose");
   require(is_causal(layout.spec.derivative), Exit::kModel, where,
-          ": its derivatives look into the future; train it with --online");
+          ": its derivatives are not causal (they use later samples); train it with --online");
 }
 
 std::vector<Index> wrench_places(const Targets& targets, const std::string& where) {

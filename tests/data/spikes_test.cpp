@@ -37,7 +37,7 @@ TEST(Spikes, AreThoseThatWerePutThere) {
   const Spikes spikes = spikes_of(x);
   EXPECT_EQ(spikes.rows, (std::vector<Index>{700, 2500, 4321}));
   EXPECT_LT(spikes.p, 1e-6);
-  EXPECT_EQ(spikes.words("fx").find("3 single rows of fx are up to "), 0U) << spikes.words("fx");
+  EXPECT_EQ(spikes.words("fx").find("3 outliers in fx, up to "), 0U) << spikes.words("fx");
 }
 
 TEST(Spikes, TheMiddleOfTheirNeighboursStandsThere) {

@@ -73,7 +73,7 @@ TEST(Headline, SaysWhatIsBetterThanAllThatWasFound) {
   report["fit"]["holdout_rmse_after"] = {0.04, 0.45};
   report["fit"]["holdout_rmse_parameters"] = {0.9, 0.42};
   EXPECT_TRUE(headline(report).ends_with(
-      "The simulator with its own numbers refitted leaves less: 0.42 N of fy."))
+      "The simulator with its parameters refitted leaves less: 0.42 N of fy."))
       << headline(report);
   report["fit"]["holdout_rms_measured"] = {2.0, 0.3};
   EXPECT_NE(headline(report).find("A constant leaves less: 0.3 N of fy."), std::string::npos)

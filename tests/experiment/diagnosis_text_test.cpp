@@ -56,7 +56,7 @@ TEST(DiagnosisText, SaysFindingsInWordsAndUnits) {
         "along the sensor's y axis, by the angle gamma; confidence 98 %\n"
         "            cubic stiffness: 2 N·m/rad³ (1.8 to 2.2)\n",
         "from 3.0 to 8.0 s; confidence 98 %\n            size of the step, x: 20 mN (18 to 22)\n",
-        "hold-out    error 0.4 as given, 0.04 with all findings; sensor's noise 0.04 N (fx)\n",
+        "hold-out    RMSE 0.4 as given, 0.04 with all findings; sensor's noise 0.04 N (fx)\n",
         "next        to tell dry friction along the tool from scale error per axis: move x"}) {
     EXPECT_NE(text.find(words), std::string::npos) << words << "\nin\n" << text;
   }
