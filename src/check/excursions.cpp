@@ -69,14 +69,20 @@ Excursions of_width(const Eigen::VectorXd& x, Index width) {
   return out;
 }
 
-void unwrap(Eigen::Ref<Eigen::VectorXd> angles) {
+/// Whether a column of the pose or of a joint's position is an angle; lengths are none.
+bool is_angle(const Log& log, const std::string& name) {
+  if (std::find(kEuler.begin(), kEuler.end(), name) != kEuler.end()) return true;
+  return std::any_of(log.joints.begin(), log.joints.end(), [&](const Joint& joint) {
+    return joint.position == name && joint.turns;
+  });
+}
+
+/// Takes out the steps of one turn, in the angles' unit.
+void remove_turns(double turn, Eigen::Ref<Eigen::VectorXd> angles) {
   double turns = 0.0;
   for (Index i = 1; i < angles.size(); ++i) {
     const double step = angles[i] + turns - angles[i - 1];
-    for (const double turn : {2.0 * std::numbers::pi, 360.0}) {
-      if (std::abs(std::abs(step) - turn) < kTurnTolerance * turn)
-        turns -= std::copysign(turn, step);
-    }
+    if (std::abs(std::abs(step) - turn) < kTurnTolerance * turn) turns -= std::copysign(turn, step);
     angles[i] += turns;
   }
 }
@@ -115,14 +121,17 @@ Eigen::VectorXd without(const Excursions& excursions, Eigen::VectorXd values) {
   return values;
 }
 
-Eigen::MatrixXd continuous_positions(const Log& log) {
+Eigen::MatrixXd continuous_positions(const Log& log, double angle_unit) {
   const std::vector<std::string> names = log.positions();
   Eigen::MatrixXd columns = log.block(names);
   if (log.has_quaternion()) {
     const auto at = std::find(names.begin(), names.end(), kQuaternion[0]);
     if (at != names.end()) align_signs(columns.middleCols(at - names.begin(), 4));
   }
-  for (std::size_t k = 0; k < names.size(); ++k) unwrap(columns.col(static_cast<Index>(k)));
+  const double turn = 2.0 * std::numbers::pi / angle_unit;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (is_angle(log, names[k])) remove_turns(turn, columns.col(static_cast<Index>(k)));
+  }
   return columns;
 }
 

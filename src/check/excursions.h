@@ -26,8 +26,8 @@ Excursions excursions_of(const Eigen::VectorXd& values);
 /// A copy in which those rows have the mean of their neighbours.
 Eigen::VectorXd without(const Excursions& excursions, Eigen::VectorXd values);
 
-/// Columns of the pose as continuous signals: turns of angles (rad or degrees) and signs of
-/// quaternions leave no steps.
-Eigen::MatrixXd continuous_positions(const Log& log);
+/// Columns of the pose and of joints as continuous signals: whole turns of angles, of `angle_unit`
+/// rad per unit of the file, and signs of quaternions leave no steps. Lengths are as logged.
+Eigen::MatrixXd continuous_positions(const Log& log, double angle_unit);
 
 }  // namespace dcnn::check

@@ -90,6 +90,17 @@ TEST(RowFaults, AnglesThatBeginAnewHaveNoSpikes) {
   expect_none(report, "spikes");
 }
 
+// Lengths are not: 6.3 mm is no turn in rad.
+TEST(RowFaults, PositionsThatJumpBySixMillimetresHaveSpikes) {
+  Table table = moving_tool::log();
+  table.values.middleCols(kX, 3) *= 1e3;
+  for (const Eigen::Index row : {700, 1900, 3100}) table.values(row, kX) += 6.3;
+  check::Declared declared;
+  declared.read.position_unit = 1e-3;
+  const check::Report report = check::check(check::make_log("mm.csv", table, declared));
+  expect_first(report, "spikes", "x");
+}
+
 TEST(RowFaults, OneChannelAloneIsHeld) {
   expect_first(report_after([](Eigen::MatrixXd& values) { hold(values, kFz, 3); }), "held", "fz");
   expect_first(report_after([](Eigen::MatrixXd& values) { hold(values, kGamma, 4); }), "held",

@@ -43,7 +43,7 @@ std::vector<Fault> find_spikes(const Evidence& e) {
     find_spikes_in(e.log, name, excursions_of(e.log.column(name)), out);
   }
   const std::vector<std::string> names = e.log.positions();
-  const Eigen::MatrixXd positions = continuous_positions(e.log);
+  const Eigen::MatrixXd positions = continuous_positions(e.log, e.adopted.reading.angle);
   for (std::size_t k = 0; k < names.size(); ++k) {
     const Eigen::VectorXd x = positions.col(static_cast<Index>(k));
     const Excursions found = excursions_of(x);
