@@ -215,7 +215,8 @@ Report check(const Log& log) {
     for (Fault& fault : kind->find(evidence)) report.faults.push_back(std::move(fault));
   }
   share_units_with_counts(report.faults);
-  std::erase_if(report.faults, [](const Fault& fault) { return fault.probability < kListed; });
+  // What is no number is no evidence either.
+  std::erase_if(report.faults, [](const Fault& fault) { return !(fault.probability >= kListed); });
   drop_consequences(report.faults);
   drop_readings_of_broken_columns(log, report.faults);
   sort_faults(report.faults);

@@ -47,10 +47,6 @@ bool has(const Chain& chain, const std::string& fault) {
 Combined combine(const Log& log, const Sampled& rows, const Reading& declared,
                  const Reading& rival) {
   std::map<double, Kinematics> motions;  // by the unit of angles; the orientation is one
-  const auto weight_of = [&](const Reading& reading) {
-    const double weight = log_weight(log, rows, &motions.at(reading.angle), reading);
-    return std::isfinite(weight) ? weight : -1e9;
-  };
   const std::vector<Chain> chains = chains_of(log, declared);
   const Kinematics own = kinematics(log, rows, rival);
   std::vector<double> weights;
@@ -60,9 +56,9 @@ Combined combine(const Log& log, const Sampled& rows, const Reading& declared,
     if (!motions.contains(reading.angle)) {
       motions.emplace(reading.angle, kinematics(log, rows, reading));
     }
-    weights.push_back(weight_of(reading));
+    weights.push_back(finite_log_weight(log, rows, &motions.at(reading.angle), reading));
   }
-  weights.push_back(log_weight(log, rows, &own, rival));
+  weights.push_back(finite_log_weight(log, rows, &own, rival));
   const double most = *std::max_element(weights.begin(), weights.end());
   double sum = 0.0;
   for (double& weight : weights) sum += weight = elementary::exp(weight - most);

@@ -15,10 +15,9 @@ namespace dcnn::check {
 namespace {
 
 using Eigen::Index;
-constexpr int kRounds = 3;            // faults that come together
-constexpr double kMentioned = 0.02;   // a rival of less probability is not listed
-constexpr Index kFewestCentres = 6;   // of a fit with seven unknowns
-constexpr double kNoEvidence = -1e9;  // ln of a weight next to none
+constexpr int kRounds = 3;           // faults that come together
+constexpr double kMentioned = 0.02;  // a rival of less probability is not listed
+constexpr Index kFewestCentres = 6;  // of a fit with seven unknowns
 
 Eigen::MatrixXd centred(const Eigen::MatrixXd& m) { return m.rowwise() - m.colwise().mean(); }
 
@@ -91,9 +90,7 @@ Round weigh(const Log& log, const Sampled& rows, Motions* motions, const Reading
   Eigen::VectorXd weights(static_cast<Index>(round.readings.size()));
   for (Index k = 0; k < weights.size(); ++k) {
     const Reading& reading = round.readings[static_cast<std::size_t>(k)];
-    const double weight = log_weight(log, rows, motions ? &motions->of(reading) : nullptr, reading);
-    // Numbers that overflow are refused by whoever reads the log; they are no evidence.
-    weights[k] = std::isfinite(weight) ? weight : kNoEvidence;
+    weights[k] = finite_log_weight(log, rows, motions ? &motions->of(reading) : nullptr, reading);
   }
   round.probability = posterior(weights);
   for (Index k = 0; k < weights.size(); ++k) {

@@ -56,12 +56,6 @@ double torque_weight(const Log& log, const Sampled& rows, const Joint& joint,
          elementary::log(std::max(residual.squaredNorm() / freedom + floor * floor, 1e-300));
 }
 
-/// ln(exp(a) + exp(b))
-double log_sum(double a, double b) {
-  const double most = std::max(a, b);
-  return most + elementary::log(elementary::exp(a - most) + elementary::exp(b - most));
-}
-
 }  // namespace
 
 std::vector<const Joint*> driven_joints(const Log& log) {
@@ -140,7 +134,7 @@ double angles_weight(const Log& log, const Sampled& rows, const Reading& reading
     drive += plausibility(reading.angle * size, kDriveTurn) +
              elementary::log(kTurn.above / kDriveTurn.above);
   }
-  if (rows.half == 0 || rows.centres.size() < 40) return log_sum(limb, drive);
+  if (rows.half == 0 || rows.centres.size() < 40) return log_sum(Eigen::Vector2d(limb, drive));
   const auto joints = driven_joints(log);
   std::vector<JointMotion> motions;
   for (const Joint* joint : joints) motions.push_back(joint_motion(log, rows, reading, *joint));
@@ -154,7 +148,7 @@ double angles_weight(const Log& log, const Sampled& rows, const Reading& reading
     limb += std::max(weight(Place::kGravity), slow);
     drive += slow;
   }
-  return log_sum(limb, drive);
+  return log_sum(Eigen::Vector2d(limb, drive));
 }
 
 }  // namespace dcnn::check

@@ -28,12 +28,8 @@ std::vector<Index> moving_rows(const Eigen::MatrixXd& rate) {
   return moving;
 }
 
-/// ln of a sum of exponentials.
-double log_sum_of(const std::vector<double>& terms) {
-  const double most = *std::max_element(terms.begin(), terms.end());
-  double sum = 0.0;
-  for (const double term : terms) sum += elementary::exp(term - most);
-  return most + elementary::log(sum);
+Eigen::Map<const Eigen::VectorXd> as_vector(const std::vector<double>& values) {
+  return {values.data(), static_cast<Index>(values.size())};
 }
 
 }  // namespace
@@ -98,11 +94,11 @@ double rates_weight(const Log& log, const Sampled& rows, const Reading& reading)
       if (all.size() <= k) all.push_back(elementary::log(prior));
       all[k] += weight;
     }
-    each += log_sum_of(terms);
+    each += log_sum(as_vector(terms));
   }
   if (all.empty()) return 0.0;
   all.push_back(each);
-  return log_sum_of(all);
+  return log_sum(as_vector(all));
 }
 
 }  // namespace dcnn::check

@@ -135,6 +135,10 @@ Reading declared_reading(const Log& log);
 /// Log posterior but for a constant.
 double log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
                   const Reading& reading);
+/// The same; next to none where numbers overflow: whoever reads such a log refuses them, they are
+/// no evidence.
+double finite_log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
+                         const Reading& reading);
 Adopted adopt(const Log& log);
 
 }  // namespace dcnn::check

@@ -54,12 +54,20 @@ double plausibility(double value, const Typical& typical) {
   return std::max(-0.5 * z * z, -kMostSurprise);
 }
 
+double probability_of_log_odds(double x) { return 1.0 / (1.0 + elementary::exp(-x)); }
+
+double log_odds_of(double p) { return elementary::log(p / (1.0 - p)); }
+
+double log_sum(const Eigen::VectorXd& terms) {
+  const double most = terms.maxCoeff();
+  return most + elementary::log(elementary::exp(terms.array() - most).sum());
+}
+
 double posterior_of_p(double p) {
   if (p >= 1.0 / std::numbers::e) return kFaultPrior;
-  p = std::max(p, 1e-300);
-  const double factor = -1.0 / (std::numbers::e * p * elementary::log(p));
-  const double odds = kFaultPrior / (1.0 - kFaultPrior) * factor;
-  return odds / (1.0 + odds);
+  const double log_p = elementary::log(std::max(p, 1e-300));
+  const double log_factor = -1.0 - log_p - elementary::log(-log_p);
+  return probability_of_log_odds(log_odds_of(kFaultPrior) + log_factor);
 }
 
 double poisson_tail(double count, double mean) {

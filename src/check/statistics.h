@@ -31,6 +31,12 @@ double chi_square_median(Eigen::Index freedom);
 
 /// Log density of a log-normal quantity relative to its largest, not below -kMostSurprise.
 double plausibility(double value, const Typical& typical);
+/// 1/(1 + exp(-x)): 0 and 1 at minus and plus infinity, and nowhere a quotient of infinities.
+double probability_of_log_odds(double x);
+/// ln p/(1-p)
+double log_odds_of(double p);
+/// ln of a sum of exponentials, of one term at least.
+double log_sum(const Eigen::VectorXd& terms);
 /// Probability of a fault whose prior is kFaultPrior where a statistic's p-value is `p`: the bound
 /// of Sellke, Bayarri and Berger (2001) on the Bayes factor, -e p log p.
 double posterior_of_p(double p);

@@ -115,4 +115,11 @@ double log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
   return sum + std::max(own, weight(quasi_static) + elementary::log(kQuasiStatic));
 }
 
+double finite_log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
+                         const Reading& reading) {
+  constexpr double kNoEvidence = -1e9;  // ln of a weight whose share is 0 in double
+  const double weight = log_weight(log, rows, motion, reading);
+  return std::isfinite(weight) ? weight : kNoEvidence;
+}
+
 }  // namespace dcnn::check

@@ -18,15 +18,13 @@ constexpr double kFrictionSpeeds[] = {0.02, 0.005};
 /// Shares of a joint's rms speed, the same.
 constexpr double kJointFrictionShares[] = {0.05, 0.01};
 
-std::vector<Fault> delay_fault_of(const Evidence& e, double odds, Eigen::Index shift,
+std::vector<Fault> delay_fault_of(const Evidence& e, double log_odds, Eigen::Index shift,
                                   const std::string& channel, const std::string& what) {
   const double seconds =
       e.log.step * e.adopted.reading.clock * static_cast<double>(std::abs(shift));
-  Fault fault = fault_of(delay_fault, odds / (1.0 + odds), channel,
-                         what + (shift > 0 ? " lags" : " leads") + " the logged motion by " +
-                             brief(1e3 * seconds) + " ms");
-  if (fault.probability < 0.01) return {};
-  return {fault};
+  return {fault_of(delay_fault, probability_of_log_odds(log_odds), channel,
+                   what + (shift > 0 ? " lags" : " leads") + " the logged motion by " +
+                       brief(1e3 * seconds) + " ms")};
 }
 
 /// A joint's torque less what its motion explains, for any shift in rows.
@@ -112,10 +110,9 @@ std::vector<Fault> delay_of(const Evidence& e, const Eigen::MatrixXd& gains, dou
   Eigen::Index best = 0;
   const double most = weight.maxCoeff(&best);
   if (!std::isfinite(most)) return {};
-  const double sum = elementary::exp(weight.array() - most).sum();
-  const double odds =
-      kFaultPrior / static_cast<double>(2 * reach) * sum * elementary::exp(std::min(most, 600.0));
-  return delay_fault_of(e, odds, best - reach, channel, what);
+  const double log_odds =
+      elementary::log(kFaultPrior / static_cast<double>(2 * reach)) + log_sum(weight);
+  return delay_fault_of(e, log_odds, best - reach, channel, what);
 }
 
 /// One delay for the torques of all joints.

@@ -37,7 +37,7 @@ double correlation_of(const Eigen::VectorXd& steps) {
 /// neighbours.
 std::vector<Fault> find_moving_rows(const Evidence& e) {
   if (e.log.t.size() > 0 || e.log.rows() < kFewestOrdered) return {};
-  double log_odds = elementary::log(kFaultPrior / (1.0 - kFaultPrior));
+  double log_odds = log_odds_of(kFaultPrior);
   bool moves = false;
   double goes_on = 0.0, columns = 0.0;
   for (const std::string& name : e.log.positions()) {
@@ -53,8 +53,7 @@ std::vector<Fault> find_moving_rows(const Evidence& e) {
             usual > kDwells * std::sqrt(steps.squaredNorm() / static_cast<double>(steps.size()));
   }
   if (!moves && goes_on <= kGoesOn * columns) return {};
-  const double odds = elementary::exp(std::min(log_odds, 600.0));
-  return {fault_of(moving_rows_fault, odds / (1.0 + odds), "t",
+  return {fault_of(moving_rows_fault, probability_of_log_odds(log_odds), "t",
                    "there is no column t, yet the rows are samples of a motion (neighbours are "
                    "alike): they are no list of poses at rest")};
 }

@@ -117,13 +117,13 @@ std::vector<Fault> find_power_sign(const Evidence& e) {
     signs.push_back(sign_of(e.log, *joints[k], rows, motions, k));
   }
   const bool right = std::any_of(signs.begin(), signs.end(), [](const SignEvidence& sign) {
-    return sign.log_odds > elementary::log(kCertain / (1.0 - kCertain));
+    return sign.log_odds > log_odds_of(kCertain);
   });
   for (const SignEvidence& sign : signs) {
-    const double odds = elementary::exp(-sign.log_odds) * kFaultPrior / (1.0 - kFaultPrior);
+    const double probability = probability_of_log_odds(log_odds_of(kFaultPrior) - sign.log_odds);
     // A drive's torque and its reaction are both logged; joints of one log that differ are not.
     Fault fault = fault_of(
-        power_sign_fault, odds / (1.0 + odds), sign.channel,
+        power_sign_fault, probability, sign.channel,
         sign.channel +
             ": the joint's own inertia and dry friction explain it with the opposite sign (" +
             brief(elementary::exp(std::min(-sign.log_odds, 20.0))) +

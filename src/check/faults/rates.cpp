@@ -17,18 +17,17 @@ using Eigen::Index;
 void compare_rates(const Eigen::MatrixXd& logged, const std::vector<RateMeaning>& meanings,
                    double independent, const std::string& channel, std::vector<Fault>& out) {
   const double declared = rate_cost(logged, meanings[0], independent);
-  double odds = 0.0, most = -1e300;
-  std::size_t best = 0;
-  for (std::size_t k = 1; k < meanings.size(); ++k) {
-    const double gain = declared - rate_cost(logged, meanings[k], independent);
-    odds += kFaultPrior / static_cast<double>(meanings.size() - 1) *
-            elementary::exp(std::min(gain, 600.0));
-    if (gain > most) most = gain, best = k;
+  Eigen::VectorXd gain(static_cast<Index>(meanings.size()) - 1);
+  for (Index k = 0; k < gain.size(); ++k) {
+    gain[k] = declared - rate_cost(logged, meanings[static_cast<std::size_t>(k) + 1], independent);
   }
-  if (odds < 0.05) return;
-  out.push_back(
-      fault_of(rates_fault, odds / (1.0 + odds), channel,
-               channel + " is not the derivative of its position: it is " + meanings[best].words));
+  Index best = 0;
+  gain.maxCoeff(&best);
+  const double log_odds =
+      elementary::log(kFaultPrior / static_cast<double>(gain.size())) + log_sum(gain);
+  out.push_back(fault_of(rates_fault, probability_of_log_odds(log_odds), channel,
+                         channel + " is not the derivative of its position: it is " +
+                             meanings[static_cast<std::size_t>(best) + 1].words));
 }
 
 void find_joint_rates(const Evidence& e, std::vector<Fault>& out) {

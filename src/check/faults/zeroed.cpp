@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "check/rows.h"
 #include "core/elementary.h"
@@ -28,14 +27,12 @@ std::vector<Fault> find_zeroed_before(const Evidence& e) {
   const double variance = std::max(1.0, scale) * slope.dot(fit.covariance * slope);
   const double off = fit.bias.norm() - g * fit.mass;
   if (!(variance > 0.0)) return {};
-  const double density =
-      elementary::exp(-0.5 * off * off / variance) / std::sqrt(2.0 * std::numbers::pi * variance);
-  // Log-normal sizes of offsets, per newton.
+  // ln of densities per newton, both but for ln sqrt(2 pi): of |b| - m g, and of log-normal sizes.
+  const double zeroed = -0.5 * off * off / variance - 0.5 * elementary::log(variance);
   const double spread = offset < kOffset.median ? kOffset.below : kOffset.above;
-  const double any = elementary::exp(plausibility(offset, kOffset)) /
-                     (std::sqrt(2.0 * std::numbers::pi) * spread * offset);
-  const double odds = kZeroedBefore / (1.0 - kZeroedBefore) * density / any;
-  return {fault_of(zeroed_fault, odds / (1.0 + odds), "fx",
+  const double any = plausibility(offset, kOffset) - elementary::log(spread * offset);
+  const double log_odds = log_odds_of(kZeroedBefore) + zeroed - any;
+  return {fault_of(zeroed_fault, probability_of_log_odds(log_odds), "fx",
                    "the offset of " + brief(fit.bias.norm()) +
                        " N is as large as the tool's weight: the sensor was zeroed in another pose "
                        "before, its offset is this recording's own")};
