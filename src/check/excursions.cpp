@@ -53,28 +53,22 @@ Excursions of_width(const Eigen::VectorXd& x, Index width) {
     }
   }
   std::sort(found.rbegin(), found.rend());
-  double least = 1.0;
-  std::size_t count = 0;
-  for (std::size_t k = 1; k <= found.size(); ++k) {
-    const double mean = static_cast<double>(x.size()) * heavy_tail(found[k - 1].first);
-    const double p = poisson_tail(static_cast<double>(k), mean);
-    if (p < least) least = p, count = k;
-  }
-  if (count == 0) return out;
-  for (std::size_t k = 0; k < count; ++k) out.rows.push_back(found[k].second);
+  std::vector<double> heights;
+  for (const auto& [height, row] : found) heights.push_back(height);
+  const Outliers far = least_likely_outliers(heights, x.size());
+  if (far.count == 0) return out;
+  for (std::size_t k = 0; k < far.count; ++k) out.rows.push_back(found[k].second);
   std::sort(out.rows.begin(), out.rows.end());
   out.height = found[0].first;
-  // As many numbers of rows were tried as stand out.
-  out.p = std::min(1.0, static_cast<double>(found.size()) * least);
+  out.p = far.p;
   return out;
 }
 
 /// Whether a column of the pose or of a joint's position is an angle; lengths are none.
 bool is_angle(const Log& log, const std::string& name) {
   if (std::find(kEuler.begin(), kEuler.end(), name) != kEuler.end()) return true;
-  return std::any_of(log.joints.begin(), log.joints.end(), [&](const Joint& joint) {
-    return joint.position == name && joint.turns;
-  });
+  return std::any_of(log.joints.begin(), log.joints.end(),
+                     [&](const Joint& joint) { return joint.position == name && joint.turns; });
 }
 
 /// Takes out the steps of one turn, in the angles' unit.

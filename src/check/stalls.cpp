@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "core/tails.h"
 #include "data/spikes.h"
 
 namespace dcnn::check {

@@ -70,17 +70,6 @@ double posterior_of_p(double p) {
   return probability_of_log_odds(log_odds_of(kFaultPrior) + log_factor);
 }
 
-double poisson_tail(double count, double mean) {
-  const double events = std::floor(count);
-  if (events <= mean) return 1.0;
-  double log_term = -mean;
-  for (double k = 1.0; k <= events; ++k) log_term += elementary::log(mean / k);
-  // The terms from `events` on fall, by mean/events and faster.
-  double term = elementary::exp(log_term), sum = 0.0;
-  for (double k = events; term > 1e-17 * sum; term *= mean / ++k) sum += term;
-  return sum;
-}
-
 double tail(double z) {
   z = std::abs(z);
   // Mills' ratio bounds the tail from above beyond one deviation, where it is used.

@@ -40,9 +40,6 @@ double log_sum(const Eigen::VectorXd& terms);
 /// Probability of a fault whose prior is kFaultPrior where a statistic's p-value is `p`: the bound
 /// of Sellke, Bayarri and Berger (2001) on the Bayes factor, -e p log p.
 double posterior_of_p(double p);
-/// Probability of `count` events or more where `mean` are expected (Poisson); a part of an event is
-/// none.
-double poisson_tail(double count, double mean);
 /// Two-sided tail of the standard normal.
 double tail(double z);
 

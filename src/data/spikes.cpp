@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/elementary.h"
+#include "core/tails.h"
 #include "data/median.h"
 #include "data/resolution.h"
 #include "dcnn/core/number.h"
@@ -27,13 +28,6 @@ Eigen::VectorXd off_neighbours(const Eigen::VectorXd& x) {
     out[i] = x[i] - 0.5 * (near[1] + near[2]);
   }
   return out;
-}
-
-/// Of single rows: lambda expected, `count` found.
-double poisson_p(double lambda, int count) {
-  double p = 1.0;
-  for (int k = 1; k <= std::min(count, 50); ++k) p *= lambda / k;
-  return std::min(1.0, p);
 }
 
 struct Spike {
@@ -60,6 +54,18 @@ std::vector<Spike> lonely_rows(const Eigen::VectorXd& x, const Eigen::VectorXd& 
 
 double heavy_tail(double z) { return 19.0 / elementary::pow(z, 5); }
 
+Outliers least_likely_outliers(const std::vector<double>& heights, Index rows) {
+  Outliers out;
+  for (std::size_t k = 1; k <= heights.size(); ++k) {
+    const double mean = static_cast<double>(rows) * heavy_tail(heights[k - 1]);
+    const double p = poisson_tail(static_cast<double>(k), mean);
+    if (p < out.p) out = {k, p};
+  }
+  out.p = std::min(1.0, static_cast<double>(heights.size()) * out.p);
+  if (out.count == 0) out.p = 1.0;
+  return out;
+}
+
 double deviation_of_moving(const Eigen::VectorXd& distances) {
   std::vector<double> sizes;
   for (const double value : distances) {
@@ -81,20 +87,15 @@ Spikes spikes_of(const Eigen::VectorXd& values) {
   const double scale = std::max(deviation_of_moving(far), 0.5 * resolution(values));
   if (scale <= 0.0) return {};
   const std::vector<Spike> all = lonely_rows(values, far, scale);
-  const auto n = static_cast<double>(values.size());
-  double least = 1.0;
-  std::size_t count = 0;
-  for (std::size_t k = 1; k <= all.size(); ++k) {
-    const double p = poisson_p(n * heavy_tail(all[k - 1].height), static_cast<int>(k));
-    if (p < least) least = p, count = k;
-  }
+  std::vector<double> heights;
+  for (const Spike& spike : all) heights.push_back(spike.height);
+  const Outliers outliers = least_likely_outliers(heights, values.size());
   Spikes spikes;
-  if (count == 0) return spikes;
-  for (std::size_t k = 0; k < count; ++k) spikes.rows.push_back(all[k].row);
+  if (outliers.count == 0) return spikes;
+  for (std::size_t k = 0; k < outliers.count; ++k) spikes.rows.push_back(all[k].row);
   std::sort(spikes.rows.begin(), spikes.rows.end());
   spikes.height = all[0].height;
-  // As many numbers of rows were tried as there are rows so far out.
-  spikes.p = std::min(1.0, static_cast<double>(all.size()) * least);
+  spikes.p = outliers.p;
   return spikes;
 }
 

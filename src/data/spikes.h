@@ -23,6 +23,15 @@ struct Spikes {
 /// sensors at its worst.
 double heavy_tail(double z);
 
+/// The farthest of some rows that stand out.
+struct Outliers {
+  std::size_t count = 0;
+  double p = 1.0;  ///< that noise makes so many so far out
+};
+/// The number of rows that such noise is least likely to make among `rows`; heights in deviations,
+/// falling. As many numbers are tried as there are heights, so p is Bonferroni's.
+Outliers least_likely_outliers(const std::vector<double>& heights, Index rows);
+
 /// Deviation, by their median, of distances that are not zero: a channel at its limit repeats one
 /// value. 0 where all are.
 double deviation_of_moving(const Eigen::VectorXd& distances);

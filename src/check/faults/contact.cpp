@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "check/rows.h"
+#include "data/spikes.h"
 
 namespace dcnn::check {
 namespace {
@@ -37,7 +38,7 @@ std::vector<Fault> find_contact(const Evidence& e) {
   const double z = size.maxCoeff(&worst) / scale;
   if (foreign < 1 || static_cast<double>(foreign) > kMostShare * static_cast<double>(pieces))
     return {};
-  const double p = std::min(1.0, static_cast<double>(pieces) * 19.0 / std::pow(z, 5));
+  const double p = std::min(1.0, static_cast<double>(pieces) * heavy_tail(z));
   Eigen::Index begin = worst, end = worst + 1;
   while (begin > 0 && size[begin - 1] > 0.5 * kForeign * scale) --begin;
   while (end < pieces && size[end] > 0.5 * kForeign * scale) ++end;

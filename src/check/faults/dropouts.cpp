@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "check/rows.h"
+#include "core/tails.h"
 
 namespace dcnn::check {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "check/excursions.h"
 #include "check/rows.h"
+#include "data/spikes.h"
 
 namespace dcnn::check {
 namespace {
@@ -70,7 +71,7 @@ void find_turns_in(const Log& log, const std::string& name, std::vector<Fault>& 
   }
   if (jumps == 0) return;
   const double z = least / std::max(usual, 1e-12 * least);
-  const double p = std::min(1.0, static_cast<double>(steps.size()) * 19.0 / std::pow(z, 5));
+  const double p = std::min(1.0, static_cast<double>(steps.size()) * heavy_tail(z));
   Fault fault = fault_of(wrap_fault, posterior_of_p(p), name,
                          name + " jumps by a full turn " + std::to_string(jumps) +
                              (jumps == 1 ? " time" : " times") +

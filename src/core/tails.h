@@ -1,0 +1,15 @@
+// Upper tails of counts. Terms are those of Loader (2000), "Fast and accurate computation of
+// binomial probabilities": deviances instead of differences of large logarithms; relative error
+// below 1e-12 up to some hundred events, 1e-14 per event beyond.
+#pragma once
+
+namespace dcnn {
+
+/// Probability of `count` events or more where `mean` are expected (Poisson). A part of an event is
+/// none: count is rounded down.
+double poisson_tail(double count, double mean);
+
+/// Probability of `count` successes or more among `trials`, each of this probability (binomial).
+double binomial_tail(double count, double trials, double probability);
+
+}  // namespace dcnn
