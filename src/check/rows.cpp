@@ -24,14 +24,10 @@ std::vector<std::string> measured_columns(const Log& log) {
   return names;
 }
 
-double relative_motion(const Log& log, const std::string& position, Index begin, Index end) {
-  const Eigen::VectorXd steps = steps_of(log.column(position)).cwiseAbs2();
-  const double whole = steps.mean();
-  return whole > 0.0 ? std::sqrt(steps.segment(begin, end - begin - 1).mean() / whole) : 0.0;
-}
+RelativeSpeed::RelativeSpeed(const Log& log) : RelativeSpeed(log, log.positions()) {}
 
-RelativeSpeed::RelativeSpeed(const Log& log) {
-  for (const std::string& name : log.positions()) {
+RelativeSpeed::RelativeSpeed(const Log& log, const std::vector<std::string>& positions) {
+  for (const std::string& name : positions) {
     const Eigen::VectorXd squares = steps_of(log.column(name)).cwiseAbs2();
     const double usual = squares.mean();
     if (usual <= 0.0) continue;

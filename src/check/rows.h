@@ -19,15 +19,14 @@ std::vector<std::string> measured_columns(const Log& log);
 class RelativeSpeed {
  public:
   explicit RelativeSpeed(const Log& log);
+  /// Of some columns: of a joint's position where its torque is looked at.
+  RelativeSpeed(const Log& log, const std::vector<std::string>& positions);
   /// In rows [begin, end).
   double in(Eigen::Index begin, Eigen::Index end) const;
 
  private:
   std::vector<std::vector<double>> sums_;  // by column: of squares of relative steps up to each row
 };
-/// The same of one column alone: of a joint's position where its torque is looked at.
-double relative_motion(const Log& log, const std::string& position, Eigen::Index begin,
-                       Eigen::Index end);
 /// Rows as times of the log's clock; nothing without one.
 void set_interval(const Log& log, Eigen::Index begin, Eigen::Index end, Fault& fault);
 /// Number of independent residuals among (n,columns), by their correlation from row to row.

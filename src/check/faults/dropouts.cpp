@@ -18,13 +18,11 @@ void find_dropouts_in(const Log& log, const std::vector<std::string>& names,
   const auto joint = std::find_if(log.joints.begin(), log.joints.end(), [&](const Joint& one) {
     return one.measured == names[0] && !one.position.empty();
   });
-  const RelativeSpeed speed(log);
+  const RelativeSpeed speed =
+      joint == log.joints.end() ? RelativeSpeed(log) : RelativeSpeed(log, {joint->position});
+  const bool positions = !log.positions().empty();
   const auto moves = [&](Eigen::Index begin, Eigen::Index end) {
-    if (log.positions().empty()) return true;
-    const double motion = joint == log.joints.end()
-                              ? speed.in(begin, end)
-                              : relative_motion(log, joint->position, begin, end);
-    return motion >= kMovesAtAll;
+    return !positions || speed.in(begin, end) >= kMovesAtAll;
   };
   Eigen::Index rows = 0, events = 0, first = 0, ordinary = 0;
   Eigen::VectorXd noise(values.cols());
