@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "check/statistics.h"
+#include "core/tails.h"
 
 namespace dcnn::check {
 namespace {
@@ -13,9 +14,11 @@ constexpr double kTwoWays = 0.5;
 constexpr std::size_t kFewestNew = 20;  // values, of which regularity is told
 
 /// Whether new values come every k rows: p-value of so many runs of one length, were a run's end as
-/// likely in any row (geometric lengths with the same mean).
+/// likely in any row (geometric lengths with the same mean). The length is the most frequent one,
+/// so all that it might have been are paid for (Bonferroni).
 double regularity_p(const std::vector<Run>& runs, double mean, Eigen::Index* length) {
   constexpr Eigen::Index kLongest = 63;  // rows; longer runs stand still and tell of no clock
+  constexpr double kLengths = kLongest - 1;
   std::vector<Eigen::Index> count(kLongest + 1, 0);
   for (const Run& run : runs) {
     if (run.length <= kLongest) ++count[static_cast<std::size_t>(run.length)];
@@ -25,9 +28,9 @@ double regularity_p(const std::vector<Run>& runs, double mean, Eigen::Index* len
   const double end = 1.0 / mean;
   double chance = end;
   for (Eigen::Index k = 1; k < *length; ++k) chance *= 1.0 - end;
-  const auto n = static_cast<double>(runs.size());
-  const double expected = n * chance, spread = std::sqrt(n * chance * (1.0 - chance));
-  return tail(std::max(0.0, (static_cast<double>(*most) - expected) / std::max(spread, 1e-9)));
+  const double p =
+      binomial_tail(static_cast<double>(*most), static_cast<double>(runs.size()), chance);
+  return std::min(1.0, kLengths * p);
 }
 
 /// Resolutions that the values of a column jump by when they are new, the median.

@@ -70,11 +70,4 @@ double posterior_of_p(double p) {
   return probability_of_log_odds(log_odds_of(kFaultPrior) + log_factor);
 }
 
-double tail(double z) {
-  z = std::abs(z);
-  // Mills' ratio bounds the tail from above beyond one deviation, where it is used.
-  if (z < 1.0) return 1.0;
-  return std::min(1.0, std::sqrt(2.0 / std::numbers::pi) * elementary::exp(-0.5 * z * z) / z);
-}
-
 }  // namespace dcnn::check

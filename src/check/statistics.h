@@ -40,7 +40,5 @@ double log_sum(const Eigen::VectorXd& terms);
 /// Probability of a fault whose prior is kFaultPrior where a statistic's p-value is `p`: the bound
 /// of Sellke, Bayarri and Berger (2001) on the Bayes factor, -e p log p.
 double posterior_of_p(double p);
-/// Two-sided tail of the standard normal.
-double tail(double z);
 
 }  // namespace dcnn::check

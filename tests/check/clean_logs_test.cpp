@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "check/held.h"
 #include "dcnn/check/check.h"
 #include "dcnn/data/rotation.h"
 
@@ -117,6 +118,27 @@ TEST(CleanLogs, RowsOfOnePoseAfterAnotherAreNotHeld) {
   }
   const check::Report report = check::check(check::make_log("poses.csv", table, {}));
   for (const check::Fault& fault : report.faults) EXPECT_NE(fault.id, "held") << fault.words;
+}
+
+// Values that are new in any row with the same chance: of the lengths for which they stand one is
+// always the most frequent.
+TEST(CleanLogs, ValuesThatAreNewNowAndThenAreNotHeld) {
+  constexpr Eigen::Index kReadings = 800;
+  int held = 0;
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> value;
+    std::bernoulli_distribution is_new(1.0 / 20.0);
+    Table table{{"t", "fx"}, Eigen::MatrixXd(kReadings, 2)};
+    double fx = 0.0;
+    for (Eigen::Index i = 0; i < kReadings; ++i) {
+      if (is_new(random)) fx = std::round(1e4 * value(random)) / 1e4;
+      table.values.row(i) << 0.01 * static_cast<double>(i), fx;
+    }
+    const check::Log log = check::make_log("now_and_then.csv", table, {});
+    held += check::held_of(log, {"fx"}).probability >= check::kLikely;
+  }
+  EXPECT_EQ(held, 0);
 }
 
 // A press of five rows is sharp beside the sensor's noise, and no single row is off.
