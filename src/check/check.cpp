@@ -6,6 +6,7 @@
 
 #include "check/arm.h"
 #include "check/kind.h"
+#include "check/priors.h"
 #include "check/rows.h"
 #include "physics/foreign_force.h"
 
@@ -86,18 +87,14 @@ void sort_faults(std::vector<Fault>& faults) {
 /// What the motion shows of a rigid tool: relative deviations from the fit's covariance.
 void set_identifiable(const Adopted& a, Report& report) {
   if (!a.compared) return;
-  const double scale = std::max(
-      1.0, static_cast<double>(3 * a.rows.centres.size()) / independent_of(a.fit.residual));
-  const auto deviation = [&](Index k) {
-    return std::sqrt(std::max(0.0, a.fit.covariance(k, k) * scale));
-  };
-  const bool mass = a.fit.mass > 0.0 && deviation(0) < 0.1 * a.fit.mass;
+  const Eigen::VectorXd deviation = fit_deviations(a);
+  const double newtons = kOffsetTold * kEarthGravity * std::max(a.fit.mass, kLightTool);
+  const bool mass = a.fit.mass > 0.0 && deviation[0] < kMassTold * a.fit.mass;
   report.identifiable["mass"] = mass;
   for (Index k = 0; k < 3; ++k) {
     const std::string axis(1, "xyz"[k]);
-    report.identifiable["com_" + axis] = mass && deviation(1 + k) < 0.01 * a.fit.mass;
-    report.identifiable["bias_" + axis] =
-        deviation(4 + k) < 0.02 * 9.81 * std::max(a.fit.mass, 0.1);
+    report.identifiable["com_" + axis] = mass && deviation[1 + k] < kCentreTold * a.fit.mass;
+    report.identifiable["bias_" + axis] = deviation[4 + k] < newtons;
   }
   report.identifiable["friction"] = a.motion.has_position && a.rows.half > 0;
   report.identifiable["delay"] = a.rows.half > 0;
@@ -124,15 +121,14 @@ void set_curves(const Log& log, const Adopted& a, Report& report) {
   report.model = "rigid tool";
 }
 
-/// What the motion shows of a drive, to a tenth of the joint's torque.
+/// What the motion shows of a drive, relative to the joint's torque.
 void set_identifiable_drives(const Log& log, const ArmFit& fit, Report& report) {
-  constexpr double kShown = 0.1;
   const Eigen::MatrixXd deviation = drive_deviation(fit);
   for (Index j = 0; j < deviation.rows(); ++j) {
     const std::string& joint = log.declared.arm->joints[static_cast<std::size_t>(j)].name;
     Index term = 1;
     for (const char* stem : {"dry_", "viscous_", "inertia_"}) {
-      report.identifiable[stem + joint] = deviation(j, term++) < kShown;
+      report.identifiable[stem + joint] = deviation(j, term++) < kDriveTold;
     }
   }
 }

@@ -48,5 +48,7 @@ const std::vector<const FaultKind*>& fault_kinds();
 /// A fault with its kind's remedy; `probability` is that of the statistic.
 Fault fault_of(const FaultKind& kind, double probability, const std::string& channel,
                const std::string& words);
+/// A fault that is counted in the log and inferred from nothing: of probability 1.
+Fault fact_of(const FaultKind& kind, const std::string& channel, const std::string& words);
 
 }  // namespace dcnn::check

@@ -22,4 +22,8 @@ Fault fault_of(const FaultKind& kind, double probability, const std::string& cha
   return {kind.id, probability, channel, std::nullopt, words, kind.remedy, kind.flag, kind.stops};
 }
 
+Fault fact_of(const FaultKind& kind, const std::string& channel, const std::string& words) {
+  return fault_of(kind, 1.0, channel, words);
+}
+
 }  // namespace dcnn::check

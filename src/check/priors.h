@@ -4,6 +4,8 @@
 
 namespace dcnn::check {
 
+constexpr double kEarthGravity = 9.81;  ///< m/s^2; it varies by 0.5 % over the Earth
+
 /// Probability of each kind of fault in somebody's log, shared by its variants.
 constexpr double kFaultPrior = 0.004;
 /// Probability that a joint's measured column is what its drive was told, a constant for a while.
@@ -15,6 +17,9 @@ constexpr double kTwoDigits = 0.01;
 constexpr double kZeroedBefore = 0.01;
 /// Independent residuals at most: what physics beyond the rigid tool leaves is alike for seconds.
 constexpr double kMostIndependent = 40.0;
+/// The same where their correlation from row to row is measured: it does not show what comes slower
+/// than the log is long.
+constexpr double kMostIndependentRows = 200.0;
 /// Share of the force's deviation that a rigid tool may be wrong by.
 constexpr double kToolError = 0.01;
 /// Probability that forces show no inertia: of a simulator without it, or filtered.
@@ -39,6 +44,12 @@ constexpr double kArmError = 0.05;
 constexpr double kIndependentPerSecond = 1.0;
 /// Mass of what an arm carries, over its own.
 constexpr double kPayloadShare = 0.1;
+
+/// Deviations below which the motion is said to show a number: of a mass, over it; of a centre of
+/// mass [m]; of an offset, over the weight of the tool or of kLightTool [kg], the lighter one of
+/// which no force sensor tells; of a drive's friction and inertia, over the joint's rms torque.
+constexpr double kMassTold = 0.1, kCentreTold = 0.01, kOffsetTold = 0.02, kLightTool = 0.1;
+constexpr double kDriveTold = 0.1;
 
 /// Log-normal quantities of people's logs: median, and deviation of the logarithm below and above.
 struct Typical {

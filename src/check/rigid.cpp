@@ -47,7 +47,8 @@ Design design_of(const Log& log, const Sampled& rows, const Kinematics& motion,
   const bool known = log.declared.model.has_value();
   const Eigen::Matrix3d R_ES =
       known ? log.declared.model->R_ES() : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-  const Eigen::Vector3d g = known ? log.declared.model->gravity : Eigen::Vector3d(0.0, 0.0, -9.81);
+  const Eigen::Vector3d g =
+      known ? log.declared.model->gravity : Eigen::Vector3d(0.0, 0.0, -kEarthGravity);
   const double rate = log.step > 0.0 ? 1.0 / (log.step * reading.clock) : 0.0;
   const bool with_friction = options.friction && motion.has_position && rate > 0.0;
   for (Index i = 0; i < n; ++i) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "check/priors.h"
+
 namespace dcnn::check {
 
 using Eigen::Index;
@@ -47,12 +49,19 @@ double RelativeSpeed::in(Index begin, Index end) const {
 }
 
 double independent_of(const Eigen::MatrixXd& residual) {
-  constexpr double kMostOfAll = 200.0;  // what physics beyond a tool leaves is alike for long
   const Index n = residual.rows();
   const double power = std::max(residual.squaredNorm(), 1e-300);
   const double rho = residual.topRows(n - 1).cwiseProduct(residual.bottomRows(n - 1)).sum() / power;
   const double r = std::clamp(rho, 0.0, 0.99);
-  return std::min(kMostOfAll, static_cast<double>(residual.size()) * (1.0 - r) / (1.0 + r));
+  return std::min(kMostIndependentRows,
+                  static_cast<double>(residual.size()) * (1.0 - r) / (1.0 + r));
+}
+
+Eigen::VectorXd fit_deviations(const Adopted& adopted) {
+  const Eigen::MatrixXd& residual = adopted.fit.residual;
+  const double alike =
+      std::max(1.0, static_cast<double>(residual.size()) / independent_of(residual));
+  return (alike * adopted.fit.covariance.diagonal().array().max(0.0)).sqrt();
 }
 
 void set_interval(const Log& log, Index begin, Index end, Fault& fault) {

@@ -29,6 +29,9 @@ class RelativeSpeed {
 };
 /// Rows as times of the log's clock; nothing without one.
 void set_interval(const Log& log, Eigen::Index begin, Eigen::Index end, Fault& fault);
+/// Deviations of the adopted fit's mass, moment and bias (7) [kg, kg m, N]: of its covariance, by
+/// the independent ones among its residuals.
+Eigen::VectorXd fit_deviations(const Adopted& adopted);
 /// Number of independent residuals among (n,columns), by their correlation from row to row.
 double independent_of(const Eigen::MatrixXd& residual);
 

@@ -9,10 +9,10 @@ std::vector<Fault> find_clock_order(const Evidence& e) {
   const Eigen::VectorXd steps = steps_of(e.log.t);
   const auto back = (steps.array() <= 0.0).count();
   if (back == 0) return {};
-  return {fault_of(clock_order_fault, 1.0, "t",
-                   "t does not increase at " + std::to_string(back) + " of " +
-                       std::to_string(steps.size()) +
-                       " steps (repeated rows, or a clock that was set)")};
+  return {fact_of(clock_order_fault, "t",
+                  "t does not increase at " + std::to_string(back) + " of " +
+                      std::to_string(steps.size()) +
+                      " steps (repeated rows, or a clock that was set)")};
 }
 
 }  // namespace

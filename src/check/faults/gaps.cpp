@@ -6,9 +6,9 @@ namespace {
 std::vector<Fault> find_gaps(const Evidence& e) {
   if (e.log.step <= 0.0 || !e.log.smooth || e.log.segments.size() < 2) return {};
   const Segment& second = e.log.segments[1];
-  Fault fault = fault_of(gaps_fault, 1.0, "t",
-                         std::to_string(e.log.segments.size() - 1) +
-                             " gaps of more than 5 steps; the recording is split there");
+  Fault fault = fact_of(gaps_fault, "t",
+                        std::to_string(e.log.segments.size() - 1) +
+                            " gaps of more than 5 steps; the recording is split there");
   fault.interval_s = {e.log.t[second.begin - 1], e.log.t[second.begin]};
   return {fault};
 }

@@ -9,12 +9,13 @@ namespace {
 constexpr double kOffTick = 0.2;  // of the median step; what every reader of recordings refuses
 constexpr double kToleratedShare = 0.01;
 
+/// The rule by which readers refuse a clock, so it is counted as they count.
 std::vector<Fault> find_jitter(const Evidence& e) {
   if (e.log.step <= 0.0 || !e.log.smooth) return {};
   if (e.log.burst > 0) {
-    return {fault_of(jitter_fault, 1.0, "t",
-                     "rows are stamped in bursts of " + std::to_string(e.log.burst) +
-                         ": t is when they were handed over, not when they were taken")};
+    return {fact_of(jitter_fault, "t",
+                    "rows are stamped in bursts of " + std::to_string(e.log.burst) +
+                        ": t is when they were handed over, not when they were taken")};
   }
   const Eigen::VectorXd steps = steps_of(e.log.t);
   Eigen::Index off = 0;
@@ -24,9 +25,9 @@ std::vector<Fault> find_jitter(const Evidence& e) {
   }
   const double share = static_cast<double>(off) / static_cast<double>(steps.size());
   if (share <= kToleratedShare) return {};
-  return {fault_of(jitter_fault, 1.0, "t",
-                   std::to_string(std::lround(100.0 * share)) +
-                       " % of the steps of t are off by more than 20 % of the median step")};
+  return {fact_of(jitter_fault, "t",
+                  std::to_string(std::lround(100.0 * share)) +
+                      " % of the steps of t are off by more than 20 % of the median step")};
 }
 
 }  // namespace

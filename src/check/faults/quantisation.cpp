@@ -76,7 +76,7 @@ double force_of_rounding(const Evidence& e, const std::string& name, double step
   const bool position = std::find(kPosition.begin(), kPosition.end(), name) != kPosition.end();
   if (!position) {
     const double rad = e.log.has_quaternion() ? 2.0 : a.reading.angle;  // |dq| is half the turn
-    return a.fit.mass * 9.81 * rad * kGaussian * step;
+    return a.fit.mass * kEarthGravity * rad * kGaussian * step;
   }
   const double rate = 1.0 / (e.log.step * a.reading.clock);
   return a.fit.mass * rate * rate * a.rows.second.norm() * a.reading.position * kGaussian * step;

@@ -14,7 +14,7 @@ constexpr Eigen::Index kFirstRows = 10;
 /// whose median is kOffset.
 std::vector<Fault> find_zeroed_before(const Evidence& e) {
   const Adopted& a = e.adopted;
-  const double g = e.log.declared.model ? e.log.declared.model->gravity.norm() : 9.81;
+  const double g = e.log.declared.model ? e.log.declared.model->gravity.norm() : kEarthGravity;
   const double offset = a.fit.bias.norm();
   if (offset <= 0.0) return {};
   Eigen::Matrix<double, 7, 1> slope = Eigen::Matrix<double, 7, 1>::Zero();
@@ -50,7 +50,7 @@ std::vector<Fault> find_zeroed_first(const Evidence& e) {
   for (Eigen::Index j = 0; j < 3; ++j) noise += std::pow(noise_of(F.col(j)), 2);
   noise = std::sqrt(noise / static_cast<double>(kFirstRows));
   const double size = std::sqrt(F.squaredNorm() / static_cast<double>(F.rows()));
-  const double weight = a.reading.force > 0.0 ? 9.81 * a.fit.mass / a.reading.force : 0.0;
+  const double weight = a.reading.force > 0.0 ? kEarthGravity * a.fit.mass / a.reading.force : 0.0;
   if (size <= 0.0 || weight < 10.0 * noise) return {};
   const double near = std::max(first.norm(), noise) / size;
   const double probability = posterior_of_p(std::min(1.0, near * near * near));
