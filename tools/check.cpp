@@ -67,9 +67,11 @@ int main(int argc, char** argv) {
               "a log is read twice: write standard input to a file first");
       // By a recipe a log may be several files, a.txt+b.txt, or the folder of a bag.
       for (const auto& part : split_paths(log)) {
-        const bool there =
-            read.recipe() ? std::filesystem::exists(part) : std::filesystem::is_regular_file(part);
-        require(there, Exit::kData, part.string(),
+        std::error_code error;
+        require(std::filesystem::exists(part, error), Exit::kData, part.string(),
+                ": does not exist or cannot be reached; check the path");
+        const bool usable = read.recipe() || std::filesystem::is_regular_file(part, error);
+        require(usable, Exit::kData, part.string(),
                 ": is no file; give a recording (CSV), or a log with --recipe");
       }
     }

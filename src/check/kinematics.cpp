@@ -14,6 +14,7 @@ using Eigen::Index;
 constexpr double kWindow = 0.12;      // s; passes what a wrist does, some 8 Hz
 constexpr Index kMostCentres = 1500;  // more rows tell readings apart no better
 constexpr Index kShifts = 40;         // rows kept free beside a window, for delays
+constexpr double kBetweenPoses = 1.0;  // s, as readers tell lists of poses (data/clock.cpp)
 
 /// The clock unit that makes the rate plausible: the window must be the same for all readings.
 double likely_step(const Log& log) {
@@ -22,6 +23,12 @@ double likely_step(const Log& log) {
     if (clock_weight(log, unit) > clock_weight(log, best)) best = unit;
   }
   return best * log.step;
+}
+
+/// Fewer rows than show whether neighbours are alike, nearer in time than an arm goes from one pose
+/// at rest to the next: a motion too short to be differentiated, and no list of poses.
+bool is_too_short(const Log& log) {
+  return log.step > 0.0 && log.rows() < kFewRows && likely_step(log) < kBetweenPoses;
 }
 
 Eigen::Matrix3d turn_about(char axis, double angle) {
@@ -121,6 +128,7 @@ Sampled sample(const Log& log) {
   if (!listed) set_weights(static_cast<int>(2 * rows.half + 1), rows);
   const Index free = listed ? 0 : rows.half + std::min(kShifts, log.rows() / 20);
   const Index stride = std::max<Index>({1, rows.half, log.rows() / kMostCentres});
+  if (is_too_short(log)) return rows;
   for (const Segment& segment : log.segments) {
     for (Index i = segment.begin + free; i + free < segment.end; i += stride)
       rows.centres.push_back(i);

@@ -45,6 +45,8 @@ constexpr double kIndependentPerSecond = 1.0;
 /// Mass of what an arm carries, over its own.
 constexpr double kPayloadShare = 0.1;
 
+/// Rows below which neighbours may be alike by chance.
+constexpr int kFewRows = 50;
 /// Deviations below which the motion is said to show a number: of a mass, over it; of a centre of
 /// mass [m]; of an offset, over the weight of the tool or of kLightTool [kg], the lighter one of
 /// which no force sensor tells; of a drive's friction and inertia, over the joint's rms torque.

@@ -64,6 +64,7 @@ struct Sampled {
   Eigen::MatrixXd smoothed(const Eigen::MatrixXd& signals, const Eigen::VectorXd& weights,
                            Eigen::Index shift = 0) const;
 };
+/// No rows where a motion is too short to be differentiated.
 Sampled sample(const Log& log);
 /// Effective number of residuals.
 double independent_residuals(const Sampled& rows);
@@ -135,8 +136,8 @@ Reading declared_reading(const Log& log);
 /// Log posterior but for a constant.
 double log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
                   const Reading& reading);
-/// The same; next to none where numbers overflow: whoever reads such a log refuses them, they are
-/// no evidence.
+/// The same, but next to none, by the prior alone, where numbers overflow: whoever reads such a log
+/// refuses them, they are no evidence.
 double finite_log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
                          const Reading& reading);
 Adopted adopt(const Log& log);

@@ -92,9 +92,10 @@ double independent_residuals(const Sampled& rows) {
 
 double log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
                   const Reading& reading) {
-  // Schwarz' penalty for what was estimated.
-  double sum = elementary::log(reading.prior) + angle_weight(log, reading) -
-               0.5 * reading.estimated * elementary::log(independent_residuals(rows));
+  double sum = elementary::log(reading.prior) + angle_weight(log, reading);
+  if (reading.estimated > 0) {  // Schwarz' penalty
+    sum -= 0.5 * reading.estimated * elementary::log(independent_residuals(rows));
+  }
   if (log.smooth && log.step > 0.0) sum += clock_weight(log, reading.clock);
   if (!log.joints.empty()) {
     if (log.step > 0.0) sum += rates_weight(log, rows, reading);
@@ -119,7 +120,7 @@ double finite_log_weight(const Log& log, const Sampled& rows, const Kinematics* 
                          const Reading& reading) {
   constexpr double kNoEvidence = -1e9;  // ln of a weight whose share is 0 in double
   const double weight = log_weight(log, rows, motion, reading);
-  return std::isfinite(weight) ? weight : kNoEvidence;
+  return std::isfinite(weight) ? weight : kNoEvidence + elementary::log(reading.prior);
 }
 
 }  // namespace dcnn::check

@@ -141,6 +141,20 @@ TEST(CleanLogs, ValuesThatAreNewNowAndThenAreNotHeld) {
   EXPECT_EQ(held, 0);
 }
 
+// Forty milliseconds of a motion are no list of poses: nothing is fitted to them.
+TEST(CleanLogs, TwentyRowsOfAMotionAreTooShortForATool) {
+  const check::Log log = slow_log(4000, 0.002, 0.6);
+  Table table = log.table;
+  table.values = Eigen::MatrixXd(log.table.values.topRows(20));
+  check::Declared declared;
+  declared.model = ToolModel();
+  declared.model->mass = 1.05;
+  const check::Report report = check::check(check::make_log("short.csv", table, declared));
+  ASSERT_EQ(report.notes.size(), 1U) << check::to_text(report);
+  EXPECT_EQ(report.notes[0].find("too short to fit a rigid tool"), 0U) << report.notes[0];
+  EXPECT_TRUE(report.measured.empty());
+}
+
 // A press of five rows is sharp beside the sensor's noise, and no single row is off.
 TEST(CleanLogs, ShortPressesAreNoSpikes) {
   const check::Log log = slow_log(4000, 0.01, 0.6);

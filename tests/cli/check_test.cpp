@@ -39,6 +39,13 @@ TEST(CheckTool, NamesTheFaultAndWritesItsPage) {
   test::expect_usable_page(page);
 }
 
+TEST(CheckTool, SaysOfAMissingLogWhatEveryToolSays) {
+  const auto result = run("check", {"nosuch.csv"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_TRUE(contains(result.err, "nosuch.csv: does not exist or cannot be reached"))
+      << result.err;
+}
+
 /// What a reader of recordings refuses, since it would be left out of every result.
 TEST(CheckTool, RefusesColumnsThatAreKnownUnderAnotherSpelling) {
   const test::TemporaryFolder folder;
