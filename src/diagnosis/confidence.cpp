@@ -10,6 +10,7 @@
 #include "diagnosis/evidence/posterior.h"
 #include "diagnosis/evidence/priors.h"
 #include "diagnosis/exchanges.h"
+#include "diagnosis/gear_order.h"
 
 namespace dcnn {
 namespace {
@@ -260,6 +261,25 @@ Json leave_refuted(Search& search, const HoldOut& holdout) {
                        {"confidence", std::min(all, *likely[*worst])}});
     search.leave_out({*worst});
   }
+}
+
+bool leave_refuted_variations(Search& search, const HoldOut& holdout) {
+  if (!search.study().axis) return false;
+  bool changed = false;
+  for (std::size_t m = 0; m < search.fit().members.size();) {
+    const Member& member = search.fit().members[m++];
+    if (member.kind != find_effect("gear_friction") || member.fixed) continue;
+    const JointFit even =
+        joint_fit(search.setting(), with_even_gears(search.study(), search.fit().members, m - 1));
+    const double support =
+        holdout.log_support(holdout.prediction(search.fit().members, search.fit().base),
+                            holdout.prediction(even.members, even.base), search.floors());
+    if (support >= 0.0) continue;
+    search.adopt(even.members);
+    changed = true;
+    m = 0;
+  }
+  return changed;
 }
 
 }  // namespace dcnn

@@ -39,4 +39,8 @@ std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldO
 /// data too: what they were, and how likely.
 Json leave_refuted(Search& search, const HoldOut& holdout);
 
+/// Takes from dry friction of gears the variation with the position that held-out data refute: the
+/// friction without it predicts them better. Whether there was such.
+bool leave_refuted_variations(Search& search, const HoldOut& holdout);
+
 }  // namespace dcnn

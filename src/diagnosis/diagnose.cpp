@@ -197,7 +197,8 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
     alternatives = adopt_likelier(search, holdout);
   }
   // Beside fewer names a variation may be told no more.
-  if (search.even_out_gears()) alternatives = adopt_likelier(search, holdout);
+  if (leave_refuted_variations(search, holdout) || search.even_out_gears())
+    alternatives = adopt_likelier(search, holdout);
   const Case& study = search.study();
   const JointFit &fit = search.fit(), given = joint_fit(search.setting(), {});
 

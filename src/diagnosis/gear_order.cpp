@@ -56,4 +56,21 @@ void add_gear_frictions(const Case& study, const Signals& left, std::vector<Memb
   }
 }
 
+std::vector<Member> with_even_gears(const Case& study, std::vector<Member> members,
+                                    std::size_t gear) {
+  const Member own = members[gear];
+  members.erase(members.begin() + static_cast<std::ptrdiff_t>(gear));
+  const EffectKind& kind = *find_effect("coulomb_friction");
+  // Both make dry friction along the one axis of a machine.
+  const bool is_dry = std::any_of(members.begin(), members.end(), [&](const Member& m) {
+    return m.kind == &kind || m.kind == find_effect("stribeck_friction");
+  });
+  if (is_dry || !is_listed(study, kind)) return members;
+  members.push_back(
+      make_member(study, kind, kind.fits[0], axes_of(study, kind).front(), own.shapes.tail(1)));
+  // The mean over the positions; one that would drive is none.
+  members.back().amplitudes = own.amplitudes.head(1).cwiseMax(0.0);
+  return members;
+}
+
 }  // namespace dcnn

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "diagnosis/candidates.h"
+#include "diagnosis/gear_order.h"
 #include "diagnosis/search.h"
 
 namespace dcnn {
@@ -54,12 +55,6 @@ bool is_even(const Member& member, const std::vector<Estimate>& numbers) {
   });
 }
 
-/// Both make dry friction along the one axis of a machine.
-bool is_dry(const Member& member) {
-  return member.kind == find_effect("coulomb_friction") ||
-         member.kind == find_effect("stribeck_friction");
-}
-
 }  // namespace
 
 /// On a machine, whose only position is that of the gears.
@@ -69,15 +64,7 @@ bool Search::even_out_gears() {
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     if (fit_.members[m].kind != find_effect("gear_friction")) continue;
     if (!is_even(fit_.members[m], estimates(*setting_, fit_)[m])) continue;
-    std::vector<Member> members = members_without(m);
-    const EffectKind& kind = *find_effect("coulomb_friction");
-    if (std::none_of(members.begin(), members.end(), is_dry) && is_listed(study_, kind)) {
-      members.push_back(make_member(study_, kind, kind.fits[0], axes_of(study_, kind).front(),
-                                    fit_.members[m].shapes.tail(1)));
-      // The mean over the positions; one that would drive is none.
-      members.back().amplitudes = fit_.members[m].amplitudes.head(1).cwiseMax(0.0);
-    }
-    settle(members);
+    settle(with_even_gears(study_, fit_.members, m));
     weigh_once();
     changed = true;
     m = static_cast<std::size_t>(-1);  // from the first again

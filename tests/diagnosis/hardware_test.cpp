@@ -113,6 +113,19 @@ TEST(DiagnoseHardware, NamesFrictionThatVariesWithTheGear) {
   EXPECT_NEAR(told(*gear, "order"), 9.0, 0.05);
 }
 
+/// Where the teeth have moved, the friction that they had on the fitted recording is none of
+/// theirs: what is left is dry friction.
+TEST(DiagnoseHardware, AVariationThatHeldOutDataRefuteIsNone) {
+  const auto gears = [](double phase) {
+    return [phase](const AxisState& s) {
+      return 0.8 * (1.0 + 0.4 * std::sin(9.0 * s.q + phase)) * dry(s.v) + 0.3 * s.v;
+    };
+  };
+  const Json report = report_on(gears(0.5), gears(0.5 + std::numbers::pi));
+  EXPECT_EQ(found(report), (Names{"coulomb_friction", "viscous_friction"}))
+      << report["findings"].dump(1);
+}
+
 TEST(DiagnoseHardware, NamesFrictionThatDiffersBetweenTheDirections) {
   const Json report = report_on([](const AxisState& s) { return (s.v > 0.0 ? 0.7 : 0.4) * s.v; });
   EXPECT_EQ(found(report), (Names{"asymmetric_friction", "viscous_friction"}))
