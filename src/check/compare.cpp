@@ -8,7 +8,6 @@
 #include "check/joints.h"
 #include "check/kind.h"
 #include "check/statistics.h"
-#include "core/elementary.h"
 #include "data/held_rows.h"
 
 namespace dcnn::check {
@@ -64,12 +63,6 @@ std::vector<Reading> readings_about(const Log& log, const Sampled& rows, const R
   return all;
 }
 
-Eigen::VectorXd posterior(Eigen::VectorXd weights) {
-  weights.array() -= weights.maxCoeff();
-  weights = elementary::exp(weights.array());
-  return weights / weights.sum();
-}
-
 const FaultKind& kind_of(const std::string& id) {
   for (const FaultKind* kind : fault_kinds()) {
     if (kind->id == id) return *kind;
@@ -92,7 +85,7 @@ Round weigh(const Log& log, const Sampled& rows, Motions* motions, const Reading
     const Reading& reading = round.readings[static_cast<std::size_t>(k)];
     weights[k] = finite_log_weight(log, rows, motions ? &motions->of(reading) : nullptr, reading);
   }
-  round.probability = posterior(weights);
+  round.probability = shares_of(weights);
   for (Index k = 0; k < weights.size(); ++k) {
     round.of_fault[round.readings[static_cast<std::size_t>(k)].fault] += round.probability[k];
   }
@@ -142,22 +135,6 @@ void list_weights(const Round& round, Adopted& out) {
             [](const auto& a, const auto& b) { return a.probability > b.probability; });
 }
 
-}  // namespace
-
-Reading declared_reading(const Log& log) {
-  Reading reading;
-  reading.position = log.declared.read.position_unit;
-  reading.angle = reading.rate = log.declared.read.angle_unit;
-  reading.force = 1.0;
-  reading.force_axes *= log.declared.read.force_sign;
-  reading.orientation.order = log.has_quaternion() ? "wxyz" : "zyx";
-  const auto joints = static_cast<Index>(log.arm.size());
-  reading.arm.joint = log.arm;
-  reading.arm.sign = reading.arm.torque = Eigen::VectorXd::Ones(joints);
-  reading.arm.zero = Eigen::VectorXd::Zero(joints);
-  return reading;
-}
-
 /// Whether the force never changes: then no reading of the log explains more of it than another.
 bool is_dead(const Log& log) {
   return never_changes(log.column("fx")) && never_changes(log.column("fy")) &&
@@ -187,7 +164,11 @@ double adopt_rounds(const Log& log, Motions* motions, Adopted& out) {
 /// Where one fault at a time has led somewhere, or to no tool that explains the force: several at
 /// once.
 void adopt_combined(const Log& log, double prior, Motions& motions, Adopted& out) {
-  const RigidFit fit = fit_rigid(log, out.rows, motions.of(out.reading), out.reading, {0, true});
+  const auto fit_beside_friction = [&] {
+    out.beside_friction = fit_rigid(log, out.rows, motions.of(out.reading), out.reading, {0, true});
+  };
+  fit_beside_friction();
+  const RigidFit& fit = out.beside_friction;
   const double share = fit.residual.squaredNorm() / centred(fit.force).squaredNorm();
   if (prior == 1.0 && fit.mass > 0.0 && share < kMostForeign) return;
   Reading rival = out.reading;
@@ -197,11 +178,28 @@ void adopt_combined(const Log& log, double prior, Motions& motions, Adopted& out
   out.faults.clear(), out.weights.clear();
   out.reading = found.parts.back();
   adopt_rounds(log, &motions, out);
+  fit_beside_friction();
   for (std::size_t k = 0; k < found.parts.size(); ++k) {
     const Reading& part = found.parts[k];
     const Round alone{{part}, {}, {{part.fault, found.probability[k]}}, 0};
     out.faults.push_back(fault_from(alone, part));
   }
+}
+
+}  // namespace
+
+Reading declared_reading(const Log& log) {
+  Reading reading;
+  reading.position = log.declared.read.position_unit;
+  reading.angle = reading.rate = log.declared.read.angle_unit;
+  reading.force = 1.0;
+  reading.force_axes *= log.declared.read.force_sign;
+  reading.orientation.order = log.has_quaternion() ? "wxyz" : "zyx";
+  const auto joints = static_cast<Index>(log.arm.size());
+  reading.arm.joint = log.arm;
+  reading.arm.sign = reading.arm.torque = Eigen::VectorXd::Ones(joints);
+  reading.arm.zero = Eigen::VectorXd::Zero(joints);
+  return reading;
 }
 
 Adopted adopt(const Log& log) {

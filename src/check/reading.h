@@ -123,6 +123,7 @@ struct Adopted {
   Sampled rows;
   Kinematics motion;  ///< without rows where there is no pose
   RigidFit fit;
+  RigidFit beside_friction;  ///< what a contact, an offset and torques are told by
   bool compared = false;     ///< a rigid tool was fitted
   double independent = 0.0;  ///< effective number of residuals
   std::vector<Fault> faults;

@@ -63,6 +63,12 @@ double log_sum(const Eigen::VectorXd& terms) {
   return most + elementary::log(elementary::exp(terms.array() - most).sum());
 }
 
+Eigen::VectorXd shares_of(const Eigen::VectorXd& log_weights) {
+  const Eigen::VectorXd weights =
+      elementary::exp(log_weights.array() - double(log_weights.maxCoeff()));
+  return weights / weights.sum();
+}
+
 double posterior_of_p(double p) {
   if (p >= 1.0 / std::numbers::e) return kFaultPrior;
   const double log_p = elementary::log(std::max(p, 1e-300));

@@ -37,6 +37,8 @@ double probability_of_log_odds(double x);
 double log_odds_of(double p);
 /// ln of a sum of exponentials, of one term at least.
 double log_sum(const Eigen::VectorXd& terms);
+/// exp(x_k) over the sum of all.
+Eigen::VectorXd shares_of(const Eigen::VectorXd& log_weights);
 /// Probability of a fault whose prior is kFaultPrior where a statistic's p-value is `p`: the bound
 /// of Sellke, Bayarri and Berger (2001) on the Bayes factor, -e p log p.
 double posterior_of_p(double p);

@@ -59,9 +59,8 @@ bool can_fit_torque(const Evidence& e) {
          e.log.declared.read.payload.mass <= 0.0 && size_of(e.log.block(kTorque)) > 0.0;
 }
 
-TorqueDesign::TorqueDesign(const Evidence& e) : e_(e) {
+TorqueDesign::TorqueDesign(const Evidence& e) : e_(e), force_(e.adopted.beside_friction) {
   const Adopted& a = e.adopted;
-  force_ = fit_rigid(e.log, a.rows, a.motion, a.reading, {0, true});
   logged_ = a.rows.smoothed(e.log.block(kTorque), a.rows.value);
   const Matrix3d R_ES =
       e.log.declared.model ? e.log.declared.model->R_ES() : Matrix3d(Matrix3d::Identity());

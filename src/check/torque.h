@@ -40,7 +40,7 @@ class TorqueDesign {
   double force_weight(const TorqueFit& fit) const;
 
   const Evidence& e_;
-  RigidFit force_;                     ///< beside friction: its moment is the tool's
+  const RigidFit& force_;              ///< beside friction: its moment is the tool's
   std::vector<Eigen::MatrixXd> rows_;  ///< (3,15) of h, p, I, bias
   std::vector<Eigen::Matrix3d> R_;     ///< R_BS
   Eigen::MatrixXd logged_;             ///< (n,3), smoothed

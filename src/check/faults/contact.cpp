@@ -18,8 +18,7 @@ std::vector<Fault> find_contact(const Evidence& e) {
   if (!a.compared || a.rows.half == 0 || (a.fit.mass <= 0.0 && !a.reading.compensated)) return {};
   const double seconds = e.log.step * a.reading.clock * static_cast<double>(a.rows.half);
   const auto piece = std::max<Eigen::Index>(3, std::llround(kDuration / seconds));
-  const Eigen::MatrixXd residual =
-      fit_rigid(e.log, a.rows, a.motion, a.reading, {0, true}).residual;
+  const Eigen::MatrixXd& residual = a.beside_friction.residual;
   const Eigen::Index pieces = residual.rows() / piece;
   if (pieces < 12) return {};
   Eigen::VectorXd size(pieces);

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "check/axes.h"
 #include "check/rows.h"
 #include "core/elementary.h"
 
@@ -50,19 +50,9 @@ Eigen::Matrix3d turn_of(const Fitting& fitting) {
 /// The least turn from `turn` to one that lets every axis lie along an axis.
 double angle_to_right_angles(const Eigen::Matrix3d& turn) {
   double most = -1.0;  // trace of the turn that remains: 1 + 2 cos(angle)
-  std::array<Eigen::Index, 3> order{0, 1, 2};
-  do {
-    for (int signs = 0; signs < 8; ++signs) {
-      Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
-      double trace = 0.0;
-      for (Eigen::Index i = 0; i < 3; ++i) {
-        const Eigen::Index j = order[static_cast<std::size_t>(i)];
-        P(i, j) = (signs >> i & 1) ? -1.0 : 1.0;
-        trace += P(i, j) * turn(i, j);
-      }
-      if (P.determinant() > 0.0) most = std::max(most, trace);
-    }
-  } while (std::next_permutation(order.begin(), order.end()));
+  for (const Eigen::Matrix3d& P : signed_permutations()) {
+    if (P.determinant() > 0.0) most = std::max(most, P.cwiseProduct(turn).sum());
+  }
   return elementary::acos(std::clamp(0.5 * (most - 1.0), -1.0, 1.0));
 }
 

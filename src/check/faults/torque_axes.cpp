@@ -1,30 +1,17 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
+#include "check/axes.h"
 #include "check/priors.h"
+#include "check/statistics.h"
 #include "check/torque.h"
-#include "core/elementary.h"
 
 namespace dcnn::check {
 namespace {
 
 using Eigen::Index;
 using Eigen::Matrix3d;
-
-/// "x = -ty" for each row of a signed permutation.
-std::string torque_words(const Matrix3d& P) {
-  std::string words;
-  for (Index i = 0; i < 3; ++i) {
-    for (Index j = 0; j < 3; ++j) {
-      if (P(i, j) == 0.0) continue;
-      words += std::string(i == 0 ? "" : ", ") + "xyz"[i] + " = " + (P(i, j) > 0 ? "t" : "-t") +
-               "xyz"[j];
-    }
-  }
-  return words;
-}
 
 /// As they are called, or turned, scaled and framed as the forces are found to be.
 std::vector<TorqueReading> right_readings(const Reading& force) {
@@ -69,26 +56,19 @@ void add_frame(const TorqueReading& right, std::vector<TorqueReading>& out) {
 
 /// The signed permutations but for the identity.
 void add_orders(const TorqueReading& right, std::vector<TorqueReading>& out) {
-  std::array<Index, 3> order{0, 1, 2};
-  do {
-    for (int signs = 0; signs < 8; ++signs) {
-      Matrix3d P = Matrix3d::Zero();
-      for (Index i = 0; i < 3; ++i) {
-        P(i, order[static_cast<std::size_t>(i)]) = (signs >> i & 1) ? -1.0 : 1.0;
-      }
-      const bool straight = order[0] == 0 && order[1] == 1;
-      if (straight && signs == 0) continue;
-      TorqueReading reading = right;
-      reading.axes = P * right.axes;
-      const bool all = straight && signs == 7, one = straight && std::abs(P.trace() - 1.0) < 0.5;
-      reading.kind = all || one ? &torque_sign_fault : &torque_axes_fault;
-      if (one) reading.channel = signs == 1 ? "tx" : signs == 2 ? "ty" : "tz";
-      reading.words = all   ? "torques have the other sign than the forces: they are the reaction"
-                      : one ? reading.channel + " has the wrong sign"
-                            : "the torque's axes are not the force's: " + torque_words(P);
-      out.push_back(std::move(reading));
-    }
-  } while (std::next_permutation(order.begin(), order.end()));
+  for (const Matrix3d& P : signed_permutations()) {
+    const bool straight = P.isDiagonal(), all = straight && P.trace() < -2.5,
+               one = straight && std::abs(P.trace() - 1.0) < 0.5;
+    if (straight && P.trace() > 2.5) continue;
+    TorqueReading reading = right;
+    reading.axes = P * right.axes;
+    reading.kind = all || one ? &torque_sign_fault : &torque_axes_fault;
+    if (one) reading.channel = P(0, 0) < 0.0 ? "tx" : P(1, 1) < 0.0 ? "ty" : "tz";
+    reading.words = all   ? "torques have the other sign than the forces: they are the reaction"
+                    : one ? reading.channel + " has the wrong sign"
+                          : "the torque's axes are not the force's: " + axes_words(P, "t");
+    out.push_back(std::move(reading));
+  }
 }
 
 std::vector<TorqueReading> readings_of(const Reading& force) {
@@ -119,9 +99,8 @@ std::vector<Fault> find_torques(const Evidence& e) {
   }
   if (!weight.allFinite()) return {};
   Index best = 0;
-  weight.array() -= weight.maxCoeff(&best);
-  const Eigen::VectorXd share =
-      elementary::exp(weight.array()) / elementary::exp(weight.array()).sum();
+  weight.maxCoeff(&best);
+  const Eigen::VectorXd share = shares_of(weight);
   // Where no rigid tool explains the torque, no reading of it is told.
   if (design.foreign_share(readings[static_cast<std::size_t>(best)]) > kMostForeign) return {};
   struct Kind {

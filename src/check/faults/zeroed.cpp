@@ -20,7 +20,7 @@ std::vector<Fault> find_zeroed_before(const Evidence& e) {
   Eigen::Matrix<double, 7, 1> slope = Eigen::Matrix<double, 7, 1>::Zero();
   slope[0] = -g;
   slope.tail<3>() = a.fit.bias / offset;
-  const RigidFit fit = fit_rigid(e.log, a.rows, a.motion, a.reading, {0, true});
+  const RigidFit& fit = a.beside_friction;
   // What physics beyond the tool leaves is alike for seconds.
   const double scale = static_cast<double>(fit.residual.size()) /
                        std::min(kMostIndependent, independent_of(fit.residual));
