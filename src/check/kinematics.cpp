@@ -11,9 +11,9 @@ namespace dcnn::check {
 namespace {
 
 using Eigen::Index;
-constexpr double kWindow = 0.12;      // s; passes what a wrist does, some 8 Hz
-constexpr Index kMostCentres = 1500;  // more rows tell readings apart no better
-constexpr Index kShifts = 40;         // rows kept free beside a window, for delays
+constexpr double kWindow = 0.12;       // s; passes what a wrist does, some 8 Hz
+constexpr Index kMostCentres = 1500;   // more rows tell readings apart no better
+constexpr Index kShifts = 40;          // rows kept free beside a window, for delays
 constexpr double kBetweenPoses = 1.0;  // s, as readers tell lists of poses (data/clock.cpp)
 
 /// The clock unit that makes the rate plausible: the window must be the same for all readings.

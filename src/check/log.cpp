@@ -11,8 +11,8 @@ namespace dcnn::check {
 namespace {
 
 using Names = std::vector<std::string>;
-constexpr double kGapSteps = 5.0;      // a longer step is a gap, as in every reader
-constexpr double kSmoothRatio = 0.05;  // of von Neumann's ratio, 2 for rows in any order
+constexpr double kGapSteps = 5.0;          // a longer step is a gap, as in every reader
+constexpr double kSmoothRatio = 0.05;      // of von Neumann's ratio, 2 for rows in any order
 constexpr std::size_t kFewestBursts = 20;  // whose lengths agree by chance next to never
 constexpr double kRegular = 0.9;           // of bursts that are of one length
 
