@@ -60,20 +60,38 @@ void demand_answers(const Proposal& proposal, bool assume, const std::string& fi
        proposal.questions.empty() ? " (--assume takes what is guessed)" : "");
 }
 
-/// What the tools would say of the recording that was written: text keeps every number's value.
-void check_written(const Tool& tool, const Path& path, Table table, const System& system) {
+/// What the tools would say of the recording that was written, text keeping every number's value:
+/// whether they would take it.
+bool check_written(const Tool& tool, const Path& path, Table table, const System& system) {
   try {
     ReadOptions options;
     options.static_list = true;
     options.motion_only = true;
     const Recording recording = make_recording({std::move(table), {}}, path, options, system);
     for (const auto& note : recording.notes) tool.note("  " + note);
+    return true;
   } catch (const Error& error) {
     const std::string words = error.what();
     const bool clock = words.find("irregular clock") != std::string::npos;
     tool.note("note: the other tools would refuse it: " + words +
               (clock ? " (here: --resample)" : ""));
+    return false;
   }
+}
+
+/// The command that goes on from a recording of this name.
+std::string next_of(const Table& table, const std::string& name) {
+  const auto measures = [&](const char* force) {
+    return std::find(table.columns.begin(), table.columns.end(), force) != table.columns.end();
+  };
+  if (!measures("fx") && !measures("fy") && !measures("fz")) {
+    return "name the force, --map fx=CHANNEL and so on; without one there is a motion alone: "
+           "dcnn-sim --sim sim.json --motion " +
+           name + " --out predicted.csv";
+  }
+  return "dcnn-check " + name + ", then dcnn-identify " + name +
+         " --out sim.json (or, with a simulator, dcnn-diagnose --sim sim.json --fit " + name +
+         " --out report)";
 }
 
 class Importer {
@@ -200,16 +218,15 @@ class Importer {
     if (proposal_.recipe.wrench.zeroed) {
       tool_.note("  zeroed: say so to dcnn-diagnose, --zeroed, or give it the log with --recipe");
     }
-    check_written(tool_, file, std::move(imported.table),
-                  axes.is_null() ? System() : parse_system(axes, "system.json"));
     const std::string name = quoted_argument(file.string());
-    next_ = axes.is_null()
-                ? "dcnn-check " + name + ", then dcnn-identify " + name +
-                      " --out sim.json (or, with a simulator, dcnn-diagnose --sim sim.json --fit " +
-                      name + " --out report)"
-                : "dcnn-diagnose --system " +
-                      quoted_argument((*request_.out / "system.json").string()) + " --fit " + name +
-                      " --out report";
+    const std::string next = next_of(imported.table, name);
+    const bool taken = check_written(tool_, file, std::move(imported.table),
+                                     axes.is_null() ? System() : parse_system(axes, "system.json"));
+    next_ = !taken           ? "mend what the note says, then import again"
+            : axes.is_null() ? next
+                             : "dcnn-diagnose --system " +
+                                   quoted_argument((*request_.out / "system.json").string()) +
+                                   " --fit " + name + " --out report";
   }
 
   /// The first log was read already where its recipe was found.

@@ -28,7 +28,7 @@ class Proposer {
     set_orientation();
     recipe().wrench = wishes_.wrench;
     recipe().arm = wishes_.arm;
-    note_frames();
+    choose_wrench_frame();
     note_what_is_missing();
     set_clocks();
     propose_units(log_, wishes_, &proposal_);
@@ -206,13 +206,27 @@ class Proposer {
     }
   }
 
-  /// What the makers of robots say of a name that says nothing itself.
-  void note_frames() {
+  /// What the makers of robots say of a name that says nothing itself: a UR's actual_TCP_force is
+  /// in the base frame, less the payload that was entered (RTDE guide).
+  void choose_wrench_frame() {
+    std::string& frame = recipe().wrench.frame;
+    const bool open = frame == "auto";
+    if (open) frame = "sensor";
     for (const ColumnRule& rule : recipe().columns) {
       if (rule.to != "fx" || rule.channel.find("TCP_force") == std::string::npos) continue;
-      if (wishes_.wrench.frame == "base") continue;
-      proposal_.notes.push_back(shown(rule.channel) +
-                                " of a UR is in the base frame: say --wrench-frame base");
+      const bool oriented = !recipe().orientation.kind.empty();
+      std::string words = shown(rule.channel) + " of a UR is in the base frame";
+      if (open && oriented) {
+        frame = "base";
+        words += ": it is turned into the sensor's by the pose";
+      } else if (frame != "base") {
+        words += oriented ? ": say --wrench-frame base"
+                          : ", and the log has no pose to turn it by: log one, or give --urdf "
+                            "ROBOT and --link LINK";
+      }
+      proposal_.notes.push_back(words +
+                                "; the controller has subtracted the payload from it, which "
+                                "--payload adds back");
     }
   }
 

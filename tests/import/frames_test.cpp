@@ -98,6 +98,23 @@ TEST(Frames, QuaternionsOfEitherOrder) {
       std::string::npos);
 }
 
+TEST(Frames, OfAURsForceIsTheBase) {
+  const Eigen::AngleAxisd turn(kTurn);
+  std::ostringstream text;
+  text.precision(17);
+  text << "t,actual_TCP_pose_0,actual_TCP_pose_1,actual_TCP_pose_2,actual_TCP_pose_3,"
+          "actual_TCP_pose_4,actual_TCP_pose_5,actual_TCP_force_0,actual_TCP_force_1,"
+          "actual_TCP_force_2\n0,0,0,0,0,0,0,1,2,3\n0.002,0,0,0";
+  for (int k = 0; k < 3; ++k) text << "," << (turn.angle() * turn.axis())[k];
+  text << ",1,2,3\n";
+  ImportWishes wishes;
+  wishes.wrench.frame = "auto";
+  const Vector3 f = kTurn.transpose() * Vector3(1, 2, 3);
+  EXPECT_NEAR(cell(import_text(text.str(), wishes), "fx", 1), f.x(), 1e-12);
+  wishes.wrench.frame = "sensor";
+  EXPECT_EQ(cell(import_text(text.str(), wishes), "fx", 1), 1.0);
+}
+
 TEST(Frames, AWrenchInTheBaseFrameIsTurnedAndShifted) {
   ImportWishes wishes;
   wishes.wrench.frame = "base";

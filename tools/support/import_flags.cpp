@@ -110,8 +110,11 @@ std::vector<Option> ImportFlags::frames(Tool& tool) {
           .group(kFrames),
       tool.flag("--inverse-pose", inverse_, "the log has the pose of the base in the tool")
           .group(kFrames),
-      tool.option("--wrench-frame", wrench_frame_, "frame of the logged wrench")
-          .one_of({"sensor", "base"})
+      tool.option(
+              "--wrench-frame", wrench_frame_,
+              "frame of the logged wrench; auto: the sensor's, but where the robot's maker says "
+              "another")
+          .one_of({"auto", "sensor", "base"})
           .with_default()
           .group(kFrames),
       tool.option("--wrench-turn", turn_, "logged frame in the sensor's: rx ry rz [rad]")

@@ -27,7 +27,7 @@ class ImportFlags {
   std::vector<std::string> clock_;
   std::string clock_unit_, stamps_ = "header";
   double rate_hz_ = 0.0;
-  std::string quaternion_order_, euler_order_, wrench_frame_ = "sensor";
+  std::string quaternion_order_, euler_order_, wrench_frame_ = "auto";
   bool inverse_ = false, truncated_ = false, zeroed_ = false;
   std::vector<double> turn_, origin_, payload_;
   std::string urdf_, link_, base_link_;

@@ -85,7 +85,7 @@ struct ImportWishes {
   std::string quaternion_order, euler_order;
   std::vector<std::string> also;  ///< channels to keep under their names
   OrientationRule orientation;
-  WrenchRule wrench;
+  WrenchRule wrench;  ///< its frame "auto": as the robot's maker says, else the sensor's
   ArmRule arm;
 };
 
