@@ -56,7 +56,7 @@ TEST(CompensatorLimits, NothingAndAModelThatLooksAheadAreRefused) {
   Identifier ahead = steady_identifier(Vector3d::Zero());
   ahead.layout.spec.derivative = DerivativeSpec();
   expect_unmade([&] { OnlineCompensator(&ahead, nullptr, {}, "test"); },
-                "test: its derivatives look");
+                "test: its derivatives are not causal");
 }
 
 /// The guard waits until the windows of the derivatives are full, and no less than it was told.
