@@ -53,13 +53,15 @@ double nearest_turn(double angle, double near) {
 
 void unwrap(Eigen::Ref<Eigen::MatrixXd> angles) {
   constexpr double kSurelyLess = 3.14;  // than half a turn: rounding would leave the angle alone
-  for_each_piece(angles.cols(), [&](Index column) {
+  // On one thread: a simulation calls this for a few rows in every cycle, and on a busy machine the
+  // threads' barriers take far longer than the work.
+  for (Index column = 0; column < angles.cols(); ++column) {
     for (Index i = 1; i < angles.rows(); ++i) {
       double& angle = angles(i, column);
       const double before = angles(i - 1, column);
       if (!(std::abs(angle - before) < kSurelyLess)) angle = nearest_turn(angle, before);
     }
-  });
+  }
 }
 
 Eigen::MatrixXd quaternions(const Recording& recording) {
