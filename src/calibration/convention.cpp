@@ -1,7 +1,6 @@
-#include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "core/signed_permutations.h"
 #include "dcnn/calibration/calibration.h"
 
 namespace dcnn {
@@ -18,21 +17,6 @@ std::string words_of(const Eigen::Matrix3d& Q) {
   return words;
 }
 
-std::vector<Eigen::Matrix3d> right_handed_readings() {
-  std::vector<Eigen::Matrix3d> readings;
-  std::array<Index, 3> order{0, 1, 2};
-  do {
-    for (int signs = 0; signs < 8; ++signs) {
-      Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
-      for (Index i = 0; i < 3; ++i) {
-        Q(i, order[static_cast<std::size_t>(i)]) = (signs >> i) & 1 ? -1.0 : 1.0;
-      }
-      if (Q.determinant() > 0) readings.push_back(Q);
-    }
-  } while (std::next_permutation(order.begin(), order.end()));
-  return readings;
-}
-
 }  // namespace
 
 AxisConvention best_convention(const ForcePairs& pairs, const Eigen::Matrix3d& R_ES,
@@ -40,7 +24,8 @@ AxisConvention best_convention(const ForcePairs& pairs, const Eigen::Matrix3d& R
   AxisConvention best;
   best.residual_rms = INFINITY;
   const double total = pairs.weights.sum();
-  for (const Eigen::Matrix3d& Q : right_handed_readings()) {
+  for (const Eigen::Matrix3d& Q : signed_permutations()) {
+    if (Q.determinant() < 0.0) continue;  // left-handed
     for (const int sign : {1, -1}) {
       Eigen::MatrixXd left = pairs.reference - sign * pairs.sensor * (R_ES * Q).transpose();
       if (with_bias) left.rowwise() -= (pairs.weights.transpose() * left / total).eval();

@@ -145,7 +145,7 @@ void prune(const Problem& problem, Terms& terms) {
 /// Replaces terms by plainer forms that are worth as much beside the others: numbers that were
 /// fitted again may have made a factor needless, or its constant.
 void make_plainer(const Problem& problem, Terms& terms) {
-  constexpr int kSteps = 6;
+  constexpr int kSteps = 6;      // a limit of computation
   constexpr double kSame = 0.1;  // of chi-square: where fits of one law end
   for (std::size_t k = 0; k < terms.size(); ++k) {
     const Problem rest = beside(problem, without(terms, k));
