@@ -129,13 +129,7 @@ VectorXd Data::own_coordinate(std::size_t coordinate, const Sketch& of) const {
 VectorXd Data::product(const std::vector<Piece>& pieces, const Sketch& of) const {
   VectorXd product = VectorXd::Ones(samples_);
   for (const Piece& piece : pieces) {
-    std::vector<double> numbers;
-    if (piece.factor.memory != law::Memory::kNone) numbers.push_back(piece.memory);
-    if (piece.factor.memory == law::Memory::kSecondOrder) numbers.push_back(piece.damping);
-    if (piece.factor.centred) numbers.push_back(piece.centre);
-    numbers.push_back(piece.scale);
-    numbers.push_back(piece.extra);
-    law::FactorRun run(piece.factor, numbers.data());
+    law::FactorRun run(piece.factor, numbers_of(piece).data());
     const std::size_t c = piece.factor.coordinate;
     const VectorXd q = law::is_own(c) ? own_coordinate(c, of) : values_[c];
     for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {

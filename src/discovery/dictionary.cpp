@@ -27,6 +27,9 @@ void add_rate(const Data& data, std::size_t c, std::vector<Atom>& list) {
   for (const double tau : {0.05, 0.2, 0.6, 2.0}) {
     add(remembering(piece("linear", c, rms), Memory::kLag, tau));
   }
+  for (const double delay : {0.08, 0.16, 0.25, 0.4}) {
+    add(remembering(piece("linear", c, rms), Memory::kDelay, delay));
+  }
   if (!law::coordinates()[c].is_rate) {
     add_swings(data, c, list);
     return;
@@ -129,6 +132,28 @@ void add_products(const Data& data, std::vector<Atom>& list) {
   }
 }
 
+/// Of the motion's rates, places and loads, one place at least: what shows only where all three
+/// differ from their means is not found factor by factor.
+void add_triples(const Data& data, std::vector<Atom>& list) {
+  std::vector<std::size_t> told;
+  for (const char* first :
+       {"v_base_x", "v_sensor_x", "w_sensor_x", "a_base_x", "f_sensor_x", "x", "alpha"}) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t c = coordinate_named(first) + k;
+      if (data.varies(c)) told.push_back(c);
+    }
+  }
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    for (std::size_t j = i + 1; j < told.size(); ++j) {
+      for (std::size_t k = j + 1; k < told.size(); ++k) {
+        if (kind_of(told[k]) != Kind::kPlace) continue;  // places are last
+        list.push_back(
+            {linear_in(data, told[i]), linear_in(data, told[j]), linear_in(data, told[k])});
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Kind kind_of(std::size_t coordinate) {
@@ -195,6 +220,7 @@ std::vector<Atom> dictionary(const Data& data) {
     }
   }
   add_products(data, list);
+  add_triples(data, list);
   return list;
 }
 

@@ -37,7 +37,13 @@ std::vector<Piece> modulators(const Data& data);
 std::vector<Piece> other_shapes(const Data& data, const Piece& piece);
 /// What 1 + p f(u) is for large p: f(u) alone, which needs one number fewer. Nothing for others.
 std::vector<Piece> without_constant(const Piece& piece);
-/// The piece with a state between coordinate and shape.
+/// The piece's shape as a curve, or a curve with twice or half as many nodes.
+std::vector<Piece> as_curves(const Data& data, const Piece& piece);
+/// The same shape of the coordinate itself; of states in another unit, the one most alike.
+Piece without_memory(const Data& data, const Piece& piece);
+/// Two shapes of one coordinate without states as one curve; none of others.
+std::vector<Piece> merged(const Data& data, const Piece& first, const Piece& second);
+/// The piece with a state between coordinate and shape, or with another one.
 std::vector<Piece> with_memories(const Data& data, const Piece& piece);
 
 }  // namespace dcnn::discovery

@@ -14,7 +14,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kScanned = 10;
-constexpr std::size_t kMostRivals = 4, kMostApproximations = 1;
+constexpr std::size_t kMostRivals = 4, kMostApproximations = 3;
 
 using Terms = std::vector<Sketch>;
 
@@ -69,6 +69,17 @@ double score_of(const Problem& problem, const Terms& terms) {
   return score;
 }
 
+/// The forms of the first few searched beside the others.
+void evolve_beside(const Problem& problem, Terms& terms) {
+  const std::size_t forms = std::min<std::size_t>(terms.size(), prior::kMostEvolved);
+  for (std::size_t k = 0; k < forms; ++k) {
+    const Problem rest = beside(problem, without(terms, k));
+    const Data data(rest);
+    terms[k] = evolved(data, {weighed(data, terms[k])}).front().sketch;
+  }
+  settle(problem, terms, 4);
+}
+
 /// The best form of one term, or nothing.
 std::optional<Sketch> evolved_term(const Problem& problem) {
   const Data data(problem);
@@ -115,13 +126,7 @@ Terms gathered(const Problem& problem) {
     terms.push_back(*next);
     if (terms.size() > 1) settle(problem, terms, 2);
   }
-  const std::size_t forms = std::min<std::size_t>(terms.size(), prior::kMostEvolved);
-  for (std::size_t k = 0; k < forms; ++k) {
-    const Problem rest = beside(problem, without(terms, k));
-    const Data data(rest);
-    terms[k] = evolved(data, {weighed(data, terms[k])}).front().sketch;
-  }
-  settle(problem, terms, 4);
+  evolve_beside(problem, terms);
   return terms;
 }
 
@@ -152,7 +157,7 @@ void make_plainer(const Problem& problem, Terms& terms) {
     const Data data(rest);
     for (;;) {
       std::vector<Trial> trials;
-      for (const Sketch& sketch : plainer(terms[k])) {
+      for (const Sketch& sketch : plainer(data, terms[k])) {
         trials.push_back(refined(data, sketch, kSteps));
       }
       if (trials.empty()) break;
@@ -181,7 +186,15 @@ Terms search(const Problem& problem) {
   if (first.empty() || (first.size() == 1 && suffices(problem, first))) return first;
   Terms second = gathered(problem);
   prune(problem, second);
-  return score_of(problem, second) > score_of(problem, first) ? second : first;
+  Terms& best = score_of(problem, second) > score_of(problem, first) ? second : first;
+  if (best.size() > 1 && !suffices(problem, best)) {
+    // Each term was found beside others that have changed since.
+    Terms again = best;
+    evolve_beside(problem, again);
+    prune(problem, again);
+    if (score_of(problem, again) > score_of(problem, best)) return again;
+  }
+  return best;
 }
 
 /// Other forms of a term within the margin, beside the other terms.
@@ -227,6 +240,8 @@ std::optional<std::size_t> least_worthy(const std::vector<Discovered>& laws) {
 std::vector<Discovered> accepted(const Problem& problem, Terms terms, bool rivals) {
   for (;;) {
     make_plainer(problem, terms);
+    // A term is fitted as if the others followed: they do here.
+    for (int sweep = 0; sweep < 2 && terms.size() > 1; ++sweep) settle(problem, terms, 4);
     std::vector<Discovered> laws;
     for (std::size_t k = 0; k < terms.size(); ++k) {
       laws.push_back(judged_beside(problem, terms, k, rivals && terms.size() == 1));

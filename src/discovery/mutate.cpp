@@ -15,9 +15,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kMostPieces = 3, kParents = 3, kModulators = 5;
-constexpr int kRounds = 3;
+constexpr int kRounds = 6;  // those after the third only of the best form
 constexpr int kFirstSteps = 4, kLastSteps = 15;
 constexpr double kLeastExtra = 10.0;  // of chi-square, for a modulator to be refined
+constexpr double kSameScore = 1.0;    // of chi-square, below which curves are not refined further
 
 /// What a second column adds to the gain of the first.
 double extra_gain(const Data& data, const Trial& trial, const VectorXd& column) {
@@ -57,7 +58,7 @@ std::vector<Sketch> modulated(const Data& data, const Trial& trial) {
   return list;
 }
 
-void add_deletions(const Sketch& from, std::vector<Sketch>& list) {
+void add_deletions(const Data& data, const Sketch& from, std::vector<Sketch>& list) {
   for (std::size_t k = 0; k < from.pieces.size(); ++k) {
     if (from.pieces.size() > 1 || !law::is_axis(from.direction)) {
       Sketch sketch = from;
@@ -72,6 +73,7 @@ void add_deletions(const Sketch& from, std::vector<Sketch>& list) {
     if (from.pieces[k].factor.memory != law::Memory::kNone) {
       Sketch sketch = from;
       sketch.pieces[k].factor.memory = law::Memory::kNone;
+      if (!from.pieces[k].values.empty()) sketch.pieces[k] = without_memory(data, from.pieces[k]);
       list.push_back(sketch);
     }
   }
@@ -87,9 +89,9 @@ void add_deletions(const Sketch& from, std::vector<Sketch>& list) {
 
 }  // namespace
 
-std::vector<Sketch> plainer(const Sketch& from) {
+std::vector<Sketch> plainer(const Data& data, const Sketch& from) {
   std::vector<Sketch> list;
-  add_deletions(from, list);
+  add_deletions(data, from, list);
   std::erase_if(list, [numbers = free_numbers(from)](const Sketch& sketch) {
     return free_numbers(sketch) >= numbers;
   });
@@ -106,16 +108,35 @@ std::vector<Sketch> plainer(const Sketch& from) {
 
 namespace {
 
+/// Shapes of one coordinate as one curve, and curves with more and with fewer nodes.
+std::vector<Sketch> with_curves(const Data& data, const Sketch& from) {
+  std::vector<Sketch> list;
+  for (std::size_t k = 0; k < from.pieces.size(); ++k) {
+    for (const Piece& piece : as_curves(data, from.pieces[k])) {
+      list.push_back(from);
+      list.back().pieces[k] = piece;
+    }
+    for (std::size_t i = 0; i < k; ++i) {
+      for (const Piece& piece : merged(data, from.pieces[i], from.pieces[k])) {
+        list.push_back(from);
+        list.back().pieces[i] = piece;
+        list.back().pieces.erase(list.back().pieces.begin() + static_cast<std::ptrdiff_t>(k));
+      }
+    }
+  }
+  return list;
+}
+
 std::vector<Sketch> variants(const Data& data, const Trial& trial) {
   const Sketch& from = trial.sketch;
-  std::vector<Sketch> list;
-  add_deletions(from, list);
+  std::vector<Sketch> list = with_curves(data, from);
+  add_deletions(data, from, list);
   for (std::size_t k = 0; k < from.pieces.size(); ++k) {
-    for (const auto& pieces :
-         {other_shapes(data, from.pieces[k]), with_memories(data, from.pieces[k])}) {
-      for (const Piece& piece : pieces) {
+    const Piece& piece = from.pieces[k];
+    for (const auto& pieces : {other_shapes(data, piece), with_memories(data, piece)}) {
+      for (const Piece& other : pieces) {
         Sketch sketch = from;
-        sketch.pieces[k] = piece;
+        sketch.pieces[k] = other;
         list.push_back(sketch);
       }
     }
@@ -171,6 +192,23 @@ void rank_structures(std::vector<Trial>& trials) {
   trials = std::move(unique);
 }
 
+/// The same, and with a factor fewer, which a finer curve may make needless.
+std::vector<Sketch> with_other_curves(const Data& data, const Sketch& from) {
+  std::vector<Sketch> list = with_curves(data, from);
+  for (std::size_t k = 0; k < from.pieces.size() && from.pieces.size() > 1; ++k) {
+    Sketch fewer = from;
+    fewer.pieces.erase(fewer.pieces.begin() + static_cast<std::ptrdiff_t>(k));
+    const auto more = with_curves(data, fewer);
+    list.insert(list.end(), more.begin(), more.end());
+  }
+  return list;
+}
+
+bool has_curve(const Sketch& sketch) {
+  return std::any_of(sketch.pieces.begin(), sketch.pieces.end(),
+                     [](const Piece& piece) { return !piece.values.empty(); });
+}
+
 }  // namespace
 
 std::vector<Trial> evolved(const Data& data, std::vector<Trial> trials) {
@@ -181,7 +219,7 @@ std::vector<Trial> evolved(const Data& data, std::vector<Trial> trials) {
   std::vector<law::Structure> done;
   for (int round = 0; round < kRounds; ++round) {
     std::vector<Sketch> next;
-    const std::size_t parents = round == 0 ? kParents : 2;
+    const std::size_t parents = round == 0 ? kParents : round < 3 ? 2 : 1;
     for (std::size_t k = 0; k < std::min(parents, trials.size()); ++k) {
       const auto structure = structure_of(trials[k].sketch);
       if (std::find(done.begin(), done.end(), structure) != done.end()) continue;
@@ -199,6 +237,13 @@ std::vector<Trial> evolved(const Data& data, std::vector<Trial> trials) {
     }
     rank_structures(trials);
     if (trials.size() > 40) trials.resize(40);
+  }
+  while (!trials.empty() && has_curve(trials.front().sketch)) {
+    const double before = trials.front().score;
+    auto children = fitted(data, with_other_curves(data, trials.front().sketch), kLastSteps);
+    trials.insert(trials.end(), children.begin(), children.end());
+    rank_structures(trials);
+    if (trials.front().score <= before + kSameScore) break;
   }
   return trials;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <tuple>
 
 #include "discovery/dictionary.h"
 
@@ -97,6 +98,7 @@ std::vector<Piece> other_shapes(const Data& data, const Piece& from) {
     list.push_back(p);
   };
   if (from.factor.memory == Memory::kDahl || from.factor.memory == Memory::kDwell) return list;
+  if (!from.values.empty()) return list;
   add("linear", size);
   add("power", size, 1.5);
   add("even_power", size, 1.5);
@@ -108,6 +110,8 @@ std::vector<Piece> other_shapes(const Data& data, const Piece& from) {
   add("asymmetric", size, 0.5);
   add("one_sided", size, 1.0);
   add("one_sided", -size, 1.0);
+  add("step", 0.2 * size);
+  add("step", -0.2 * size);
   if (kind_of(c) == Kind::kSize) add("inverse_power", size, 2.0);
   if (c == coordinate_named("distance")) {
     add("gaussian", size);
@@ -120,11 +124,93 @@ std::vector<Piece> other_shapes(const Data& data, const Piece& from) {
   return list;
 }
 
+namespace {
+
+/// Where the coordinate, or the state that it drives, lies: centre and half of the range.
+std::pair<double, double> range_of(const Data& data, const law::Factor& factor) {
+  if (factor.memory == Memory::kDahl) return {0.0, 1.0};
+  if (factor.memory == Memory::kHighPass) return {0.0, data.half_range(factor.coordinate)};
+  return {data.middle(factor.coordinate), data.half_range(factor.coordinate)};
+}
+
+double value_at(const Piece& piece, double q) {
+  const double u = (q - piece.centre) / piece.scale;
+  if (!piece.values.empty()) return law::curve_at(piece.values.data(), piece.values.size(), u);
+  return law::shapes()[piece.factor.shape].value(u, piece.extra);
+}
+
+/// `from` with the curve through f's values in the place of its shape; none where these are zero.
+template <class Function>
+std::vector<Piece> sampled(const Data& data, const Piece& from, std::size_t nodes,
+                           const Function& f) {
+  Piece p = from;
+  p.factor.shape = shape_named("curve");
+  p.factor.nodes = nodes;
+  p.factor.peak = 0;
+  p.factor.centred = true;
+  std::tie(p.centre, p.scale) = range_of(data, from.factor);
+  p.values.resize(nodes);
+  for (std::size_t k = 0; k < nodes; ++k) {
+    const double u = 2.0 * static_cast<double>(k) / static_cast<double>(nodes - 1) - 1.0;
+    p.values[k] = f(p.centre + u * p.scale);
+    if (std::abs(p.values[k]) > std::abs(p.values[p.factor.peak])) p.factor.peak = k;
+  }
+  const double peak = p.values[p.factor.peak];
+  if (!(std::abs(peak) > 0.0)) return {};
+  for (double& value : p.values) value /= peak;
+  return {p};
+}
+
+}  // namespace
+
+std::vector<Piece> as_curves(const Data& data, const Piece& from) {
+  constexpr std::size_t kFirst = 7, kMost = 25;
+  if (from.factor.memory == Memory::kDwell || from.factor.memory == Memory::kSecondOrder) return {};
+  if (kind_of(from.factor.coordinate) == Kind::kClock) return {};
+  const auto f = [&](double q) { return value_at(from, q); };
+  if (from.values.empty()) return sampled(data, from, kFirst, f);
+  const std::size_t nodes = from.values.size(), more = 2 * nodes - 1, fewer = (nodes + 1) / 2;
+  std::vector<Piece> list;
+  if (more <= kMost) list = sampled(data, from, more, f);
+  if (fewer >= law::kFewestNodes) {
+    const auto plain = sampled(data, from, fewer, f);
+    list.insert(list.end(), plain.begin(), plain.end());
+  }
+  return list;
+}
+
+std::vector<Piece> merged(const Data& data, const Piece& first, const Piece& second) {
+  constexpr std::size_t kNodes = 13;
+  const std::size_t c = first.factor.coordinate;
+  const bool joins = c == second.factor.coordinate && kind_of(c) != Kind::kClock &&
+                     first.factor.memory == Memory::kNone && second.factor.memory == Memory::kNone;
+  if (!joins) return {};
+  return sampled(data, first, kNodes,
+                 [&](double q) { return value_at(first, q) * value_at(second, q); });
+}
+
+Piece without_memory(const Data& data, const Piece& from) {
+  const std::size_t c = from.factor.coordinate;
+  const bool other_unit =
+      from.factor.memory == Memory::kDahl || from.factor.memory == Memory::kDwell;
+  if (other_unit && kind_of(c) != Kind::kPlace) return piece("tanh", c, 0.3 * data.rms(c));
+  if (other_unit) return centred(piece("tanh", c, 0.3 * data.half_range(c)), data.middle(c));
+  Piece plain = from;
+  plain.factor.memory = Memory::kNone;
+  if (!plain.values.empty()) std::tie(plain.centre, plain.scale) = range_of(data, plain.factor);
+  return plain;
+}
+
 std::vector<Piece> with_memories(const Data& data, const Piece& from) {
   std::vector<Piece> list;
-  if (from.factor.memory != Memory::kNone) return list;
   const std::size_t c = from.factor.coordinate;
+  if (from.factor.memory != Memory::kNone) {  // another in its place
+    list = with_memories(data, without_memory(data, from));
+    std::erase_if(list, [&](const Piece& p) { return p.factor.memory == from.factor.memory; });
+    return list;
+  }
   list.push_back(remembering(from, Memory::kLag, 0.2));
+  for (const double delay : {0.1, 0.3}) list.push_back(remembering(from, Memory::kDelay, delay));
   if (kind_of(c) == Kind::kRate || kind_of(c) == Kind::kLoad) {
     for (const double hz : {0.7, 2.0}) list.push_back(swinging(from, hz));
   }

@@ -44,8 +44,9 @@ Handle positive(double& value, double low, double high) {
 void add_handles(const Data& data, Piece& piece, std::vector<Handle>& list) {
   const std::size_t c = piece.factor.coordinate;
   const law::Shape& shape = law::shapes()[piece.factor.shape];
-  const bool clock_memory =
-      piece.factor.memory == law::Memory::kLag || piece.factor.memory == law::Memory::kHighPass;
+  const bool clock_memory = piece.factor.memory == law::Memory::kLag ||
+                            piece.factor.memory == law::Memory::kHighPass ||
+                            piece.factor.memory == law::Memory::kDelay;
   if (clock_memory) {
     list.push_back(positive(piece.memory, 2.0 * data.dt(), 0.5 * data.seconds()));
   } else if (piece.factor.memory == law::Memory::kSecondOrder) {
@@ -64,6 +65,9 @@ void add_handles(const Data& data, Piece& piece, std::vector<Handle>& list) {
   if (shape.free_scale) {
     const double size = std::max(range, data.rms(c));
     list.push_back(positive(piece.scale, 2e-3 * size, 50.0 * size));
+  }
+  for (std::size_t k = 0; k < piece.values.size(); ++k) {
+    if (k != piece.factor.peak) list.push_back({&piece.values[k], false, -1e3, 1e3, 0.02, 10.0});
   }
   if (!*shape.extra) return;
   const bool is_power = shape.most < 100.0;

@@ -35,6 +35,16 @@ bool has_vector_scale(const Sketch& sketch) {
   return *law::directions()[sketch.direction].unit != 0;
 }
 
+template <class AnyPiece, class Visit>
+void each_number_of(AnyPiece& piece, const Visit& visit) {
+  if (piece.factor.memory != law::Memory::kNone) visit(piece.memory);
+  if (piece.factor.memory == law::Memory::kSecondOrder) visit(piece.damping);
+  if (piece.factor.centred) visit(piece.centre);
+  visit(piece.scale);
+  if (*law::shapes()[piece.factor.shape].extra) visit(piece.extra);
+  for (auto& value : piece.values) visit(value);
+}
+
 /// Visits the numbers of a sketch in the order in which a law holds them.
 template <class AnySketch, class Visit>
 void each_number(AnySketch& sketch, const Visit& visit) {
@@ -43,13 +53,7 @@ void each_number(AnySketch& sketch, const Visit& visit) {
   for (int k = 0; k < own_numbers(sketch); ++k) visit(sketch.own[static_cast<std::size_t>(k)]);
   if (sketch.vector_lag > 0.0) visit(sketch.vector_lag);
   if (sketch.lag > 0.0) visit(sketch.lag);
-  for (auto& piece : sketch.pieces) {
-    if (piece.factor.memory != law::Memory::kNone) visit(piece.memory);
-    if (piece.factor.memory == law::Memory::kSecondOrder) visit(piece.damping);
-    if (piece.factor.centred) visit(piece.centre);
-    visit(piece.scale);
-    if (*law::shapes()[piece.factor.shape].extra) visit(piece.extra);
-  }
+  for (auto& piece : sketch.pieces) each_number_of(piece, visit);
 }
 
 }  // namespace
@@ -57,6 +61,12 @@ void each_number(AnySketch& sketch, const Visit& visit) {
 std::size_t shape_named(const char* name) { return place_named(law::shapes(), name); }
 std::size_t coordinate_named(const char* name) { return place_named(law::coordinates(), name); }
 std::size_t direction_named(const char* name) { return place_named(law::directions(), name); }
+
+std::vector<double> numbers_of(const Piece& piece) {
+  std::vector<double> numbers;
+  each_number_of(piece, [&](double value) { numbers.push_back(value); });
+  return numbers;
+}
 
 int own_numbers(const Sketch& sketch) { return law::own_numbers(direction_of(sketch)); }
 
@@ -97,6 +107,7 @@ Sketch sketch_of(const law::Law& law) {
   for (const law::Factor& factor : law.structure.factors) {
     Piece piece;
     piece.factor = factor;
+    piece.values.resize(factor.nodes);
     sketch.pieces.push_back(piece);
   }
   Eigen::Index next = 0;
@@ -108,7 +119,7 @@ Sketch with_round_references(Sketch sketch) {
   if (has_vector_scale(sketch)) sketch.vector_scale = one_digit(sketch.vector_scale);
   for (Piece& piece : sketch.pieces) {
     const law::Shape& shape = law::shapes()[piece.factor.shape];
-    if (shape.free_scale) continue;
+    if (shape.free_scale || !piece.values.empty()) continue;
     const double before = piece.scale;
     piece.scale = one_digit(before);
     if (*shape.extra && piece.factor.shape == shape_named("affine")) {

@@ -11,6 +11,7 @@ namespace dcnn::discovery {
 struct Piece {
   law::Factor factor;
   double memory = 0.0, damping = 0.0, centre = 0.0, scale = 1.0, extra = 0.0;
+  std::vector<double> values = {};  ///< of a curve, at its nodes
 };
 
 struct Sketch {
@@ -22,6 +23,9 @@ struct Sketch {
   double amplitude = 1.0;
   std::vector<Piece> pieces;
 };
+
+/// The numbers of a factor in the order in which a law holds them.
+std::vector<double> numbers_of(const Piece& piece);
 
 law::Structure structure_of(const Sketch& sketch);
 /// Of the direction itself.

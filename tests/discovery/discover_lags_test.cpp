@@ -117,7 +117,7 @@ TEST(Discover, APlainerLawPushesAsTheOneWithANeedlessConstant) {
                 centred(piece("affine", c, data.half_range(c), 1e4), data.middle(c))};
   const VectorXd whole = law.amplitude * data.column(law);
   double least = 1.0;
-  for (const Sketch& other : plainer(law)) {
+  for (const Sketch& other : plainer(data, law)) {
     EXPECT_LE(free_numbers(other), free_numbers(law));
     const VectorXd left = whole - other.amplitude * data.column(other);
     least = std::min(least, left.norm() / whole.norm());

@@ -101,6 +101,48 @@ TEST(DiscoveredLaw, SecondOrderIsItsStepResponse) {
   }
 }
 
+TEST(DiscoveredLaw, ADelayIsTheMotionAsItWas) {
+  Eigen::VectorXd v = Eigen::ArrayXd::LinSpaced(2000, 0.0, 5.0).sin();
+  for (const double delay : {0.0007, 0.0123, 0.31}) {  // less than a sample, and of thinned samples
+    const auto effect = discovered(
+        R"({"axis": "base_x", "factors": [{"shape": "linear", "of": "v_base_x", "memory": "delay"}]})",
+        {{"amplitude_n", 2.0}, {"memory_1_s", delay}, {"scale_1_mps", 1.0}});
+    const double dt = 0.0001;
+    const Wrench wrench = applied(effect, moving(v, dt), no_wrench(2000));
+    for (Index k = 0; k < 2000; ++k) {
+      const double before = std::max(0.0, static_cast<double>(k) - delay / dt);
+      ASSERT_NEAR(wrench.force(k, 0), 2.0 * std::sin(5.0 * before / 1999.0), 1e-4);
+    }
+  }
+}
+
+TEST(DiscoveredLaw, ACurveGoesThroughItsValuesAndIsCubicBetween) {
+  // A parabola: between inner nodes the cubic of Catmull and Rom is exact for it.
+  const auto parabola = [](double u) { return 1.0 - 0.8 * u * u; };
+  Json numbers{{"amplitude_n", 3.0}, {"centre_1_m", 0.2}, {"scale_1_m", 0.1}};
+  for (int k = 0; k < 9; ++k) {
+    numbers["value_1_" + std::to_string(k + 1)] = parabola(-1.0 + 0.25 * k);
+  }
+  const auto effect = discovered(
+      R"({"axis": "base_x",
+          "factors": [{"shape": "curve", "of": "x", "centred": true, "nodes": 9, "peak": 4}]})",
+      numbers);
+  Motion motion = still_motion(601);
+  motion.p_B.col(0) = Eigen::ArrayXd::LinSpaced(601, 0.05, 0.35);
+  const Wrench wrench = applied(effect, motion, no_wrench(601));
+  for (Index k = 0; k < 601; ++k) {
+    const double u = (motion.p_B(k, 0) - 0.2) / 0.1;
+    const double at = std::abs(u) <= 0.75 ? u : 1.0;  // the ends' slopes are one-sided
+    if (at == u || std::abs(u) >= 1.0) {
+      ASSERT_NEAR(wrench.force(k, 0), 3.0 * parabola(at), 1e-9);
+    }
+  }
+  const Json told = law::to_json(law_of(effect));
+  EXPECT_NE(told["expression"].get<std::string>().find("curve(x; 0.1: 0.2, 0.125: 0.55"),
+            std::string::npos);
+  EXPECT_NE(told["words"].get<std::string>().find("100 % at 0.2 m"), std::string::npos);
+}
+
 TEST(DiscoveredLaw, PlayLeavesADeadZoneAtEveryTurn) {
   Motion motion = still_motion(300);
   motion.euler.col(1) = Eigen::ArrayXd::LinSpaced(300, 0.0, 12.0).sin();
@@ -303,9 +345,10 @@ TEST(DiscoveredLaw, RefusesUnknownWordsAndUnitsThatItsStructureDoesNotHave) {
 TEST(DiscoveredLaw, EveryShapeAndMemoryIsFiniteAndTold) {
   const Motion motion = example_motion(200);
   for (std::size_t shape = 0; shape < law::shapes().size(); ++shape) {
-    for (int memory = 0; memory <= static_cast<int>(law::Memory::kSecondOrder); ++memory) {
-      law::Law law{{2, false, false, false, {{shape, 5, static_cast<law::Memory>(memory), true}}},
-                   {}};
+    for (int memory = 0; memory <= static_cast<int>(law::Memory::kDelay); ++memory) {
+      law::Factor factor{shape, 5, static_cast<law::Memory>(memory), true};
+      if (law::is_curve(shape)) factor.nodes = 5, factor.peak = 2;
+      law::Law law{{2, false, false, false, {factor}}, {}};
       const auto list = law::numbers_of(law.structure);
       law.numbers = Eigen::VectorXd::Constant(static_cast<Index>(list.size()), 0.5);
       law::LawRun run(law);

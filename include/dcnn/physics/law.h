@@ -57,7 +57,8 @@ const Terms& tool_terms();
 Terms axis_terms(const std::string& axis, const std::string& effort,
                  const std::string& position_unit, double resisting);
 
-/// f(u), u = (q - centre)/scale, q the coordinate or a state that it drives; p a further number.
+/// f(u), u = (q - centre)/scale, q the coordinate or a state that it drives; p a further number. A
+/// curve has neither: it goes through values at even distances from u = -1 to 1.
 struct Shape {
   const char* name;
   const char* equation;            ///< in u and p
@@ -71,6 +72,12 @@ struct Shape {
   double told_at = 0.0;  ///< u at which words tell the law's size; 0: the amplitude itself is told
 };
 const std::vector<Shape>& shapes();
+/// Of a factor whose shape is a table of values.
+bool is_curve(std::size_t shape);
+constexpr std::size_t kFewestNodes = 3, kMostNodes = 33;
+/// Through `values` at u = -1 ... 1: cubic, with the slopes of neighbours (Catmull and Rom 1974);
+/// constant outside.
+double curve_at(const double* values, std::size_t count, double u);
 
 /// What a coordinate drives before the shape.
 enum class Memory {
@@ -81,6 +88,7 @@ enum class Memory {
   kDahl,   ///< ds = (dx - abs(dx) s)/width, x the coordinate or, of a rate, its integral; |s| <= 1
   kDwell,  ///< s' = 1 - abs(x') s/length: seconds of contact (Dieterich 1979)
   kSecondOrder,  ///< s'' = w^2 (q - s) - 2 d w s', w the natural frequency, d the damping ratio
+  kDelay,        ///< q as it was so many seconds ago
 };
 /// Numbers of a state: a size, and the damping ratio of the second order.
 int numbers_of(Memory memory);
@@ -91,8 +99,12 @@ struct Factor {
   std::size_t shape = 0, coordinate = 0;  ///< places in shapes() and coordinates()
   Memory memory = Memory::kNone;
   bool centred = false;
+  std::size_t nodes = 0;  ///< of a curve, whose greatest value is 1 and stands at node `peak`
+  std::size_t peak = 0;
   bool operator==(const Factor&) const = default;
 };
+/// Numbers of one factor: of its state, its centre, its scale, and those of its shape.
+std::size_t numbers_of(const Factor& factor);
 
 /// One number of a law, as published.
 struct Number {
@@ -168,7 +180,24 @@ class LagRun {
   double h_ = -1.0, decay_ = 0.0, ramp_ = 0.0;  // of the step before
 };
 
-/// The state that a factor's coordinate drives, and its value; allocates nothing.
+/// A value as it was some time ago, linear between samples; of long delays a sample is kept every
+/// 1/1000 of the delay.
+class DelayRun {
+ public:
+  explicit DelayRun(double delay);  ///< s; 0 for none, which keeps nothing
+  double step(double q, double h, bool first);
+
+ private:
+  struct Kept {
+    double t, q;
+  };
+  const Kept& kept(std::size_t k) const { return ring_[(oldest_ + k) % ring_.size()]; }
+  double delay_ = 0.0, now_ = 0.0;
+  std::vector<Kept> ring_;
+  std::size_t oldest_ = 0, count_ = 0;
+};
+
+/// The state that a factor's coordinate drives, and its value; step() allocates nothing.
 class FactorRun {
  public:
   /// `numbers`: those of the state, the centre, the scale, and that of the shape, where there are.
@@ -179,11 +208,13 @@ class FactorRun {
  private:
   double state(double q, double h, bool first);
   const Shape* shape_;
+  std::vector<double> curve_;  // values at its nodes
   Memory memory_;
   bool is_rate_;
   double size_ = 1.0, centre_ = 0.0, scale_ = 1.0, extra_ = 0.0;
   double s_ = 0.0, before_ = 0.0;
   LagRun<double> lag_;
+  DelayRun delay_;
   // Of second order: the state is the imaginary part of x' = pole x + q, times a gain.
   std::complex<double> pole_, x_;
   double gain_ = 1.0;

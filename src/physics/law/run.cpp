@@ -13,7 +13,7 @@ LawRun::LawRun(const Law& law) : structure_(law.structure) {
   if (structure_.lagged) tau_ = *next++;
   for (const Factor& factor : structure_.factors) {
     factors_.emplace_back(factor, next);
-    next += numbers_of(factor.memory) + factor.centred + 1 + (*shapes()[factor.shape].extra != 0);
+    next += numbers_of(factor);
   }
 }
 

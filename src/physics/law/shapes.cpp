@@ -37,6 +37,7 @@ double exponential(double u, double) {
 }
 double affine(double u, double p) { return 1.0 + p * u; }
 double wavy(double u, double p) { return 1.0 + p * elementary::sin(u); }
+double step(double u, double) { return 0.5 * (1.0 + elementary::tanh(u)); }
 double falling(double u, double p) {  // Stribeck's: 1 + p at rest, 1 far from it
   return 1.0 + p * elementary::exp(-std::min(u * u, kMostExponent));
 }
@@ -97,18 +98,44 @@ const std::vector<Shape>& shapes() {
       {"wavy", "1 + p sin(u)", "\\left(1 + #\\sin\\left(@\\right)\\right)", "gain", -1e6, 1e6, true,
        true, false, wavy},
       {"falling", "1 + p exp(-u^2)", "\\left(1 + #\\,e^{-\\left(@\\right)^2}\\right)", "gain", -1e6,
-       1e6, true, true, false, falling}};
+       1e6, true, true, false, falling},
+      {"step", "(1 + tanh(u))/2", "\\frac{1}{2}\\left(1 + \\tanh\\left(@\\right)\\right)", "", 0.0,
+       0.0, true, true, true, step},
+      {"curve", "curve(u)", "\\operatorname{curve}\\left(@\\right)", "", 0.0, 0.0, false, false,
+       false, nullptr}};
   return list;
+}
+
+bool is_curve(std::size_t shape) { return shapes()[shape].value == nullptr; }
+
+double curve_at(const double* values, std::size_t count, double u) {
+  const double last = static_cast<double>(count - 1);
+  const double place = std::clamp(0.5 * (u + 1.0) * last, 0.0, last);
+  const auto k = std::min(static_cast<std::size_t>(place), count - 2);
+  const double x = place - static_cast<double>(k);
+  const double from = values[k], to = values[k + 1];
+  const double before = k == 0 ? to - from : 0.5 * (to - values[k - 1]),
+               after = k + 2 == count ? to - from : 0.5 * (values[k + 2] - from);
+  const double bend = 3.0 * (to - from) - 2.0 * before - after,
+               turn = before + after - 2.0 * (to - from);
+  return from + x * (before + x * (bend + x * turn));
 }
 
 int numbers_of(Memory memory) {
   return memory == Memory::kNone ? 0 : memory == Memory::kSecondOrder ? 2 : 1;
 }
 
+std::size_t numbers_of(const Factor& factor) {
+  const std::size_t of_shape =
+      is_curve(factor.shape) ? factor.nodes : *shapes()[factor.shape].extra != 0;
+  return static_cast<std::size_t>(numbers_of(factor.memory)) + factor.centred + 1 + of_shape;
+}
+
 FactorRun::FactorRun(const Factor& factor, const double* numbers)
     : shape_(&shapes()[factor.shape]),
       memory_(factor.memory),
       is_rate_(coordinates()[factor.coordinate].is_rate),
+      delay_(factor.memory == Memory::kDelay ? *numbers : 0.0),
       pole_(factor.memory == Memory::kSecondOrder ? pole_of(numbers[0], numbers[1]) : 0.0),
       swing_(pole_) {
   if (memory_ != Memory::kNone) size_ = *numbers;
@@ -116,6 +143,7 @@ FactorRun::FactorRun(const Factor& factor, const double* numbers)
   numbers += numbers_of(memory_);
   if (factor.centred) centre_ = *numbers++;
   scale_ = *numbers++;
+  if (is_curve(factor.shape)) curve_.assign(numbers, numbers + factor.nodes);
   if (*shape_->extra) extra_ = *numbers;
 }
 
@@ -137,6 +165,8 @@ double FactorRun::state(double q, double h, bool first) {
     case Memory::kSecondOrder:
       x_ = first ? -q / pole_ : swing_.advance(x_, before_, q, h);
       return gain_ * x_.imag();
+    case Memory::kDelay:
+      return delay_.step(q, h, first);
     default:
       s_ = first ? 0.0 : dwell(s_, std::abs(moved), h, size_);
       return s_;
@@ -146,7 +176,33 @@ double FactorRun::state(double q, double h, bool first) {
 double FactorRun::step(double q, double h, bool first) {
   const double s = state(q, h, first);
   before_ = q;
-  return shape_->value((s - centre_) / scale_, extra_);
+  const double u = (s - centre_) / scale_;
+  return curve_.empty() ? shape_->value(u, extra_) : curve_at(curve_.data(), curve_.size(), u);
+}
+
+DelayRun::DelayRun(double delay) : delay_(delay) {
+  constexpr std::size_t kMostKept = 1024;
+  if (delay > 0.0) ring_.resize(kMostKept);
+}
+
+double DelayRun::step(double q, double h, bool first) {
+  now_ = first ? 0.0 : now_ + h;
+  if (first) count_ = 0;
+  // Two of them always remain, one on either side of the time that is asked for.
+  const double then = now_ - delay_;
+  while (count_ > 1 && kept(1).t <= then) {
+    oldest_ = (oldest_ + 1) % ring_.size();
+    --count_;
+  }
+  constexpr double kSpacing = 1e-3;  // of the delay
+  if (count_ == 0 || now_ - kept(count_ - 1).t >= kSpacing * delay_) {
+    ring_[(oldest_ + count_) % ring_.size()] = {now_, q};
+    ++count_;
+  }
+  const Kept& a = kept(0);
+  if (then <= a.t) return a.q;
+  const Kept b = count_ > 1 ? kept(1) : Kept{now_, q};
+  return b.t > a.t ? a.q + (b.q - a.q) * (then - a.t) / (b.t - a.t) : a.q;
 }
 
 template <class Value>

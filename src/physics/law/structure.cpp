@@ -8,8 +8,8 @@
 namespace dcnn::law {
 namespace {
 
-const std::vector<std::string> kMemories{"none", "lag",   "high_pass",   "play",
-                                         "dahl", "dwell", "second_order"};
+const std::vector<std::string> kMemories{"none", "lag",   "high_pass",    "play",
+                                         "dahl", "dwell", "second_order", "delay"};
 constexpr std::size_t kMostFactors = 4;
 const std::vector<std::string> kToldAgain{"expression", "latex", "words", "coordinates", "states"};
 
@@ -46,6 +46,17 @@ Factor parse_factor(Options options, const Terms& terms) {
   factor.memory = static_cast<Memory>(std::find(kMemories.begin(), kMemories.end(), memory) -
                                       kMemories.begin());
   factor.centred = options.get<bool>("centred", false);
+  if (is_curve(factor.shape)) {
+    const auto count = [&](const char* key, std::size_t least, std::size_t most) {
+      const int value = options.get<int>(key);
+      if (value < static_cast<int>(least) || value > static_cast<int>(most)) {
+        options.reject(key, "must lie in ", least, " to ", most, ", not ", value);
+      }
+      return static_cast<std::size_t>(value);
+    };
+    factor.nodes = count("nodes", kFewestNodes, kMostNodes);
+    factor.peak = count("peak", 0, factor.nodes - 1);
+  }
   options.finish();
   return factor;
 }
@@ -100,6 +111,10 @@ void add_numbers(const Factor& factor, const std::string& index, const Terms& te
   if (factor.centred) add("centre_", unit, !shape.free_centre, -1e9, 1e9);
   add("scale_", unit, !shape.free_scale, shape.signed_scale ? -1e9 : 1e-9, 1e9);
   if (*shape.extra) add(std::string(shape.extra) + "_", "", false, shape.least, shape.most);
+  for (std::size_t k = 0; k < factor.nodes; ++k) {
+    list.push_back(
+        {"value_" + index + "_" + std::to_string(k + 1), "", k == factor.peak, -1e6, 1e6});
+  }
 }
 
 /// A coordinate of the law's own direction needs one: a unit axis, or for `distance` a point.
@@ -134,6 +149,7 @@ Json factor_json(const Factor& factor, const Coordinate& q) {
     json["memory"] = kMemories[static_cast<std::size_t>(factor.memory)];
   }
   if (factor.centred) json["centred"] = true;
+  if (is_curve(factor.shape)) json["nodes"] = factor.nodes, json["peak"] = factor.peak;
   return json;
 }
 

@@ -1,0 +1,43 @@
+#include "physics/law/factor_text.h"
+
+#include "dcnn/core/number.h"
+
+namespace dcnn::law {
+
+std::vector<FactorText> texts_of(const Law& law, const Terms& terms) {
+  const auto list = numbers_of(law.structure, terms);
+  std::vector<FactorText> texts;
+  for (std::size_t k = 0; k < law.structure.factors.size(); ++k) {
+    const Factor& factor = law.structure.factors[k];
+    FactorText text{&factor, &shapes()[factor.shape], &terms.coordinates[factor.coordinate],
+                    std::to_string(k + 1)};
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const double value = law.numbers(static_cast<Eigen::Index>(i));
+      const std::string& unit = list[i].unit;
+      const std::string told = brief(value) + (unit.empty() ? "" : " " + unit);
+      const auto begins = [&](const std::string& stem) {
+        return list[i].name == stem + text.index ||
+               list[i].name.starts_with(stem + text.index + "_");
+      };
+      if (begins("memory_")) text.memory = told;
+      if (begins("damping_")) text.damping = told;
+      if (begins("centre_")) text.centre = told, text.centre_value = value;
+      if (begins("scale_")) text.scale = told, text.scale_value = value;
+      if (begins("power_") || begins("ratio_") || begins("gain_")) text.extra = value;
+      if (begins("value_")) text.curve.push_back(value);
+    }
+    texts.push_back(text);
+  }
+  return texts;
+}
+
+double place(const FactorText& text, std::size_t node) {
+  const double u = 2.0 * static_cast<double>(node) / static_cast<double>(text.curve.size() - 1) - 1;
+  return text.centre_value + u * text.scale_value;
+}
+
+std::string amplitude_unit(const Law& law, const Terms& terms) {
+  return law.structure.on_torque ? "N*m" : terms.force;
+}
+
+}  // namespace dcnn::law

@@ -1,0 +1,111 @@
+// Laws without a short formula: tables, switches, delays, products of three.
+#include <gtest/gtest.h>
+
+#include "discovery/support.h"
+
+namespace dcnn::discovery {
+namespace {
+
+constexpr double kSigma = 0.01;  // N, deviation of a block's noise
+
+/// A force in S at every sample of a scene.
+using Forces = std::function<MatrixXd(const Scene&)>;
+
+Eigen::Vector3d axis_of(const Motion& m, Index k, Index axis) {
+  return m.R_BS[static_cast<std::size_t>(k)].row(axis);
+}
+
+/// Finds laws in one motion and expects their error in another to be a third of the noise at most,
+/// by which the hold-out error rises by 5 %.
+std::vector<Discovered> expect_predicted(const Forces& forces, std::uint64_t seed) {
+  const Scene at = scene(3, 2500), other = scene(77, 2500);
+  const auto laws = discover(problem_of(at, forces(at) + white(2500, kSigma, seed), kSigma));
+  EXPECT_FALSE(laws.empty());
+  const MatrixXd error = prediction(other, laws) - forces(other);
+  std::string told;
+  for (const Discovered& found : laws) told += law::expression(found.law) + "\n";
+  EXPECT_LE(std::sqrt(error.squaredNorm() / static_cast<double>(error.size())), 0.32 * kSigma)
+      << told;
+  return laws;
+}
+
+TEST(DiscoverCurves, ACamOfFlatsAndRampsIsATable) {
+  const auto cam = [](const Scene& at) {
+    MatrixXd force(at.motion.samples(), 3);
+    for (Index k = 0; k < force.rows(); ++k) {
+      const double u = at.motion.euler(k, 0) / 0.3;
+      const double rise = std::clamp(u, 0.0, 1.0);
+      force.row(k) << 0.0, 0.0,
+          0.15 * (3.0 * rise * rise - 2.0 * rise * rise * rise) +
+              0.1 * std::clamp(-1.0 - u, 0.0, 1.0);
+    }
+    return force;
+  };
+  const auto laws = expect_predicted(cam, 31);
+  ASSERT_FALSE(laws.empty());
+  EXPECT_NE(law::expression(laws[0].law).find("alpha"), std::string::npos);
+}
+
+TEST(DiscoverCurves, DragThatALatchSwitches) {
+  // On above y = 8 mm, off below -8 mm.
+  const auto latched = [](const Scene& at) {
+    MatrixXd force(at.motion.samples(), 3);
+    bool on = at.motion.p_B(0, 1) > 0.0;
+    for (Index k = 0; k < force.rows(); ++k) {
+      const double y = at.motion.p_B(k, 1);
+      on = y > 0.008 || (on && y >= -0.008);
+      force.row(k) = (on ? -2.0 * at.motion.v_B(k, 0) : 0.0) * axis_of(at.motion, k, 0);
+    }
+    return force;
+  };
+  expect_predicted(latched, 32);
+}
+
+TEST(DiscoverCurves, DragOfTheMotionAsItWas) {
+  const auto delayed = [](const Scene& at) {
+    MatrixXd force = MatrixXd::Zero(at.motion.samples(), 3);
+    for (Index k = 0; k < force.rows(); ++k) {
+      const Index before = std::max<Index>(0, k - 12);  // 0.24 s
+      force.row(k) = -2.0 * at.motion.v_B(before, 2) * axis_of(at.motion, k, 2);
+    }
+    return force;
+  };
+  const auto laws = expect_predicted(delayed, 33);
+  ASSERT_FALSE(laws.empty());
+  EXPECT_NE(law::expression(laws[0].law).find("delay(v_base_z, 0.24"), std::string::npos)
+      << law::expression(laws[0].law);
+}
+
+TEST(DiscoverCurves, ThreeFactorsOfWhichNoneShowsAlone) {
+  const auto product = [](const Scene& at) {
+    MatrixXd force(at.motion.samples(), 3);
+    for (Index k = 0; k < force.rows(); ++k) {
+      const Motion& m = at.motion;
+      force.row(k) = 200.0 * m.v_B(k, 2) * m.p_B(k, 1) * m.euler(k, 1) * axis_of(m, k, 2);
+    }
+    return force;
+  };
+  const auto laws = expect_predicted(product, 34);
+  ASSERT_FALSE(laws.empty());
+  EXPECT_EQ(laws[0].law.structure.factors.size(), 3U);
+}
+
+TEST(DiscoverCurves, ALoopOfOneCurveForthAndAnotherBack) {
+  const auto loop = [](const Scene& at) {
+    MatrixXd force(at.motion.samples(), 3);
+    double s = 0.0;
+    for (Index k = 0; k < force.rows(); ++k) {
+      const double x = at.motion.p_B(k, 0), dx = k == 0 ? 0.0 : x - at.motion.p_B(k - 1, 0);
+      const double end = dx < 0.0 ? -1.0 : 1.0;
+      s = end + (s - end) * std::exp(-std::abs(dx) / 2e-3);
+      const double u = x / 0.02;
+      const double forth = 0.10 * std::exp(-u * u), back = -0.08 + 0.05 * std::tanh(u);
+      force.row(k) = -0.5 * ((1.0 + s) * forth + (1.0 - s) * back) * axis_of(at.motion, k, 0);
+    }
+    return force;
+  };
+  expect_predicted(loop, 35);
+}
+
+}  // namespace
+}  // namespace dcnn::discovery
