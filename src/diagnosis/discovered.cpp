@@ -36,22 +36,30 @@ void name_beside(Search& search, Laws& laws) {
   }
 }
 
-/// Leaves out names without which laws, looked for again, explain as much for their numbers: what
-/// had no name may have been taken for one in part.
+/// Lets laws stand beside other names where they explain as much for their numbers; whether it did.
+bool put_in_place(Search& search, Laws& laws, std::vector<Member> names, Laws again) {
+  if (again.found.empty() || again.found.size() > laws.found.size()) return false;
+  const Setting& setting = search.setting();
+  names.insert(names.end(), again.members.begin(), again.members.end());
+  const std::vector<Member>& all = search.fit().members;
+  const double lost = joint_fit(setting, names).chi2 - search.fit().chi2;
+  if (lost > setting.price * (numbers_of(laws, all) - numbers_of(again, names))) return false;
+  search.hold(names);
+  laws = std::move(again);
+  return true;
+}
+
+/// Leaves out names without which the laws, fitted or looked for again, explain as much for their
+/// numbers: what had no name may have been taken for one in part.
 void leave_needless_names(Search& search, Laws& laws) {
-  for (std::size_t m = search.names().size(); m-- > 0 && !search.laws_are_spent();) {
+  for (std::size_t m = search.names().size(); m-- > 0;) {
     std::vector<Member> rest = search.names();
     if (rest[m].fixed) continue;
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(m));
     const Setting& setting = search.setting();  // another one after each change
-    const Laws again = borne_out(setting, joint_fit(setting, rest));
-    if (again.found.empty() || again.found.size() > laws.found.size()) continue;
-    rest.insert(rest.end(), again.members.begin(), again.members.end());
-    const std::vector<Member>& all = search.fit().members;
-    const double lost = joint_fit(setting, rest).chi2 - search.fit().chi2;
-    if (lost > setting.price * (numbers_of(laws, all) - numbers_of(again, rest))) continue;
-    search.hold(rest);
-    laws = again;
+    const JointFit fit = joint_fit(setting, rest);
+    if (put_in_place(search, laws, rest, borne_out_again(setting, fit, laws))) continue;
+    if (!search.laws_are_spent()) put_in_place(search, laws, rest, borne_out(setting, fit));
   }
 }
 

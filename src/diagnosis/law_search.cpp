@@ -117,7 +117,11 @@ std::vector<discovery::Discovered> laws_in(const Setting& setting, const JointFi
   const Case thin = thinned(setting.study, block);
   const Whitener coarse = setting.whitener.at_stride(block);
   const auto laws = discovery::discover(problem_of(setting, fit, thin, coarse));
-  if (laws.empty()) return laws;
+  return laws.empty() ? laws : laws_fitted_to(setting, fit, laws);
+}
+
+std::vector<discovery::Discovered> laws_fitted_to(const Setting& setting, const JointFit& fit,
+                                                  const std::vector<discovery::Discovered>& laws) {
   return discovery::refitted(problem_of(setting, fit, setting.study, setting.whitener), laws);
 }
 

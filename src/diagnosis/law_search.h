@@ -10,5 +10,8 @@ namespace dcnn {
 
 /// Laws in what a fit leaves: looked for in block means, then fitted again at the log's rate.
 std::vector<discovery::Discovered> laws_in(const Setting& setting, const JointFit& fit);
+/// Laws of known form, fitted to what a fit leaves at the log's rate.
+std::vector<discovery::Discovered> laws_fitted_to(const Setting& setting, const JointFit& fit,
+                                                  const std::vector<discovery::Discovered>& laws);
 
 }  // namespace dcnn

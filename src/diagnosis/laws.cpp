@@ -41,8 +41,10 @@ double least_gain_of_law(const Setting& setting) {
   return discovery::prior::kAccepted * setting.price / kNumberPrice;
 }
 
-Laws worthy_laws(const Setting& setting, const JointFit& fit) {
-  Laws laws{laws_in(setting, fit), {}};
+namespace {
+
+Laws worthy(const Setting& setting, std::vector<Discovered> list) {
+  Laws laws{std::move(list), {}};
   const double dearer = setting.price / kNumberPrice;
   std::erase_if(laws.found, [&](const Discovered& law) {
     const double paid = dearer * discovery::prior::kNumber * fitted_numbers(law);
@@ -54,14 +56,27 @@ Laws worthy_laws(const Setting& setting, const JointFit& fit) {
   return laws;
 }
 
-Laws borne_out(const Setting& setting, const JointFit& names) {
-  const Laws laws = worthy_laws(setting, names);
+Laws borne(const Setting& setting, const JointFit& names, Laws laws) {
   double promised = 0.0;
   for (const Discovered& found : laws.found) promised += found.gain;
   std::vector<Member> all = names.members;
   all.insert(all.end(), laws.members.begin(), laws.members.end());
   if (names.chi2 - joint_fit(setting, all).chi2 < kStillGained * promised) return {};
   return laws;
+}
+
+}  // namespace
+
+Laws worthy_laws(const Setting& setting, const JointFit& fit) {
+  return worthy(setting, laws_in(setting, fit));
+}
+
+Laws borne_out(const Setting& setting, const JointFit& names) {
+  return borne(setting, names, worthy_laws(setting, names));
+}
+
+Laws borne_out_again(const Setting& setting, const JointFit& names, const Laws& laws) {
+  return borne(setting, names, worthy(setting, laws_fitted_to(setting, names, laws.found)));
 }
 
 int numbers_of(const Laws& laws, const std::vector<Member>& members) {

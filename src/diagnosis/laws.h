@@ -24,6 +24,8 @@ Laws worthy_laws(const Setting& setting, const JointFit& fit);
 
 /// The same where the chain bears out what they promised; else none.
 Laws borne_out(const Setting& setting, const JointFit& names);
+/// The same of laws of known form, which are fitted again and not looked for.
+Laws borne_out_again(const Setting& setting, const JointFit& names, const Laws& laws);
 
 int fitted_numbers(const discovery::Discovered& law);
 /// Numbers that were fitted, of laws and of names.

@@ -180,6 +180,7 @@ bool suffices(const Problem& problem, const Terms& terms) {
   return beside(problem, terms).residual.squaredNorm() < prior::kNoise * rows;
 }
 
+/// The best of sums that were found in two ways; greedy alone where one law explains all.
 Terms search(const Problem& problem) {
   Terms first = greedy(problem);
   prune(problem, first);
@@ -187,10 +188,14 @@ Terms search(const Problem& problem) {
   Terms second = gathered(problem);
   prune(problem, second);
   Terms& best = score_of(problem, second) > score_of(problem, first) ? second : first;
-  if (best.size() > 1 && !suffices(problem, best)) {
+  if (!suffices(problem, best)) {
     // Each term was found beside others that have changed since.
     Terms again = best;
     evolve_beside(problem, again);
+    for (std::size_t k = 0; k < again.size(); ++k) {
+      const Problem rest = beside(problem, without(again, k));
+      again[k] = with_finer_curves(Data(rest), again[k]);
+    }
     prune(problem, again);
     if (score_of(problem, again) > score_of(problem, best)) return again;
   }

@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kMostPieces = 3, kParents = 3, kModulators = 5;
-constexpr int kRounds = 6;  // those after the third only of the best form
+constexpr int kRounds = 3;
 constexpr int kFirstSteps = 4, kLastSteps = 15;
 constexpr double kLeastExtra = 10.0;  // of chi-square, for a modulator to be refined
 constexpr double kSameScore = 1.0;    // of chi-square, below which curves are not refined further
@@ -204,11 +204,6 @@ std::vector<Sketch> with_other_curves(const Data& data, const Sketch& from) {
   return list;
 }
 
-bool has_curve(const Sketch& sketch) {
-  return std::any_of(sketch.pieces.begin(), sketch.pieces.end(),
-                     [](const Piece& piece) { return !piece.values.empty(); });
-}
-
 }  // namespace
 
 std::vector<Trial> evolved(const Data& data, std::vector<Trial> trials) {
@@ -219,7 +214,7 @@ std::vector<Trial> evolved(const Data& data, std::vector<Trial> trials) {
   std::vector<law::Structure> done;
   for (int round = 0; round < kRounds; ++round) {
     std::vector<Sketch> next;
-    const std::size_t parents = round == 0 ? kParents : round < 3 ? 2 : 1;
+    const std::size_t parents = round == 0 ? kParents : 2;
     for (std::size_t k = 0; k < std::min(parents, trials.size()); ++k) {
       const auto structure = structure_of(trials[k].sketch);
       if (std::find(done.begin(), done.end(), structure) != done.end()) continue;
@@ -238,14 +233,20 @@ std::vector<Trial> evolved(const Data& data, std::vector<Trial> trials) {
     rank_structures(trials);
     if (trials.size() > 40) trials.resize(40);
   }
-  while (!trials.empty() && has_curve(trials.front().sketch)) {
+  return trials;
+}
+
+Sketch with_finer_curves(const Data& data, const Sketch& from) {
+  std::vector<Trial> trials{weighed(data, from)};
+  rank(trials);
+  for (;;) {
     const double before = trials.front().score;
     auto children = fitted(data, with_other_curves(data, trials.front().sketch), kLastSteps);
+    trials.resize(1);
     trials.insert(trials.end(), children.begin(), children.end());
     rank_structures(trials);
-    if (trials.front().score <= before + kSameScore) break;
+    if (trials.front().score <= before + kSameScore) return trials.front().sketch;
   }
-  return trials;
 }
 
 }  // namespace dcnn::discovery

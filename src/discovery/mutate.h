@@ -9,6 +9,10 @@ namespace dcnn::discovery {
 /// them for as long as these gain.
 std::vector<Trial> evolved(const Data& data, std::vector<Trial> trials);
 
+/// Its shapes as tables, with more nodes and with fewer, and with a factor fewer, for as long as
+/// that gains.
+Sketch with_finer_curves(const Data& data, const Sketch& from);
+
 /// The forms of fewer numbers that a sketch has when a part of it is left out, and those without
 /// the constant beside a much larger factor; numbers as they were.
 std::vector<Sketch> plainer(const Data& data, const Sketch& from);

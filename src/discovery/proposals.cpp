@@ -25,6 +25,9 @@ void add_modulators(const Data& data, std::size_t c, std::vector<Piece>& list) {
     }
   }
   if (kind != Kind::kPlace) list.push_back(piece("linear", c, data.rms(c)));
+  if (kind == Kind::kRate || kind == Kind::kLoad) {
+    list.push_back(piece("switched", c, 0.1 * data.rms(c), 0.3));
+  }
   if (kind == Kind::kRate || kind == Kind::kSize) {
     list.push_back(piece("falling", c, 0.3 * data.rms(c), 0.3));
   }
@@ -44,6 +47,7 @@ void add_modulators(const Data& data, std::size_t c, std::vector<Piece>& list) {
   if (kind != Kind::kPlace) return;
   for (const double at : {-0.4, 0.0, 0.4}) {
     list.push_back(centred(piece("gaussian", c, 0.3 * range), middle + at * range));
+    list.push_back(centred(piece("switched", c, 0.1 * range, 0.3), middle + at * range));
   }
   const bool angle = std::string(law::coordinates()[c].unit) == "rad";
   for (const double turns : {1.0, 2.0, 3.0, 5.0}) {
@@ -68,6 +72,8 @@ std::vector<Piece> without_constant(const Piece& from) {
     p.centre -= from.scale / from.extra;
   } else if (name == "wavy") {
     p.factor.shape = shape_named("sine");
+  } else if (name == "switched") {
+    p.factor.shape = shape_named("step");
   } else if (name == "falling") {
     p.factor.shape = shape_named("gaussian");
     p.scale = from.scale / std::numbers::sqrt2;
@@ -112,6 +118,7 @@ std::vector<Piece> other_shapes(const Data& data, const Piece& from) {
   add("one_sided", -size, 1.0);
   add("step", 0.2 * size);
   add("step", -0.2 * size);
+  if (from.extra != 0.0) add("switched", 0.2 * size, from.extra);
   if (kind_of(c) == Kind::kSize) add("inverse_power", size, 2.0);
   if (c == coordinate_named("distance")) {
     add("gaussian", size);
@@ -164,11 +171,16 @@ std::vector<Piece> sampled(const Data& data, const Piece& from, std::size_t node
 }  // namespace
 
 std::vector<Piece> as_curves(const Data& data, const Piece& from) {
-  constexpr std::size_t kFirst = 7, kMost = 25;
+  constexpr std::size_t kFirst = 7, kFine = 25, kMost = 25;
   if (from.factor.memory == Memory::kDwell || from.factor.memory == Memory::kSecondOrder) return {};
   if (kind_of(from.factor.coordinate) == Kind::kClock) return {};
   const auto f = [&](double q) { return value_at(from, q); };
-  if (from.values.empty()) return sampled(data, from, kFirst, f);
+  if (from.values.empty()) {  // a fine table may be right where a coarse one is not
+    auto list = sampled(data, from, kFirst, f);
+    const auto fine = sampled(data, from, kFine, f);
+    list.insert(list.end(), fine.begin(), fine.end());
+    return list;
+  }
   const std::size_t nodes = from.values.size(), more = 2 * nodes - 1, fewer = (nodes + 1) / 2;
   std::vector<Piece> list;
   if (more <= kMost) list = sampled(data, from, more, f);

@@ -37,6 +37,7 @@ double exponential(double u, double) {
 }
 double affine(double u, double p) { return 1.0 + p * u; }
 double wavy(double u, double p) { return 1.0 + p * elementary::sin(u); }
+double switched(double u, double p) { return 1.0 + 0.5 * p * (1.0 + elementary::tanh(u)); }
 double step(double u, double) { return 0.5 * (1.0 + elementary::tanh(u)); }
 double falling(double u, double p) {  // Stribeck's: 1 + p at rest, 1 far from it
   return 1.0 + p * elementary::exp(-std::min(u * u, kMostExponent));
@@ -101,6 +102,9 @@ const std::vector<Shape>& shapes() {
        1e6, true, true, false, falling},
       {"step", "(1 + tanh(u))/2", "\\frac{1}{2}\\left(1 + \\tanh\\left(@\\right)\\right)", "", 0.0,
        0.0, true, true, true, step},
+      {"switched", "1 + p (1 + tanh(u))/2",
+       "\\left(1 + \\frac{#}{2}\\left(1 + \\tanh\\left(@\\right)\\right)\\right)", "gain", -1e6,
+       1e6, true, true, false, switched},
       {"curve", "curve(u)", "\\operatorname{curve}\\left(@\\right)", "", 0.0, 0.0, false, false,
        false, nullptr}};
   return list;

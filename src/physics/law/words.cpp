@@ -94,6 +94,10 @@ std::string clause(const FactorText& text) {
            (text.factor->centred ? text.centre : "0");
   }
   if (name == "sine") return "periodic in " + of + " with " + period(text) + " a period";
+  if (name == "switched") {
+    return "other by " + percent + " % where " + of + " is above " +
+           (text.factor->centred ? text.centre : "0");
+  }
   if (name == "step") {
     return "only where " + of + (text.scale_value > 0.0 ? " is above " : " is below ") +
            (text.factor->centred ? text.centre : "0") + ", full within " +
