@@ -33,37 +33,6 @@ const char* verdict_of(bool named, bool remains) {
   return remains ? "unexplained" : "consistent";
 }
 
-/// What no name explains: by channel, in the band where it is (`bands`, before any law), and in a
-/// formula; or that the held-out data refute that all is explained.
-Json unnamed_part(const Search& search, const std::vector<BandTest>& bands, const Json& laws,
-                  const std::optional<HoldOut::Excess>& refuted) {
-  const Case& study = search.study();
-  const Signals left = difference(study, predict(study, search.names()));
-  Json excess = Json::array();
-  for (Index j = 0; j < study.channel_count(); ++j) {
-    const double square = mean_square(study, left, j);
-    const double s = search.floors()[static_cast<std::size_t>(j)].deviation();
-    excess.push_back(search.remains() ? std::sqrt(std::max(0.0, square - s * s)) : 0.0);
-  }
-  Json part{{"excess_rms", excess}, {"formula", nullptr}, {"words", nullptr}};
-  if (!search.remains() && refuted) {
-    part["words"] = "a held-out error of " + study.targets[refuted->channel] + " of " +
-                    brief(refuted->ratio) + " times its noise";
-  }
-  if (!search.remains()) return part;
-  const auto most =
-      std::max_element(bands.begin(), bands.end(),
-                       [](const BandTest& a, const BandTest& b) { return a.excess < b.excess; });
-  part["words"] = "something that no effect of the catalogue explains, mostly between " +
-                  brief(most->from_hz) + " and " + brief(most->to_hz) + " Hz";
-  std::string formula;
-  for (const Json& finding : laws) {
-    formula += (formula.empty() ? "" : " + ") + finding["law"]["expression"].get<std::string>();
-  }
-  if (!formula.empty()) part["formula"] = formula;
-  return part;
-}
-
 std::vector<std::string> names_of(const Case& study) {
   std::vector<std::string> names;
   for (const Log& log : study.logs) names.push_back(log.recording.name);
@@ -253,7 +222,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   for (discovery::Discovered& law : laws) law.established = law.established && !refuted;
   const Json formulas = law_findings(search, laws, holdout);
   report["left_out"] = outlying_json(search);
-  report["unnamed"] = unnamed_part(search, bands, formulas, refuted);
+  report["unnamed"] = unnamed_part(search, bands, formulas, refuted, !holdout.empty());
   for (const Json& law : formulas) report["findings"].push_back(law);
   Json sources = Json::array();
   for (const Floor& floor : search.floors()) sources.push_back(floor.source);

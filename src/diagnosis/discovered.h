@@ -22,4 +22,10 @@ Json leave_refuted_laws(Search& search, const HoldOut& holdout, double unnamed,
 Json law_findings(const Search& search, const std::vector<discovery::Discovered>& laws,
                   const HoldOut& holdout);
 
+/// What no name explains: by channel, in the band where it is (`bands`, before any law), and in a
+/// formula, which `suffices` where its form holds and held-out data show nothing beside it; or that
+/// the held-out data refute that all is explained.
+Json unnamed_part(const Search& search, const std::vector<BandTest>& bands, const Json& laws,
+                  const std::optional<HoldOut::Excess>& refuted, bool held_out);
+
 }  // namespace dcnn

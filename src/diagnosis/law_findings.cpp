@@ -1,6 +1,8 @@
 // Laws of the fit as findings, and what held-out data say of them.
+#include <algorithm>
 #include <cmath>
 
+#include "dcnn/core/number.h"
 #include "diagnosis/confidence.h"
 #include "diagnosis/discovered.h"
 #include "diagnosis/laws.h"
@@ -107,6 +109,41 @@ Json law_findings(const Search& search, const std::vector<Discovered>& laws,
     list.push_back(entry);
   }
   return list;
+}
+
+Json unnamed_part(const Search& search, const std::vector<BandTest>& bands, const Json& laws,
+                  const std::optional<HoldOut::Excess>& refuted, bool held_out) {
+  const Case& study = search.study();
+  const Signals left = difference(study, predict(study, search.names()));
+  Json excess = Json::array();
+  for (Index j = 0; j < study.channel_count(); ++j) {
+    const double square = mean_square(study, left, j);
+    const double s = search.floors()[static_cast<std::size_t>(j)].deviation();
+    excess.push_back(search.remains() ? std::sqrt(std::max(0.0, square - s * s)) : 0.0);
+  }
+  Json part{{"excess_rms", excess}, {"formula", nullptr}, {"words", nullptr}};
+  if (!search.remains() && refuted) {
+    part["words"] = "a held-out error of " + study.targets[refuted->channel] + " of " +
+                    brief(refuted->ratio) + " times its noise";
+  }
+  if (!search.remains()) return part;
+  const auto most =
+      std::max_element(bands.begin(), bands.end(),
+                       [](const BandTest& a, const BandTest& b) { return a.excess < b.excess; });
+  part["words"] = "something that no effect of the catalogue explains, mostly between " +
+                  brief(most->from_hz) + " and " + brief(most->to_hz) + " Hz";
+  const bool holds = std::all_of(laws.begin(), laws.end(),
+                                 [](const Json& law) { return law["law"]["established"] == true; });
+  part["suffices"] = held_out && !refuted && !laws.empty() && holds;
+  if (part["suffices"] == true) {
+    part["words"] = "no effect of the catalogue has this form, and held-out data show nothing else";
+  }
+  std::string formula;
+  for (const Json& finding : laws) {
+    formula += (formula.empty() ? "" : " + ") + finding["law"]["expression"].get<std::string>();
+  }
+  if (!formula.empty()) part["formula"] = formula;
+  return part;
 }
 
 }  // namespace dcnn

@@ -120,8 +120,10 @@ Missing what_is_missing(const Json& report) {
     list += (list.empty() ? "" : "; ") + with_equals(finding) + against(finding);
   }
   if (arm) return {capitalised(report["arm"]["words"].get<std::string>()), "", doubtful};
-  if (!report["unnamed"]["words"].is_null()) {
-    text += (text.empty() ? "" : "; and ") + report["unnamed"]["words"].get<std::string>();
+  const Json& unnamed = report["unnamed"];
+  if (!unnamed["words"].is_null()) {
+    const char* const join = unnamed.value("suffices", false) ? "; " : "; and ";
+    text += (text.empty() ? "" : join) + unnamed["words"].get<std::string>();
   }
   if (text.empty() && others.empty() && !doubtful.empty()) {
     return {"Nothing that was found is established, each rather wrong than right: " + doubtful, "",
@@ -177,6 +179,18 @@ std::string headline_without(const Json& report) {
          doubtful_part(missing);
 }
 
+/// "the sensor's noise is 0.02 N"; where the error that is left bounds it, no more is known of it.
+std::string noise_words(const Json& report, std::size_t j) {
+  constexpr double kSame = 1e-9;  // of it
+  const Json& fit = report["fit"];
+  const double noise = heldout_noise(fit)[j];
+  if (noise >= (1.0 - kSame) * fit["holdout_rmse_after"][j].get<double>()) {
+    return "the sensor's noise may be all of it";
+  }
+  return "the sensor's noise is " + brief(noise) + " " +
+         unit_text(report["units"][j].get<std::string>());
+}
+
 /// Where nothing is missing: the channel that is left farthest above its noise.
 std::string consistent(const Json& report) {
   const Json& fit = report["fit"];
@@ -194,7 +208,7 @@ std::string consistent(const Json& report) {
   };
   const std::string target = report["targets"][worst].get<std::string>();
   return "Nothing is missing: the simulator leaves " + number(fit["holdout_rmse_after"]) +
-         " on held-out " + target + ", the sensor's noise is " + number(heldout_noise(fit)) +
+         " on held-out " + target + ", " + noise_words(report, worst) +
          (ratio(worst) > kFar ? "; the noise of the measured motion, or what the fitted recordings "
                                 "leave as well, makes the rest."
                               : ".");
@@ -228,12 +242,11 @@ std::string answer(const Json& report) {
   const Json& fit = report["fit"];
   if (fit["holdout_rmse_before"].is_null()) return headline_without(report);
   const std::size_t j = telling_channel(fit);
-  const auto unit = unit_text(report["units"][j].get<std::string>());
   if (report["verdict"] == "consistent") return consistent(report);
   const Missing missing = what_is_missing(report);
   return missing.words + ". The hold-out error of " + report["targets"][j].get<std::string>() +
-         " " + change_of(report, j) + ", the sensor's noise is " +
-         brief(heldout_noise(fit)[j].get<double>()) + " " + unit + other_channels(report, j) + "." +
+         " " + change_of(report, j) + ", " + noise_words(report, j) + other_channels(report, j) +
+         "." +
          (missing.others.empty() ? ""
                                  : " In the fitted recordings, without effect on the held-out "
                                    "error: " +

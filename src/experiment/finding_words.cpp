@@ -25,7 +25,12 @@ std::string place_in_words(const Json& finding) {
 std::vector<std::string> numbers_in_words(const Json& finding) {
   std::vector<std::string> words;
   const std::string effect = plain_text(finding["effect"]);
+  int of_tables = 0;
   for (const auto& [name, number] : finding["parameters"].items()) {
+    if (effect == "discovered" && name.starts_with("value_")) {  // its picture tells more
+      ++of_tables;
+      continue;
+    }
     if (number["value"].is_string()) {
       words.push_back(words_of_parameter(effect, name) + ": " + plain_text(number["value"]));
       continue;
@@ -46,6 +51,9 @@ std::vector<std::string> numbers_in_words(const Json& finding) {
         (interval[0].is_null() || interval[1].is_null()
              ? with_unit(value, unit)
              : with_interval(value, interval[0].get<double>(), interval[1].get<double>(), unit)));
+  }
+  if (of_tables > 0) {
+    words.push_back(std::to_string(of_tables) + " values of a curve, listed in report.json");
   }
   return words;
 }

@@ -123,13 +123,14 @@ std::string three_digits(double value) {
 }
 
 /// A number of a discovered law, by its stem: "scale_2" belongs to the second of its variables.
-std::string words_of_law(const std::string& stem) {
+std::string words_of_law(const std::string& stem, const std::string& unit) {
   static const std::map<std::string, std::string> kWords{{"amplitude", "amplitude"},
                                                          {"scale", "scale"},
                                                          {"centre", "centre"},
                                                          {"power", "exponent"},
                                                          {"gain", "slope"},
-                                                         {"memory", "time constant"},
+                                                         {"memory", "size of the state"},
+                                                         {"damping", "damping ratio of the state"},
                                                          {"vector_scale", "scale of the direction"},
                                                          {"vector_lag", "delay of the direction"},
                                                          {"lag", "delay"}};
@@ -141,6 +142,7 @@ std::string words_of_law(const std::string& stem) {
          " variable";
     name.resize(name.size() - 2);
   }
+  if (name == "memory" && unit == "s") return "time constant" + of;
   const auto found = kWords.find(name);
   return found == kWords.end() ? "" : found->second + of;
 }
@@ -206,7 +208,8 @@ std::string words_of_parameter(const std::string& effect, const std::string& nam
   const auto cut = unit_of_parameter(name).empty() ? name.npos : name.rfind('_');
   for (const std::string& stem : {name, name.substr(0, cut)}) {
     if (effect == "discovered") {
-      if (const std::string known = words_of_law(stem); !known.empty()) return known;
+      const std::string known = words_of_law(stem, unit_of_parameter(name));
+      if (!known.empty()) return known;
     } else if (const std::string known = look_up(stem); !known.empty()) {
       return known;
     }

@@ -25,7 +25,7 @@ Json summary_report(const Json& findings) {
             {"holdout_rmse_after", {0.04, 0.5}},
             {"holdout_rms_measured", {2.0, 2.0}},
             {"holdout_explained_before", {0.75, 0.9}},
-            {"noise_floor", {0.04, 0.5}}}}};
+            {"noise_floor", {0.039, 0.49}}}}};
 }
 
 TEST(Headline, BeginsWithWhatTheHeldOutErrorTellsOf) {
@@ -33,7 +33,7 @@ TEST(Headline, BeginsWithWhatTheHeldOutErrorTellsOf) {
       Json::array({finding_of("a contact of 3 N", 0.0), finding_of("dry friction of 0.4 N", 0.9)}));
   EXPECT_EQ(headline(report),
             "Dry friction of 0.4 N. The hold-out error of fx falls from 1 to 0.04 N, the sensor's "
-            "noise is 0.04 N. In the fitted recordings, without effect on the held-out error: a "
+            "noise is 0.039 N. In the fitted recordings, without effect on the held-out error: a "
             "contact of 3 N.");
 }
 
@@ -86,13 +86,31 @@ TEST(Headline, WhereNothingIsMissingSpeaksOfTheWorstChannel) {
   report["fit"]["holdout_rmse_after"] = {0.04, 0.55};
   EXPECT_EQ(headline(report),
             "Nothing is missing: the simulator leaves 0.55 N on held-out fy, the sensor's noise is "
-            "0.5 N.");
+            "0.49 N.");
   report["fit"]["holdout_rmse_after"] = {0.08, 0.55};
   EXPECT_EQ(
       headline(report),
       "Nothing is missing: the simulator leaves 0.08 N on held-out fx, the sensor's noise is "
-      "0.04 N; the noise of the measured motion, or what the fitted recordings leave as well, "
+      "0.039 N; the noise of the measured motion, or what the fitted recordings leave as well, "
       "makes the rest.");
+}
+
+// Where the error bounds the noise, that is no knowledge of the noise.
+TEST(Headline, SaysThatNoiseWhichTheErrorBoundsMayBeAllOfIt) {
+  Json report = summary_report(Json::array({finding_of("dry friction of 0.4 N", 0.9)}));
+  report["fit"]["noise_floor"] = {0.04, 0.5};
+  EXPECT_EQ(headline(report),
+            "Dry friction of 0.4 N. The hold-out error of fx falls from 1 to 0.04 N, the sensor's "
+            "noise may be all of it.");
+}
+
+TEST(Headline, SaysThatALawLeavesNothingElse) {
+  Json report = summary_report(Json::array({finding_of("a force along the tool", 0.9)}));
+  report["verdict"] = "unexplained";
+  report["unnamed"] = {{"words", "no effect of the catalogue has this form"}, {"suffices", true}};
+  EXPECT_TRUE(headline(report).starts_with(
+      "A force along the tool; no effect of the catalogue has this form. The hold-out error"))
+      << headline(report);
 }
 
 TEST(Headline, BeginsWithASimulatorThatExplainsNothing) {
