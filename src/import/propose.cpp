@@ -207,19 +207,25 @@ class Proposer {
   }
 
   /// What the makers of robots say of a name that says nothing itself: a UR's actual_TCP_force is
-  /// in the base frame, less the payload that was entered (RTDE guide).
+  /// in the base frame, less the payload that was entered (RTDE guide), and so is libfranka's
+  /// O_F_ext_hat_K; K_F_ext_hat_K is in the stiffness frame, which turns with the end effector.
   void choose_wrench_frame() {
     std::string& frame = recipe().wrench.frame;
     const bool open = frame == "auto";
     if (open) frame = "sensor";
     for (const ColumnRule& rule : recipe().columns) {
-      if (rule.to != "fx" || rule.channel.find("TCP_force") == std::string::npos) continue;
+      const auto has = [&](const char* name) {
+        return rule.channel.find(name) != std::string::npos;
+      };
+      const bool ur = has("TCP_force"), franka = has("F_ext_hat"), in_base = ur || has("O_F_ext");
+      if (rule.to != "fx" || (!ur && !franka)) continue;
       const bool oriented = !recipe().orientation.kind.empty();
-      std::string words = shown(rule.channel) + " of a UR is in the base frame";
-      if (open && oriented) {
+      std::string words = shown(rule.channel) + (ur ? " of a UR" : " of a Franka") + " is in the " +
+                          (in_base ? "base frame" : "stiffness frame, taken for the sensor's");
+      if (in_base && open && oriented) {
         frame = "base";
         words += ": it is turned into the sensor's by the pose";
-      } else if (frame != "base") {
+      } else if (in_base && frame != "base") {
         words += oriented ? ": say --wrench-frame base"
                           : ", and the log has no pose to turn it by: log one, or give --urdf "
                             "ROBOT and --link LINK";

@@ -115,6 +115,34 @@ TEST(Frames, OfAURsForceIsTheBase) {
   EXPECT_EQ(cell(import_text(text.str(), wishes), "fx", 1), 1.0);
 }
 
+// libfranka's state: a matrix by columns, and the wrench in the base frame (O) or in the hand's
+// (K).
+TEST(Frames, OfAFrankasWrenchIsInItsName) {
+  for (const char* frame : {"O", "K"}) {
+    std::ostringstream text;
+    text.precision(17);
+    text << "time";
+    for (int k = 0; k < 16; ++k) text << ",O_T_EE[" << k << "]";
+    for (int k = 0; k < 6; ++k) text << "," << frame << "_F_ext_hat_K[" << k << "]";
+    for (int row = 0; row < 2; ++row) {
+      text << "\n" << 0.002 * row;
+      for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 3; ++r) text << "," << (c < 3 ? kTurn(r, c) : 0.1 * r);
+        text << "," << (c == 3);
+      }
+      text << ",1,2,3,0.1,0.2,0.3";
+    }
+    ImportWishes wishes;
+    wishes.wrench.frame = "auto";
+    const Imported imported = import_text(text.str() + "\n", wishes);
+    const bool in_base = std::string(frame) == "O";
+    const Vector3 f = in_base ? Vector3(kTurn.transpose() * Vector3(1, 2, 3)) : Vector3(1, 2, 3);
+    EXPECT_NEAR(cell(imported, "fx", 1), f.x(), 1e-12);
+    EXPECT_NEAR(cell(imported, "fz", 1), f.z(), 1e-12);
+    EXPECT_NEAR(cell(imported, "z", 1), 0.2, 1e-12);
+  }
+}
+
 TEST(Frames, AWrenchInTheBaseFrameIsTurnedAndShifted) {
   ImportWishes wishes;
   wishes.wrench.frame = "base";
