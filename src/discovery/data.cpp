@@ -184,9 +184,12 @@ VectorXd Data::raw_column(const Sketch& sketch) const {
   return whiten(strength.asDiagonal() * vector_of(sketch));
 }
 
-VectorXd Data::projected(const VectorXd& column) const {
-  if (problem_.known.cols() == 0) return column;
-  return column - problem_.known * (problem_.known.transpose() * column);
+MatrixXd Data::projected(const MatrixXd& columns) const {
+  if (problem_.known.cols() == 0) return columns;
+  const MatrixXd shares = problem_.known.transpose() * columns;
+  MatrixXd beside = columns;
+  beside.noalias() -= problem_.known * shares;
+  return beside;
 }
 
 VectorXd Data::column(const Sketch& sketch) const { return projected(raw_column(sketch)); }

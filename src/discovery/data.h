@@ -47,7 +47,8 @@ class Data {
   Eigen::VectorXd column(const Sketch& sketch) const;
   /// The same, not projected.
   Eigen::VectorXd raw_column(const Sketch& sketch) const;
-  Eigen::VectorXd projected(const Eigen::VectorXd& column) const;
+  /// Beside what is known: of a column, or of many at once, which is faster.
+  Eigen::MatrixXd projected(const Eigen::MatrixXd& columns) const;
   /// Whitens a force (T,3).
   Eigen::VectorXd whiten(const Eigen::MatrixXd& force) const;
   /// The transpose of that, (T,3).

@@ -19,6 +19,8 @@ constexpr double kHeldOutShare = 0.5;
 constexpr double kHeldOutApproximate = 0.9;
 /// Least exponent: below it a power is a sign or a constant.
 constexpr double kLeastPower = 0.2;
+/// Weight of the second differences of a curve, of the mean information on its nodes.
+constexpr double kBending = 1e-2;
 constexpr double kBlockSeconds = 8.0;  ///< of blocks for folds and for constancy
 /// Variance of the strength over blocks above which the form is not established.
 constexpr double kConstant = 3.0;

@@ -177,13 +177,14 @@ std::vector<Piece> as_curves(const Data& data, const Piece& from) {
   const auto f = [&](double q) { return value_at(from, q); };
   if (from.values.empty()) {  // a fine table may be right where a coarse one is not
     auto list = sampled(data, from, kFirst, f);
+    if (from.factor.memory == Memory::kDahl) return list;  // which is mostly at its ends
     const auto fine = sampled(data, from, kFine, f);
     list.insert(list.end(), fine.begin(), fine.end());
     return list;
   }
   const std::size_t nodes = from.values.size(), more = 2 * nodes - 1, fewer = (nodes + 1) / 2;
   std::vector<Piece> list;
-  if (more <= kMost) list = sampled(data, from, more, f);
+  if (more <= kMost && from.factor.memory != Memory::kDahl) list = sampled(data, from, more, f);
   if (fewer >= law::kFewestNodes) {
     const auto plain = sampled(data, from, fewer, f);
     list.insert(list.end(), plain.begin(), plain.end());

@@ -119,6 +119,7 @@ MatrixXd derivatives(const Data& data, const Trial& here) {
   Sketch sketch = here.sketch;
   const auto handles = handles_of(data, sketch);
   MatrixXd columns(here.column.size(), static_cast<Index>(handles.size()));
+  const VectorXd from = data.raw_column(sketch);
   for (std::size_t k = 0; k < handles.size(); ++k) {
     const double before = *handles[k].value, at = handles[k].get();
     handles[k].set(at + handles[k].step);
@@ -127,19 +128,49 @@ MatrixXd derivatives(const Data& data, const Trial& here) {
       handles[k].set(at - handles[k].step);
       moved = handles[k].get() - at;
     }
-    columns.col(static_cast<Index>(k)) =
-        moved == 0.0 ? VectorXd(VectorXd::Zero(here.column.size()))
-                     : VectorXd((data.column(sketch) - here.column) / moved);
+    columns.col(static_cast<Index>(k)) = moved == 0.0
+                                             ? VectorXd(VectorXd::Zero(here.column.size()))
+                                             : VectorXd((data.raw_column(sketch) - from) / moved);
     *handles[k].value = before;
   }
-  return columns;
+  return data.projected(columns);
+}
+
+/// A curve where the motion hardly is goes on as beside: its second differences weigh a little of
+/// what the mean value of its nodes does. In a Gram matrix whose first row is the amplitude's.
+void add_bending(const Data& data, const Trial& here, MatrixXd& gram, VectorXd& score) {
+  Sketch sketch = here.sketch;
+  const auto handles = handles_of(data, sketch);
+  for (const Piece& piece : sketch.pieces) {
+    const auto count = static_cast<Index>(piece.values.size());
+    MatrixXd bends = MatrixXd::Zero(std::max<Index>(0, count - 2), gram.cols());
+    VectorXd now = VectorXd::Zero(bends.rows());
+    double weight = 0.0;
+    for (Index k = 0; k < count; ++k) {
+      const double* const value = &piece.values[static_cast<std::size_t>(k)];
+      const auto found = std::find_if(handles.begin(), handles.end(),
+                                      [&](const Handle& handle) { return handle.value == value; });
+      const Index place = found == handles.end() ? -1 : found - handles.begin() + 1;
+      if (place > 0) weight += gram(place, place) / static_cast<double>(count);
+      for (Index row = std::max<Index>(0, k - 2); row <= std::min(k, count - 3); ++row) {
+        const double share = row == k - 1 ? -2.0 : 1.0;
+        if (place > 0) bends(row, place) = share;
+        now(row) += share * *value;
+      }
+    }
+    gram += prior::kBending * weight * bends.transpose() * bends;
+    score -= prior::kBending * weight * bends.transpose() * now;
+  }
 }
 
 VectorXd best_step(const Data& data, const Trial& here, const MatrixXd& slopes) {
   MatrixXd A(slopes.rows(), slopes.cols() + 1);
   A << here.column, here.sketch.amplitude * slopes;
   const VectorXd left = data.problem().residual - here.sketch.amplitude * here.column;
-  return solve_gram(A.transpose() * A, A.transpose() * left, 1e-9).bottomRows(slopes.cols());
+  MatrixXd gram = A.transpose() * A;
+  VectorXd score = A.transpose() * left;
+  add_bending(data, here, gram, score);
+  return solve_gram(gram, score, 1e-9).bottomRows(slopes.cols());
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Laws without a short formula: tables, switches, delays, products of three.
 #include <gtest/gtest.h>
 
+#include "discovery/dictionary.h"
+#include "discovery/refine.h"
 #include "discovery/support.h"
 
 namespace dcnn::discovery {
@@ -88,6 +90,36 @@ TEST(DiscoverCurves, ThreeFactorsOfWhichNoneShowsAlone) {
   const auto laws = expect_predicted(product, 34);
   ASSERT_FALSE(laws.empty());
   EXPECT_EQ(laws[0].law.structure.factors.size(), 3U);
+}
+
+TEST(DiscoverCurves, ACurveGoesOnStraightWhereLittleIsKnown) {
+  const Scene at = scene(3, 2500);
+  MatrixXd force(2500, 3);
+  VectorXd weight = VectorXd::Constant(2500, 1.0 / kSigma);
+  for (Index k = 0; k < 2500; ++k) {
+    const double x = at.motion.p_B(k, 0);
+    force.row(k) = 0.3 * x * axis_of(at.motion, k, 0).transpose();
+    if (std::abs(x) > 0.04) weight(k) *= 0.02;
+  }
+  force += weight.cwiseInverse().asDiagonal() * white(2500, 1.0, 36);
+  Problem problem = problem_of(at, force, kSigma);
+  problem.whiten = [weight](const std::vector<MatrixXd>& f) {
+    return VectorXd((weight.asDiagonal() * f[0]).reshaped());
+  };
+  problem.residual = problem.whiten({force});
+  const Data data(problem);
+  Sketch law;
+  law.direction = direction_named("base_x");
+  law.pieces = {as_curves(data, linear_in(data, coordinate_named("x"))).back()};
+  const Sketch fitted = refined(data, law, 15).sketch;
+  const Piece& curve = fitted.pieces[0];
+  ASSERT_EQ(curve.values.size(), 25U);
+  for (std::size_t k = 1; k + 1 < 25; ++k) {
+    const double x = curve.centre + curve.scale * (static_cast<double>(k) / 12.0 - 1.0);
+    if (std::abs(x) < 0.05) continue;
+    const double bend = curve.values[k - 1] - 2.0 * curve.values[k] + curve.values[k + 1];
+    EXPECT_LT(std::abs(fitted.amplitude * bend), 0.5 * kSigma) << k;
+  }
 }
 
 TEST(DiscoverCurves, ALoopOfOneCurveForthAndAnotherBack) {
