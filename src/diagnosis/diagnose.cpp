@@ -150,10 +150,9 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   for (const Json& name : take_own_numbers(search, holdout)) refuted_names.push_back(name);
   add_faint(search, holdout);
   const std::vector<BandTest> bands = search.bands();
-  const double unnamed = search.posterior().unknown + search.posterior().named_and_unknown;
   const std::vector<Member> names = search.names();
   auto laws = add_discovered(search, holdout);
-  const Json refuted_laws = leave_refuted_laws(search, holdout, unnamed, laws);
+  const Json refuted_laws = leave_refuted_laws(search, holdout, laws);
   for (const Json& law : refuted_laws) refuted_names.push_back(law);
   if (laws.empty() && !refuted_laws.empty()) take_back_names(search, holdout, names);
   // Names that were found beside laws, or in the place of one.

@@ -73,6 +73,33 @@ std::vector<Member> without_law(std::vector<Member> members, std::size_t place) 
   return members;
 }
 
+Laws without(Laws laws, std::size_t k) {
+  laws.found.erase(laws.found.begin() + static_cast<std::ptrdiff_t>(k));
+  laws.members.erase(laws.members.begin() + static_cast<std::ptrdiff_t>(k));
+  return laws;
+}
+
+/// Leaves out laws that are names which held-out data refuted: such a name in its place explains as
+/// much, but for what any law must gain.
+void leave_refuted_forms(Search& search, Laws& laws) {
+  for (std::size_t k = laws.found.size(); k-- > 0;) {
+    const std::vector<Member> all = search.fit().members, rest = without_law(all, k);
+    const Laws others = without(laws, k);
+    const Setting& setting = search.setting();
+    const bool refuted =
+        std::any_of(search.refuted().begin(), search.refuted().end(), [&](const Member& member) {
+          std::vector<Member> named = rest;
+          named.push_back(member);
+          const double lost = joint_fit(setting, named).chi2 - search.fit().chi2,
+                       saved = setting.price * (numbers_of(laws, all) - numbers_of(others, named));
+          return lost < saved + least_gain_of_law(setting);
+        });
+    if (!refuted) continue;
+    search.hold(rest);
+    laws = others;
+  }
+}
+
 /// A law may be an effect that has a name, which what is unknown hid: whether a name in its place
 /// explains as much, but for what any law must gain to be accepted in the place of names. It then
 /// stands, and laws are looked for beside it.
@@ -80,9 +107,7 @@ bool name_in_place_of_one(Search& search, Laws& laws) {
   constexpr std::size_t kMostTrials = 3;  // a limit of computation
   const std::vector<Member> before = search.fit().members;
   for (std::size_t k = 0; k < laws.found.size(); ++k) {
-    Laws others = laws;
-    others.found.erase(others.found.begin() + static_cast<std::ptrdiff_t>(k));
-    others.members.erase(others.members.begin() + static_cast<std::ptrdiff_t>(k));
+    Laws others = without(laws, k);
     search.put_beside(others.members);
     auto trials = search.additions(/*events=*/false);
     if (trials.size() > kMostTrials) trials.resize(kMostTrials);
@@ -228,6 +253,7 @@ std::vector<Discovered> add_discovered(Search& search, const HoldOut& holdout) {
   constexpr int kMostRounds = 5;  // a limit of computation: each round searches all places again
   int round = 0;
   while (round < kMostRounds && name_in_place_of_one(search, laws)) ++round;
+  leave_refuted_forms(search, laws);
   search.leave_untold_parts();
   search.leave_idle_names();
   // Names may have given way to laws, and other names come beside them.

@@ -12,10 +12,10 @@ namespace dcnn {
 /// those. The laws that then stand in the fit, in their order; none where none is found.
 std::vector<discovery::Discovered> add_discovered(Search& search, const HoldOut& holdout);
 
-/// Takes back laws that held-out data make less probable than not, the least probable first, as
-/// leave_refuted() does names; `unnamed` is the probability of each before: that something which no
-/// name explains acts.
-Json leave_refuted_laws(Search& search, const HoldOut& holdout, double unnamed,
+/// Takes back laws that held-out data speak against, or the error of which they raise, the least
+/// probable first: the fitted rows say that something acts, and the others alone whether it has
+/// this form, at even odds before.
+Json leave_refuted_laws(Search& search, const HoldOut& holdout,
                         std::vector<discovery::Discovered>& laws);
 
 /// Laws of the fit as findings.

@@ -83,6 +83,7 @@ std::vector<Term> terms_of(const std::vector<Quantity>& list) {
       }
       if (b != a && p.has_zero) {
         add([&](std::size_t k) { return sign(k) * q.values[k]; });
+        if (!q.has_zero) add([&](std::size_t k) { return sign(k) * q.values[k].square(); });
       }
     }
   }

@@ -58,27 +58,34 @@ Json law_finding(Discovered found, const AxisPlan* plan) {
 
 }  // namespace
 
-Json leave_refuted_laws(Search& search, const HoldOut& holdout, double unnamed,
-                        std::vector<Discovered>& laws) {
+Json leave_refuted_laws(Search& search, const HoldOut& holdout, std::vector<Discovered>& laws) {
+  constexpr double kEven = 0.5;
   Json refuted = Json::array();
   while (!laws.empty()) {
     const std::vector<Member> members = search.fit().members;
     const Signals with = holdout.prediction(members, search.fit().base);
-    std::vector<std::size_t> places;  // of the laws among the members
-    std::vector<std::optional<double>> likely;
-    for (std::size_t m = 0; m < members.size(); ++m) {
+    const double error = holdout.empty() ? 0.0 : holdout.mean_rmse(members, search.fit().base);
+    struct Refuted {
+      std::size_t law, member;
+      double likely;
+    };
+    std::optional<Refuted> worst;
+    for (std::size_t m = 0, law = 0; m < members.size(); ++m) {
       if (members[m].law.is_null()) continue;
-      places.push_back(m);
-      likely.emplace_back(supported(unnamed, search, holdout, with, m));
+      const JointFit& rest = search.without(m);
+      const double likely = supported(kEven, search, holdout, with, m);
+      const bool rises = !holdout.empty() && error > holdout.mean_rmse(rest.members, rest.base);
+      if ((rises || likely < kEven) && (!worst || likely < worst->likely)) {
+        worst = Refuted{law, m, likely};
+      }
+      ++law;
     }
-    const auto worst = refuted_of(likely);
     if (!worst) break;
-    const std::size_t place = places[*worst];
     refuted.push_back({{"effect", "discovered"},
-                       {"axis", law_finding(laws[*worst], nullptr)["axis"]},
-                       {"confidence", *likely[*worst]}});
-    laws.erase(laws.begin() + static_cast<std::ptrdiff_t>(*worst));
-    search.hold(search.members_without(place));
+                       {"axis", law_finding(laws[worst->law], nullptr)["axis"]},
+                       {"confidence", worst->likely}});
+    laws.erase(laws.begin() + static_cast<std::ptrdiff_t>(worst->law));
+    search.hold(search.members_without(worst->member));
   }
   return refuted;
 }

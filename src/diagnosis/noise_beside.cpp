@@ -41,15 +41,17 @@ bool Search::are_constant() const {
 bool Search::noise_suffices() { return !grow() && is_independent(); }
 
 /// Whether noise of one colour, which the band above the motion bears out, is all that is left: far
-/// below that band its colour is hardly known from there.
+/// below that band its colour is hardly known from there. It is likelier then than the best product
+/// of what moves beside noise as it is known.
 bool Search::admit_colour() {
   if (study_.is_static() || study_.without.coloured_floor) return false;
   const Signals raw = study_.lowpass_hz > 0.0 ? unfiltered_left(study_, fit_.members) : left_;
   const std::vector<Member> members = fit_.members;
   noise_ = noise_of_all(study_, raw, noise_level(study_, raw), floors_);
   if (noise_) {
+    const double with_term = unlikely() - most_of_a_term(*setting_, fit_) + kNumberPrice;
     settle(members);
-    if (noise_suffices()) return true;
+    if (unlikely() < with_term && noise_suffices()) return true;
     noise_.reset();
     settle(members);
     is_alarming_now();

@@ -63,6 +63,8 @@ class Search {
   /// Whether something acts that no name explains; a law without a name is such.
   bool remains() const { return remains_ || names().size() < fit_.members.size(); }
   const std::optional<Member>& rounding() const { return rounding_; }
+  /// Names that data to which they were not fitted spoke against.
+  const std::vector<Member>& refuted() const { return refuted_; }
   const std::optional<Member>& loose_load() const { return impacts_.member; }
   const Impacts& impacts() const { return impacts_; }
   /// Stretches that decide nothing, for far more is left there than elsewhere.

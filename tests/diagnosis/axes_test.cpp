@@ -103,6 +103,42 @@ TEST(DiagnoseAxes, SaysThatNothingIsMissing) {
   EXPECT_NEAR(report["fit"]["holdout_rmse_after"][0].get<double>(), kAxisNoise, 0.003);
 }
 
+// One slow turn: friction that grows with the distance from the rest looks like slow noise in time,
+// and a product of what moves explains it far better.
+TEST(DiagnoseAxes, FrictionThatGrowsWithThePositionIsNoColourOfNoise) {
+  const test::TemporaryFolder folder;
+  Rng rng({31});
+  Table table;
+  table.columns = {"t", "q", "I"};
+  for (const auto& [name, from, rows] :
+       {std::tuple{"fit.csv", 0.0, Index{700}}, {"hold.csv", 70.0, Index{470}}}) {
+    table.values.resize(rows, 3);
+    for (Index k = 0; k < rows; ++k) {
+      const double t = from + 0.1 * static_cast<double>(k),
+                   phase = 2.0 * std::numbers::pi * t / 117.0;
+      const double q = 0.59 * std::sin(phase), v = std::cos(phase);
+      const double friction = 92.0 * std::abs(q) * std::tanh(20.0 * v);
+      table.values.row(k) << t, q, 33.0 * q + friction + 11.0 * rng.normal();
+    }
+    write_csv(folder / name, table);
+  }
+  const Json system{{"kind", "axes"},
+                    {"axes",
+                     {{{"name", "knob"},
+                       {"measured", "I"},
+                       {"unit", "mA"},
+                       {"position", "q"},
+                       {"base", Json::array()}}}}};
+  write_file(folder / "system.json", system.dump());
+  DiagnosisRequest request;
+  request.system = folder / "system.json";
+  request.fit = {folder / "fit.csv"};
+  request.holdout = {folder / "hold.csv"};
+  const Json report = diagnose(request, nullptr).report;
+  EXPECT_NE(report["verdict"], "explained") << report["findings"].dump(1);
+  EXPECT_NE(report["verdict"], "consistent");
+}
+
 // Two collisions of 0.4 s hold far more energy than the friction of all seconds.
 TEST(DiagnoseAxes, CollisionsDoNotHideFriction) {
   const auto hit = [](double t, double at) {
