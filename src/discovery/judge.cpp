@@ -149,8 +149,8 @@ Discovered judged(const Data& data, const Trial& trial) {
 }
 
 bool is_accepted(const Discovered& found) {
-  const double share = found.established ? prior::kHeldOutShare : prior::kHeldOutApproximate;
-  return found.score >= prior::kAccepted && found.held_out_gain >= share * found.gain;
+  return found.score >= prior::kAccepted &&
+         found.held_out_gain >= prior::kHeldOutShare * found.gain;
 }
 
 }  // namespace dcnn::discovery

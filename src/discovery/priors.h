@@ -15,8 +15,6 @@ constexpr double kMemory = 4.0;  ///< of each state or lag
 constexpr double kAccepted = 30.0;
 /// Least share of the gain that folds show to which the numbers were not fitted.
 constexpr double kHeldOutShare = 0.5;
-/// The same for a form that is not established: it must predict at least.
-constexpr double kHeldOutApproximate = 0.9;
 /// Least exponent: below it a power is a sign or a constant.
 constexpr double kLeastPower = 0.2;
 /// Weight of the second differences of a curve, of the mean information on its nodes.
