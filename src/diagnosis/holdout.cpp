@@ -222,11 +222,13 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
     }
     // Of an axis the error of the motion has a spectrum of its own in the floor. Poses are few: a
     // free matrix may leave less of them than noise, and what the fit leaves was weighed. What no
-    // band was tested for, because the recordings are too short, may be anything.
+    // band was tested for, because the recordings are too short, may be anything, and so may what
+    // names leave: that they explain all is said at their own noise.
     const bool tested = std::any_of(search.bands().begin(), search.bands().end(),
                                     [](const BandTest& band) { return band.dof > 0.0; });
     const bool left_is_noise =
-        fitted.is_static() || (tested && !fitted.axis && !search.floors()[j].pose_gain.empty());
+        fitted.is_static() || (tested && !fitted.axis && search.fit().members.empty() &&
+                               !search.floors()[j].pose_gain.empty());
     if (left_is_noise) noise = std::max(noise, left);
     const double ratio = errors[j] / std::max(1e-300, noise);
     if (ratio > kMost * (1.0 + chance) && (!worst || ratio > worst->ratio)) {

@@ -14,7 +14,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr std::size_t kScanned = 10;
-constexpr std::size_t kMostRivals = 4, kMostApproximations = 3;
+constexpr std::size_t kMostRivals = 4;
 
 using Terms = std::vector<Sketch>;
 
@@ -228,14 +228,11 @@ Discovered judged_beside(const Problem& problem, const Terms& terms, std::size_t
   return found;
 }
 
-/// The one to leave out: the weakest that is not accepted; of approximations, whose number says
-/// little, the weakest of more than one.
+/// The one to leave out: the weakest that is not accepted.
 std::optional<std::size_t> least_worthy(const std::vector<Discovered>& laws) {
-  const bool approximate =
-      std::any_of(laws.begin(), laws.end(), [](const Discovered& law) { return !law.established; });
   std::optional<std::size_t> least;
   for (std::size_t k = 0; k < laws.size(); ++k) {
-    if (is_accepted(laws[k]) && !(approximate && laws.size() > kMostApproximations)) continue;
+    if (is_accepted(laws[k])) continue;
     if (!least || laws[k].gain < laws[*least].gain) least = k;
   }
   return least;
