@@ -112,6 +112,16 @@ double disagreement_of(const VectorXd& residual, const VectorXd& column, double 
   return count > 1.5 ? sum / (count - 1.0) : 0.0;
 }
 
+/// Whether a file could hold the law: of a shape far from its centre the amplitude has no bound.
+bool has_bounded_numbers(const law::Law& law) {
+  const auto numbers = law::numbers_of(law.structure);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const double value = law.numbers(static_cast<Index>(k));
+    if (!(value >= numbers[k].low && value <= numbers[k].high)) return false;
+  }
+  return true;
+}
+
 /// Deviations of the law's numbers from the tangent's Gram matrix, references 0.
 VectorXd deviations(const law::Structure& structure, const MatrixXd& tangent, double inflation) {
   const MatrixXd gram = tangent.transpose() * tangent;
@@ -149,7 +159,7 @@ Discovered judged(const Data& data, const Trial& trial) {
 }
 
 bool is_accepted(const Discovered& found) {
-  return found.score >= prior::kAccepted &&
+  return has_bounded_numbers(found.law) && found.score >= prior::kAccepted &&
          found.held_out_gain >= prior::kHeldOutShare * found.gain;
 }
 

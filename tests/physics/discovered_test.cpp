@@ -252,6 +252,26 @@ TEST(DiscoveredLaw, StreamsWithoutAllocating) {
   EXPECT_EQ(test::HeapCounter::allocations(), 0);
 }
 
+TEST(DiscoveredLaw, TablesAndDelaysStepWithoutAllocating) {
+  if (!test::HeapCounter::works()) GTEST_SKIP() << "heap calls are not seen here";
+  Json numbers{{"amplitude_n", 1.0}, {"memory_1_s", 0.3},  {"centre_1_m", 0.0},
+               {"scale_1_m", 0.1},   {"scale_2_mps", 0.1}, {"memory_2_s", 0.05}};
+  for (int k = 1; k <= 5; ++k) numbers["value_1_" + std::to_string(k)] = 0.2 * k;
+  law::LawRun run(law_of(discovered(
+      R"({"axis": "base_x", "factors": [
+          {"shape": "curve", "of": "x", "memory": "delay", "centred": true, "nodes": 5, "peak": 4},
+          {"shape": "step", "of": "v_base_x", "memory": "delay"}]})",
+      numbers)));
+  law::Sample now;
+  now.euler = now.v_B = now.a_B = now.w_S = now.dw_S = now.load_S = Eigen::Vector3d::Zero();
+  const test::HeapCounter counter;
+  for (int k = 0; k < 3000; ++k) {
+    now.p_B = {0.1 * std::sin(0.01 * k), 0.0, 0.0};
+    run.step(now, 0.001, k == 0);
+  }
+  EXPECT_EQ(test::HeapCounter::allocations(), 0);
+}
+
 TEST(DiscoveredLaw, OnTheClockItDoesNotRunOnline) {
   const auto effect =
       discovered(R"({"axis": "base_x", "factors": [{"shape": "exponential", "of": "t"}]})",
