@@ -1,4 +1,5 @@
 // A law in words.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -56,7 +57,10 @@ std::string ordinal(double value) {
 
 /// "following a curve of the angle alpha, from 0.1 at -0.5 rad to 0.3 at 0.5 rad, 1 at 0 rad".
 std::string curve_clause(const FactorText& text) {
-  const std::size_t last = text.curve.size() - 1, peak = text.factor->peak;
+  const std::size_t last = text.curve.size() - 1;
+  const auto is_less = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const auto at = std::max_element(text.curve.begin(), text.curve.end(), is_less);
+  const auto peak = static_cast<std::size_t>(at - text.curve.begin());
   const auto told = [&](std::size_t node) {
     return brief(100.0 * text.curve[node]) + " % at " + brief(place(text, node)) + unit_of(text);
   };
