@@ -26,20 +26,10 @@ Data::Data(const Problem& problem) : problem_(problem) {
 
 void Data::read(const Record& record, Index begin) {
   const Motion& motion = *record.motion;
-  const bool placed = motion.p_B.rows() == motion.samples();
   std::vector<bool> there(values_.size());
   for (std::size_t c = 0; c < there.size(); ++c) there[c] = !of_axis_ || law::is_of_axes(c);
   for (Index k = 0; k < motion.samples(); ++k) {
-    law::Sample now;
-    now.R_BS = motion.R_BS[static_cast<std::size_t>(k)];
-    now.euler = motion.euler.row(k);
-    now.p_B = placed ? law::Vector3d(motion.p_B.row(k)) : law::Vector3d::Zero();
-    now.v_B = motion.v_B.row(k);
-    now.a_B = motion.a_B.row(k);
-    now.w_S = motion.w_S.row(k);
-    now.dw_S = motion.dw_S.row(k);
-    now.load_S = record.load.row(k);
-    now.t = motion.t(k);
+    const law::Sample now = law::sample_of(motion, k, record.load.row(k));
     for (std::size_t c = 0; c < values_.size(); ++c) {
       if (law::is_own(c)) break;  // the last ones
       values_[c](begin + k) = there[c] ? law::coordinate_at(c, now) : 0.0;

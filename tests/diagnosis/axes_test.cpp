@@ -411,6 +411,16 @@ TEST(DiagnoseAxes, DiscoversAnEddyCurrentBrake) {
         << (*law)["words"];
     EXPECT_NEAR(number(*law, "amplitude", "N*m"), 1.6 * sense, 0.05);
     EXPECT_NEAR(number(*law, "scale_1", "rad/s"), 0.3, 0.01);
+    // Its picture: over the velocity, the law leaves little of what is left without it.
+    ASSERT_EQ(diagnosis.portraits.size(), 1U);
+    const Portrait& picture = diagnosis.portraits[0];
+    EXPECT_NE(picture.x_label.find("velocity"), std::string::npos) << picture.x_label;
+    double alone = 0.0, beside = 0.0;
+    for (std::size_t k = 0; k < picture.x.size(); ++k) {
+      alone += picture.left[k] * picture.left[k];
+      beside += (picture.left[k] - picture.law[k]) * (picture.left[k] - picture.law[k]);
+    }
+    EXPECT_LT(beside, 0.02 * alone);
     EXPECT_LT(diagnosis.report["fit"]["holdout_rmse_after"][0].get<double>(), 1.05 * kAxisNoise);
     const AxisMachine written = parse_axis_machine(diagnosis.model, "model", Exit::kModel);
     const Recording hold = read_recording(bench / "hold.csv", ReadOptions(), written.system);

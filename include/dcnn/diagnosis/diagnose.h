@@ -47,7 +47,7 @@ struct Diagnosis {
   Simulator corrected;  ///< of a wrist tool
   Json model;           ///< model.json: the corrected simulator of a tool or a machine
   std::vector<HeldOut> holdout;
-  std::vector<Portrait> portraits;  ///< one per finding that has a natural coordinate
+  std::vector<Portrait> portraits;  ///< one per finding and coordinate of its law
 };
 
 /// Error(kData) for recordings or simulators that cannot be used. `progress` is told in words what

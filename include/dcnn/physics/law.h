@@ -160,6 +160,8 @@ struct Sample {
   Vector3d load_S;  ///< N, the force that the law is added to
   double t = 0.0;   ///< s, the recording's clock
 };
+/// Of a row of a motion that has velocities; its place is 0 where it has none.
+Sample sample_of(const Motion& motion, Eigen::Index row, const Vector3d& load_S);
 /// Not of those that are the law's own.
 double coordinate_at(std::size_t coordinate, const Sample& now);
 /// The same of all, along the unit vector `n_S` or from the point `own`.

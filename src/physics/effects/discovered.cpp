@@ -19,17 +19,8 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const T
           motion.recording, ": the discovered law needs columns x,y,z");
   Eigen::MatrixXd& on = of.structure.on_torque ? wrench.torque : wrench.force;
   law::LawRun run(of);
-  const bool placed = motion.p_B.rows() == rows;
   for (Index k = 0; k < rows; ++k) {
-    const law::Sample now{motion.R_BS[static_cast<std::size_t>(k)],
-                          motion.euler.row(k),
-                          placed ? Eigen::Vector3d(motion.p_B.row(k)) : Eigen::Vector3d::Zero(),
-                          motion.v_B.row(k),
-                          motion.a_B.row(k),
-                          motion.w_S.row(k),
-                          motion.dw_S.row(k),
-                          wrench.force.row(k),
-                          motion.t(k)};
+    const law::Sample now = law::sample_of(motion, k, wrench.force.row(k));
     const auto force = run.step(now, k > 0 ? step(motion, k) : motion.dt, k == 0);
     if (on.rows() > 0) on.row(k) += force.transpose();
   }

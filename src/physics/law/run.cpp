@@ -3,6 +3,19 @@
 
 namespace dcnn::law {
 
+Sample sample_of(const Motion& motion, Eigen::Index row, const Vector3d& load_S) {
+  const bool placed = motion.p_B.rows() == motion.samples();
+  return {motion.R_BS[static_cast<std::size_t>(row)],
+          motion.euler.row(row),
+          placed ? Vector3d(motion.p_B.row(row)) : Vector3d::Zero(),
+          motion.v_B.row(row),
+          motion.a_B.row(row),
+          motion.w_S.row(row),
+          motion.dw_S.row(row),
+          load_S,
+          motion.t(row)};
+}
+
 LawRun::LawRun(const Law& law) : structure_(law.structure) {
   const double* next = law.numbers.data();
   amplitude_ = *next++;
