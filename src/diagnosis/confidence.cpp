@@ -231,14 +231,6 @@ std::optional<std::size_t> weakest(const Search& search, const std::vector<bool>
 
 }  // namespace
 
-std::optional<std::size_t> refuted_of(const std::vector<std::optional<double>>& probabilities) {
-  std::optional<std::size_t> least;
-  for (std::size_t m = 0; m < probabilities.size(); ++m) {
-    if (probabilities[m] && (!least || *probabilities[m] < *probabilities[*least])) least = m;
-  }
-  return least && is_refuted(*probabilities[*least]) ? least : std::nullopt;
-}
-
 Json leave_refuted(Search& search, const HoldOut& holdout) {
   Json refuted = Json::array();
   while (true) {

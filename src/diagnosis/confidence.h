@@ -23,9 +23,6 @@ struct Contradicted {
 };
 std::vector<Contradicted> contradicted(const Search& search, const HoldOut& holdout);
 
-/// The member that is least probable, if it is rather wrong than right.
-std::optional<std::size_t> refuted_of(const std::vector<std::optional<double>>& probabilities);
-
 /// Of a member and of other effects in its place, which the recordings cannot exclude: their shares
 /// of the mass of all, by their evidence and what the held-out data say for or against each; the
 /// member's own first.

@@ -78,13 +78,8 @@ inline MatrixXd prediction(const Scene& at, const std::vector<Discovered>& laws)
   for (const Discovered& found : laws) {
     law::LawRun run(found.law);
     for (Index k = 0; k < at.motion.samples(); ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      const Motion& m = at.motion;
-      wrench.force.row(k) +=
-          run.step({m.R_BS[i], m.euler.row(k), m.p_B.row(k), m.v_B.row(k), m.a_B.row(k),
-                    m.w_S.row(k), m.dw_S.row(k), at.load.row(k), m.t(k)},
-                   m.dt, k == 0)
-              .transpose();
+      const law::Sample now = law::sample_of(at.motion, k, at.load.row(k));
+      wrench.force.row(k) += run.step(now, at.motion.dt, k == 0).transpose();
     }
   }
   return wrench.force - at.load;

@@ -373,11 +373,8 @@ TEST(DiscoveredLaw, EveryShapeAndMemoryIsFiniteAndTold) {
       law.numbers = Eigen::VectorXd::Constant(static_cast<Index>(list.size()), 0.5);
       law::LawRun run(law);
       for (Index k = 0; k < motion.samples(); ++k) {
-        const auto i = static_cast<std::size_t>(k);
-        const auto force = run.step({motion.R_BS[i], motion.euler.row(k), motion.p_B.row(k),
-                                     motion.v_B.row(k), motion.a_B.row(k), motion.w_S.row(k),
-                                     motion.dw_S.row(k), Eigen::Vector3d::Ones(), motion.t(k)},
-                                    0.002, k == 0);
+        const auto force =
+            run.step(law::sample_of(motion, k, Eigen::Vector3d::Ones()), 0.002, k == 0);
         ASSERT_TRUE(force.allFinite());
       }
       const Json told = law::to_json(law);
