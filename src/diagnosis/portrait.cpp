@@ -128,12 +128,13 @@ std::vector<Portrait> portraits(const Search& search) {
     std::vector<Portrait> pictures;  // by coordinate
     for (std::size_t k = 0; k < study.logs.size(); ++k) {
       const auto coordinates = coordinates_of(study, members[m], study.logs[k]);
-      pictures.resize(coordinates.size());
+      const Eigen::MatrixXd law = with[k] - rest.prediction()[k];
+      pictures.resize(std::max(pictures.size(), coordinates.size()));
       for (std::size_t i = 0; i < coordinates.size(); ++i) {
-        add_points(study, members[m], coordinates[i], left[k], with[k] - rest.prediction()[k],
-                   pictures[i]);
+        add_points(study, members[m], coordinates[i], left[k], law, pictures[i]);
       }
     }
+    std::erase_if(pictures, [](const Portrait& picture) { return picture.x.empty(); });
     list.insert(list.end(), pictures.begin(), pictures.end());
   }
   return list;

@@ -18,7 +18,7 @@ constexpr std::size_t kMostPieces = 3, kParents = 3, kModulators = 5;
 constexpr int kRounds = 3;
 constexpr int kFirstSteps = 4, kLastSteps = 15;
 constexpr double kLeastExtra = 10.0;  // of chi-square, for a modulator to be refined
-constexpr double kSameScore = 1.0;    // of chi-square, below which curves are not refined further
+constexpr double kSameScore = 1.0;    // of chi-square, for finer curves: a limit of computation
 
 /// What a second column adds to the gain of the first.
 double extra_gain(const Data& data, const Trial& trial, const VectorXd& column) {

@@ -99,7 +99,7 @@ struct Factor {
   std::size_t shape = 0, coordinate = 0;  ///< places in shapes() and coordinates()
   Memory memory = Memory::kNone;
   bool centred = false;
-  std::size_t nodes = 0;  ///< of a curve, whose greatest value is 1 and stands at node `peak`
+  std::size_t nodes = 0;  ///< of a curve, the value of which at node `peak` is 1
   std::size_t peak = 0;
   bool operator==(const Factor&) const = default;
 };
