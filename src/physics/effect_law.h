@@ -30,6 +30,7 @@ Eigen::Vector3d parameters3(Options& parameters, const std::string& stem,
 /// `per` follows the unit, as in rate_x_nps and rate_tx_nmps.
 struct Offset {
   Eigen::Vector3d force, torque;
+  bool is_zero() const { return force.isZero(0.0) && torque.isZero(0.0); }
 };
 Offset read_offset(Options& parameters, const std::string& stem, const std::string& per = "");
 

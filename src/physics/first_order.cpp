@@ -5,20 +5,17 @@
 namespace dcnn {
 
 template <class Scalar>
-void FirstOrder<Scalar>::prepare(double h) {
+typename FirstOrder<Scalar>::Step FirstOrder<Scalar>::prepared(double h) const {
   const Scalar z = pole_ * h;
-  h_ = h;
-  decay_ = elementary::exp(z);
+  const Scalar decay = elementary::exp(z);
   if (std::norm(z) < 1e-6) {  // series: the closed forms cancel
-    from_constant_ = h * (1.0 + z / 2.0 + z * z / 6.0 + z * z * z / 24.0);
-    from_ramp_ = h * (0.5 + z / 6.0 + z * z / 24.0 + z * z * z / 120.0);
-  } else {
-    from_constant_ = h * (decay_ - 1.0) / z;
-    from_ramp_ = h * (decay_ - 1.0 - z) / (z * z);
+    return {h, decay, h * (1.0 + z / 2.0 + z * z / 6.0 + z * z * z / 24.0),
+            h * (0.5 + z / 6.0 + z * z / 24.0 + z * z * z / 120.0)};
   }
+  return {h, decay, h * (decay - 1.0) / z, h * (decay - 1.0 - z) / (z * z)};
 }
 
-template void FirstOrder<double>::prepare(double);
-template void FirstOrder<std::complex<double>>::prepare(double);
+template class FirstOrder<double>;
+template class FirstOrder<std::complex<double>>;
 
 }  // namespace dcnn

@@ -1,8 +1,10 @@
 // Exact response of x' = p·x + u, of which every linear filter is made.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <complex>
+#include <cstddef>
 
 namespace dcnn {
 
@@ -15,17 +17,31 @@ class FirstOrder {
   explicit FirstOrder(Scalar pole) : pole_(pole) {}
 
   Scalar advance(Scalar x, double u0, double u1, double h) {
-    // Steps of a regular clock differ in their last digits.
-    if (std::abs(h - h_) > 1e-9 * h) prepare(h);
-    return decay_ * x + from_constant_ * u0 + from_ramp_ * (u1 - u0);
+    const Step& step = step_of(h);
+    return step.decay * x + step.from_constant * u0 + step.from_ramp * (u1 - u0);
   }
 
  private:
-  void prepare(double h);
+  struct Step {
+    double h = -1.0;
+    Scalar decay{}, from_constant{}, from_ramp{};
+  };
+  /// Steps of a regular clock differ in their last digits, and those of one whose stamps are
+  /// rounded take two or three values.
+  const Step& step_of(double h) {
+    for (std::size_t k = 0; k < kKept; ++k) {
+      const Step& step = steps_[(latest_ + k) % kKept];
+      if (std::abs(h - step.h) <= 1e-9 * h) return step;
+    }
+    latest_ = (latest_ + kKept - 1) % kKept;
+    return steps_[latest_] = prepared(h);
+  }
+  Step prepared(double h) const;
 
+  static constexpr std::size_t kKept = 4;
   Scalar pole_;
-  double h_ = -1.0;
-  Scalar decay_{}, from_constant_{}, from_ramp_{};
+  std::array<Step, kKept> steps_{};
+  std::size_t latest_ = 0;
 };
 
 }  // namespace dcnn

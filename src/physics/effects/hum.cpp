@@ -10,8 +10,9 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec&, const ToolMo
            Options& parameters) {
   const double hz = parameter(parameters, "freq_hz", 0.0);
   const Eigen::ArrayXd angle = 2.0 * std::numbers::pi * hz * motion.t.array();
-  add(wrench, read_offset(parameters, "sin"), elementary::sin(angle));
-  add(wrench, read_offset(parameters, "cos"), elementary::cos(angle));
+  const Offset sine = read_offset(parameters, "sin"), cosine = read_offset(parameters, "cos");
+  if (!sine.is_zero()) add(wrench, sine, elementary::sin(angle));
+  if (!cosine.is_zero()) add(wrench, cosine, elementary::cos(angle));
 }
 
 }  // namespace
