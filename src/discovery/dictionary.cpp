@@ -189,7 +189,13 @@ Piece remembering(Piece piece, Memory memory, double size) {
 Piece swinging(Piece piece, double hz) {
   piece.factor.memory = Memory::kSecondOrder;
   piece.memory = hz;
-  piece.damping = 0.2;
+  piece.second = 0.2;
+  return piece;
+}
+
+Piece thixotropic(Piece piece, double length, double seconds) {
+  piece = remembering(piece, Memory::kThixotropic, length);
+  piece.second = seconds;
   return piece;
 }
 

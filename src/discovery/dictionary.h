@@ -20,6 +20,8 @@ Piece centred(Piece piece, double centre);
 Piece remembering(Piece piece, law::Memory memory, double size);
 /// Behind a state of second order with this natural frequency, lightly damped.
 Piece swinging(Piece piece, double hz);
+/// Broken down by motion over `length`, rebuilt in `seconds`.
+Piece thixotropic(Piece piece, double length, double seconds);
 
 /// A factor linear in the coordinate, about the middle of its range where it has no zero.
 Piece linear_in(const Data& data, std::size_t coordinate);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #include "core/linear_algebra.h"
 #include "dcnn/core/parallel.h"
@@ -47,10 +48,11 @@ std::vector<Sketch> modulated(const Data& data, const Trial& trial) {
   std::stable_sort(gains.begin(), gains.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Sketch> list;
-  std::set<std::size_t> seen;
+  std::set<std::tuple<std::size_t, std::size_t, law::Memory>> seen;
   for (const auto& [gain, at] : gains) {
     if (gain < kLeastExtra || list.size() >= kModulators) break;
-    if (!seen.insert(pieces[at].factor.coordinate * 100 + pieces[at].factor.shape).second) continue;
+    const law::Factor& factor = pieces[at].factor;
+    if (!seen.insert({factor.coordinate, factor.shape, factor.memory}).second) continue;
     Sketch sketch = trial.sketch;
     sketch.pieces.push_back(pieces[at]);
     list.push_back(sketch);

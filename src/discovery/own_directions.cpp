@@ -63,13 +63,19 @@ void add_points(const Data& data, std::vector<Sketch>& list) {
   }
 }
 
-std::vector<Atom> atoms_of_distance(const Data& data) {
+std::vector<Atom> atoms_of_distance(const Data& data, const Sketch& point) {
   const std::size_t r = coordinate_named("distance");
   const double size = data.rms(r);
   std::vector<Atom> list{{piece("linear", r, size)}};
   for (const double p : {1.0, 2.0, 4.0}) list.push_back({piece("inverse_power", r, size, p)});
   for (const double width : {0.3, 0.8}) list.push_back({piece("gaussian", r, width * size)});
   list.push_back({piece("exponential", r, 0.5 * size)});
+  const Eigen::VectorXd distance = data.product({piece("linear", r, 1.0)}, point);
+  const double low = distance.minCoeff(), range = std::max(distance.maxCoeff() - low, kLeastRange);
+  for (const double slack : {0.25, 0.5, 0.75}) {  // what is taut beyond a length
+    list.push_back({centred(piece("one_sided", r, range, 1.0), low + slack * range)});
+  }
+  list.push_back({remembering(piece("linear", r, 1.0), Memory::kDahl, 0.1 * range)});
   return list;
 }
 
@@ -121,7 +127,7 @@ std::vector<Sketch> own_directions(const Data& data) {
 }
 
 std::vector<Atom> own_atoms(const Data& data, const Sketch& direction) {
-  if (law::is_central(direction.direction)) return atoms_of_distance(data);
+  if (law::is_central(direction.direction)) return atoms_of_distance(data, direction);
   if (direction.vector_lag > 0.0) return {{}};
   std::vector<Atom> list;
   for (const char* motion : {"v_along", "w_along"}) add_motion_along(data, motion, list);

@@ -11,6 +11,11 @@ namespace {
 
 using law::Memory;
 
+/// States that are no displacement or rate of their coordinate.
+bool has_other_unit(Memory memory) {
+  return memory == Memory::kDahl || memory == Memory::kDwell || memory == Memory::kThixotropic;
+}
+
 void add_modulators(const Data& data, std::size_t c, std::vector<Piece>& list) {
   const double range = data.half_range(c), middle = data.middle(c);
   const Kind kind = kind_of(c);
@@ -42,6 +47,12 @@ void add_modulators(const Data& data, std::size_t c, std::vector<Piece>& list) {
     for (const double length : {0.001, 0.01}) {
       const Piece aged = piece("affine", c, 1.0, 0.1);
       list.push_back(remembering(aged, Memory::kDwell, length * data.path_range(c)));
+    }
+    for (const double length : {0.1, 1.0}) {  // what motion breaks down and a rest rebuilds
+      for (const double seconds : {1.0, 5.0}) {
+        const Piece built = piece("affine", c, 1.0, 1.0);
+        list.push_back(thixotropic(built, length * data.path_range(c), seconds));
+      }
     }
   }
   if (kind != Kind::kPlace) return;
@@ -103,7 +114,7 @@ std::vector<Piece> other_shapes(const Data& data, const Piece& from) {
     p.extra = extra;
     list.push_back(p);
   };
-  if (from.factor.memory == Memory::kDahl || from.factor.memory == Memory::kDwell) return list;
+  if (has_other_unit(from.factor.memory)) return list;
   if (!from.values.empty()) return list;
   add("linear", size);
   add("power", size, 1.5);
@@ -172,7 +183,9 @@ std::vector<Piece> sampled(const Data& data, const Piece& from, std::size_t node
 
 std::vector<Piece> as_curves(const Data& data, const Piece& from) {
   constexpr std::size_t kFirst = 7, kFine = 25, kMost = 25;
-  if (from.factor.memory == Memory::kDwell || from.factor.memory == Memory::kSecondOrder) return {};
+  const Memory memory = from.factor.memory;
+  if (memory == Memory::kDwell || memory == Memory::kThixotropic) return {};
+  if (memory == Memory::kSecondOrder) return {};
   if (kind_of(from.factor.coordinate) == Kind::kClock) return {};
   const auto f = [&](double q) { return value_at(from, q); };
   if (from.values.empty()) {  // a fine table may be right where a coarse one is not
@@ -204,8 +217,7 @@ std::vector<Piece> merged(const Data& data, const Piece& first, const Piece& sec
 
 Piece without_memory(const Data& data, const Piece& from) {
   const std::size_t c = from.factor.coordinate;
-  const bool other_unit =
-      from.factor.memory == Memory::kDahl || from.factor.memory == Memory::kDwell;
+  const bool other_unit = has_other_unit(from.factor.memory);
   if (other_unit && kind_of(c) != Kind::kPlace) return piece("tanh", c, 0.3 * data.rms(c));
   if (other_unit) return centred(piece("tanh", c, 0.3 * data.half_range(c)), data.middle(c));
   Piece plain = from;

@@ -13,8 +13,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSettled = 0.05;  // of chi-square
-constexpr double kLeastLength = 0.05;
+constexpr double kSettled = 0.05;                           // of chi-square
+constexpr double kFirstDamping = 1e-6, kMostDamping = 1e3;  // of the diagonal
+constexpr double kDamped = 30.0;  // times more after a step that is no better, less after others
 constexpr double kFarthestPoint = 3.0;  // diagonals of what was reached
 constexpr double kSteepest = 3.0;       // of an oblique axis: beyond 1 another axis is nearer
 
@@ -51,7 +52,11 @@ void add_handles(const Data& data, Piece& piece, std::vector<Handle>& list) {
     list.push_back(positive(piece.memory, 2.0 * data.dt(), 0.5 * data.seconds()));
   } else if (piece.factor.memory == law::Memory::kSecondOrder) {
     list.push_back(positive(piece.memory, 1.0 / data.seconds(), 0.25 / data.dt()));
-    list.push_back(positive(piece.damping, law::kLeastDamping, law::kMostDamping));
+    list.push_back(positive(piece.second, law::kLeastDamping, law::kMostDamping));
+  } else if (piece.factor.memory == law::Memory::kThixotropic) {
+    const double path = data.path_range(c);
+    list.push_back(positive(piece.memory, 1e-3 * path, 100.0 * path));
+    list.push_back(positive(piece.second, 2.0 * data.dt(), data.seconds()));
   } else if (piece.factor.memory == law::Memory::kPlay) {
     list.push_back(positive(piece.memory, 1e-3 * data.half_range(c), data.half_range(c)));
   } else if (piece.factor.memory != law::Memory::kNone) {
@@ -163,14 +168,25 @@ void add_bending(const Data& data, const Trial& here, MatrixXd& gram, VectorXd& 
   }
 }
 
-VectorXd best_step(const Data& data, const Trial& here, const MatrixXd& slopes) {
+/// Normal equations of a step of the numbers, the amplitude first.
+struct Normal {
+  MatrixXd gram;
+  VectorXd score;
+  /// Damped by a share of the diagonal (Marquardt 1963), without the amplitude's.
+  VectorXd step(double damping) const {
+    MatrixXd damped = gram;
+    damped.diagonal().tail(gram.cols() - 1) *= 1.0 + damping;
+    return solve_gram(damped, score, 1e-9).bottomRows(gram.cols() - 1);
+  }
+};
+
+Normal normal_of(const Data& data, const Trial& here, const MatrixXd& slopes) {
   MatrixXd A(slopes.rows(), slopes.cols() + 1);
   A << here.column, here.sketch.amplitude * slopes;
   const VectorXd left = data.problem().residual - here.sketch.amplitude * here.column;
-  MatrixXd gram = A.transpose() * A;
-  VectorXd score = A.transpose() * left;
-  add_bending(data, here, gram, score);
-  return solve_gram(gram, score, 1e-9).bottomRows(slopes.cols());
+  Normal normal{A.transpose() * A, A.transpose() * left};
+  add_bending(data, here, normal.gram, normal.score);
+  return normal;
 }
 
 }  // namespace
@@ -197,26 +213,28 @@ Trial weighed(const Data& data, const Sketch& sketch) {
 
 Trial refined(const Data& data, const Sketch& sketch, int most_steps) {
   Trial here = weighed(data, sketch);
+  double damping = kFirstDamping;
   for (int step = 0; step < most_steps && here.gain > 0.0; ++step) {
     const MatrixXd slopes = derivatives(data, here);
     if (slopes.cols() == 0) break;
-    const VectorXd change = best_step(data, here, slopes);
-    if (!change.allFinite()) break;
+    const Normal normal = normal_of(data, here, slopes);
     const double before = here.gain;
     bool better = false;
-    for (double length = 1.0; length > kLeastLength && !better; length *= 0.35) {
+    for (; damping < kMostDamping && !better; damping *= better ? 1.0 : kDamped) {
+      const VectorXd change = normal.step(damping);
+      if (!change.allFinite()) break;
       Sketch next = here.sketch;
       const auto handles = handles_of(data, next);
       for (std::size_t k = 0; k < handles.size(); ++k) {
         const double most = handles[k].most;
-        handles[k].set(handles[k].get() +
-                       length * std::clamp(change(static_cast<Index>(k)), -most, most));
+        handles[k].set(handles[k].get() + std::clamp(change(static_cast<Index>(k)), -most, most));
       }
       Trial there = weighed(data, next);
       better = there.gain > here.gain;
       if (better) here = std::move(there);
     }
     if (!better || here.gain - before < kSettled) break;
+    damping = std::max(kFirstDamping, damping / kDamped);
   }
   return here;
 }

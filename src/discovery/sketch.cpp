@@ -38,7 +38,7 @@ bool has_vector_scale(const Sketch& sketch) {
 template <class AnyPiece, class Visit>
 void each_number_of(AnyPiece& piece, const Visit& visit) {
   if (piece.factor.memory != law::Memory::kNone) visit(piece.memory);
-  if (piece.factor.memory == law::Memory::kSecondOrder) visit(piece.damping);
+  if (law::numbers_of(piece.factor.memory) > 1) visit(piece.second);
   if (piece.factor.centred) visit(piece.centre);
   visit(piece.scale);
   if (*law::shapes()[piece.factor.shape].extra) visit(piece.extra);

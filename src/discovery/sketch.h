@@ -10,7 +10,8 @@ namespace dcnn::discovery {
 
 struct Piece {
   law::Factor factor;
-  double memory = 0.0, damping = 0.0, centre = 0.0, scale = 1.0, extra = 0.0;
+  double memory = 0.0, second = 0.0;  ///< of a state, where it has them
+  double centre = 0.0, scale = 1.0, extra = 0.0;
   std::vector<double> values = {};  ///< of a curve, at its nodes
 };
 

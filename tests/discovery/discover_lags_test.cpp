@@ -81,6 +81,56 @@ TEST(Discover, LiquidThatSwings) {
 }
 
 // "Stronger by 10^6 % where the speed is near 0" is "where the speed is near 0": one number fewer.
+TEST(Discover, DragThatMotionBreaksDownAndRestRebuilds) {
+  const auto gel = [](const Scene& at) {
+    MatrixXd force(at.motion.samples(), 3);
+    double built = 1.0 / (1.0 + 4.0 * std::abs(at.motion.v_B(0, 1)) / 0.03);
+    for (Index k = 0; k < force.rows(); ++k) {
+      const double v = at.motion.v_B(k, 1), before = at.motion.v_B(std::max<Index>(0, k - 1), 1);
+      for (int part = 0; part < 100; ++part) {  // Euler's steps of 0.2 ms
+        const double speed = std::abs(before + 0.01 * part * (v - before));
+        built += 0.01 * at.motion.dt * ((1.0 - built) / 4.0 - speed * built / 0.03);
+      }
+      force.row(k) =
+          -0.4 * v * (1.0 + 5.0 * built) * at.motion.R_BS[static_cast<std::size_t>(k)].row(1);
+    }
+    return force;
+  };
+  const double sigma = 0.01;
+  const Scene at = scene(3, 2500), other = scene(77, 2500);
+  const auto laws = discover(problem_of(at, gel(at) + white(2500, sigma, 41), sigma));
+  ASSERT_FALSE(laws.empty());
+  EXPECT_NE(law::expression(laws[0].law).find("thixotropic"), std::string::npos)
+      << law::expression(laws[0].law);
+  const MatrixXd error = prediction(other, laws) - gel(other);
+  EXPECT_LE(std::sqrt(error.squaredNorm() / static_cast<double>(error.size())), 0.32 * sigma)
+      << law::expression(laws[0].law);
+}
+
+TEST(Discover, ATetherThatIsTautBeyondItsLength) {
+  const Scene at = scene(3, 2000);
+  const Eigen::Vector3d hook =
+      at.motion.p_B.colwise().mean().transpose() + Eigen::Vector3d(-0.1, 0.06, 0.12);
+  double shortest = 1.0, longest = 0.0;
+  for (Index k = 0; k < 2000; ++k) {
+    const double r = (hook - at.motion.p_B.row(k).transpose()).norm();
+    shortest = std::min(shortest, r), longest = std::max(longest, r);
+  }
+  const double length = 0.5 * (shortest + longest);
+  const Truth tether = [&](const Motion& m, const MatrixXd&, Index k) {
+    const Eigen::Vector3d d = hook - m.p_B.row(k).transpose();
+    return Eigen::Vector3d(m.R_BS[static_cast<std::size_t>(k)].transpose() * d.normalized() *
+                           (5.0 * std::max(0.0, d.norm() - length)));
+  };
+  const auto laws = discover(problem_of(at, force_of(at, tether) + white(2000, 0.01, 42), 0.01));
+  ASSERT_FALSE(laws.empty());
+  EXPECT_NE(law::expression(laws[0].law).find("from_point("), std::string::npos)
+      << law::expression(laws[0].law);
+  const Scene other = scene(77, 2000);
+  const MatrixXd error = prediction(other, laws) - force_of(other, tether);
+  EXPECT_LE(std::sqrt(error.squaredNorm() / static_cast<double>(error.size())), 0.0032);
+}
+
 TEST(Discover, AModulatorOfWhichOnlyOneIsNoPartLosesIt) {
   static const Scene at = scene(3, 500);
   const Problem problem = problem_of(at, white(500, kBlockNoise, 4), kBlockNoise);

@@ -101,6 +101,32 @@ TEST(DiscoveredLaw, SecondOrderIsItsStepResponse) {
   }
 }
 
+TEST(DiscoveredLaw, AThixotropicStateFallsToItsEquilibriumAndRecoversAtRest) {
+  const double v = 0.05, length = 0.02, recovery = 3.0, dt = 0.002;
+  Eigen::VectorXd motion = Eigen::VectorXd::Zero(3000);
+  motion.segment(1, 1000).setConstant(v);  // after a rest of any length, and before another
+  const auto effect = discovered(
+      R"({"axis": "base_x",
+          "factors": [{"shape": "linear", "of": "v_base_x", "memory": "thixotropic"}]})",
+      {{"amplitude_n", 2.0}, {"memory_1_m", length}, {"recovery_1_s", recovery}, {"scale_1", 1.0}});
+  const Wrench wrench = applied(effect, moving(motion, dt), no_wrench(3000));
+  EXPECT_EQ(wrench.force(0, 0), 2.0);
+  const double rate = 1.0 / recovery + v / length, settled = 1.0 / (recovery * rate);
+  for (Index k = 1; k <= 1000; ++k) {  // the first step is a ramp: half of one
+    const double t = (static_cast<double>(k) - 0.5) * dt;
+    ASSERT_NEAR(wrench.force(k, 0), 2.0 * (settled + (1.0 - settled) * std::exp(-rate * t)), 1e-4);
+  }
+  for (Index k = 1002; k < 3000; ++k) {
+    const double t = static_cast<double>(k - 1001) * dt;
+    const double left = 1.0 - 0.5 * wrench.force(1001, 0);
+    ASSERT_NEAR(wrench.force(k, 0), 2.0 * (1.0 - left * std::exp(-t / recovery)), 1e-9);
+  }
+  // One that begins in motion has moved so for long.
+  const Wrench steady =
+      applied(effect, moving(Eigen::VectorXd::Constant(100, v), dt), no_wrench(100));
+  for (Index k = 0; k < 100; ++k) ASSERT_NEAR(steady.force(k, 0), 2.0 * settled, 1e-12);
+}
+
 TEST(DiscoveredLaw, ADelayIsTheMotionAsItWas) {
   Eigen::VectorXd v = Eigen::ArrayXd::LinSpaced(2000, 0.0, 5.0).sin();
   for (const double delay : {0.0007, 0.0123, 0.31}) {  // less than a sample, and of thinned samples

@@ -89,8 +89,10 @@ enum class Memory {
   kDwell,  ///< s' = 1 - abs(x') s/length: seconds of contact (Dieterich 1979)
   kSecondOrder,  ///< s'' = w^2 (q - s) - 2 d w s', w the natural frequency, d the damping ratio
   kDelay,        ///< q as it was so many seconds ago
+  /// s' = (1 - s)/recovery - abs(x') s/length: 1 after a rest, broken down by motion (Moore 1959)
+  kThixotropic,
 };
-/// Numbers of a state: a size, and the damping ratio of the second order.
+/// Numbers of a state: a size, and the damping ratio of the second order or the time of recovery.
 int numbers_of(Memory memory);
 /// Of a state of second order: below 1, where two lags do the same.
 constexpr double kLeastDamping = 0.005, kMostDamping = 0.98;
@@ -213,7 +215,7 @@ class FactorRun {
   std::vector<double> curve_;  // values at its nodes
   Memory memory_;
   bool is_rate_;
-  double size_ = 1.0, centre_ = 0.0, scale_ = 1.0, extra_ = 0.0;
+  double size_ = 1.0, recovery_ = 1.0, centre_ = 0.0, scale_ = 1.0, extra_ = 0.0;
   double s_ = 0.0, before_ = 0.0;
   LagRun<double> lag_;
   DelayRun delay_;

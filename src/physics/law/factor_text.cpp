@@ -20,7 +20,7 @@ std::vector<FactorText> texts_of(const Law& law, const Terms& terms) {
                list[i].name.starts_with(stem + text.index + "_");
       };
       if (begins("memory_")) text.memory = told;
-      if (begins("damping_")) text.damping = told;
+      if (begins("damping_") || begins("recovery_")) text.second = told;
       if (begins("centre_")) text.centre = told, text.centre_value = value;
       if (begins("scale_")) text.scale = told, text.scale_value = value;
       if (begins("power_") || begins("ratio_") || begins("gain_")) text.extra = value;
@@ -29,6 +29,12 @@ std::vector<FactorText> texts_of(const Law& law, const Terms& terms) {
     texts.push_back(text);
   }
   return texts;
+}
+
+std::string state_unit(const Factor& factor, const Coordinate& q) {
+  if (factor.memory == Memory::kDahl || factor.memory == Memory::kThixotropic) return "";
+  if (factor.memory == Memory::kDwell) return "s";
+  return q.unit;
 }
 
 double place(const FactorText& text, std::size_t node) {

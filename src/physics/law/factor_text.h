@@ -13,13 +13,15 @@ struct FactorText {
   const Factor* factor;
   const Shape* shape;
   const Coordinate* q;
-  std::string index = {}, memory = {}, damping = {}, centre = {}, scale = {};
+  std::string index = {}, memory = {}, second = {}, centre = {}, scale = {};
   double centre_value = 0.0, scale_value = 1.0, extra = 0.0;
   std::vector<double> curve = {};  // values at its nodes
 };
 
 /// One per factor.
 std::vector<FactorText> texts_of(const Law& law, const Terms& terms);
+/// Unit of what the shape is taken of.
+std::string state_unit(const Factor& factor, const Coordinate& q);
 /// Place of a node of a curve, in the unit of what the curve is taken of.
 double place(const FactorText& text, std::size_t node);
 /// "N", "N*m", or that of a machine's drive.

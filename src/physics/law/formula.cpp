@@ -21,7 +21,7 @@ const char* memory_name(Memory memory) {
       {Memory::kLag, "lag"},     {Memory::kHighPass, "highpass"},
       {Memory::kPlay, "play"},   {Memory::kDahl, "dahl"},
       {Memory::kDwell, "dwell"}, {Memory::kSecondOrder, "second_order"},
-      {Memory::kDelay, "delay"}};
+      {Memory::kDelay, "delay"}, {Memory::kThixotropic, "thixotropic"}};
   return names.at(memory);
 }
 
@@ -30,7 +30,7 @@ std::string state_expression(const FactorText& text) {
   const std::string& q = text.q->name;
   if (text.factor->memory == Memory::kNone) return q;
   return std::string(memory_name(text.factor->memory)) + "(" + q + ", " + text.memory +
-         (text.damping.empty() ? "" : ", " + text.damping) + ")";
+         (text.second.empty() ? "" : ", " + text.second) + ")";
 }
 
 /// "curve(alpha; -0.5: 0.1, 0: 1, 0.5: 0.3)", places in the unit of the coordinate.
@@ -74,13 +74,11 @@ std::string latex_factor(const FactorText& text) {
   if (cut != std::string::npos) {
     q = name.substr(0, cut) + "_{\\text{" + replaced(name.substr(cut + 1), "_", " ") + "}}";
   }
-  const std::string state = text.factor->memory == Memory::kDahl    ? ""
-                            : text.factor->memory == Memory::kDwell ? "s"
-                                                                    : text.q->unit;
+  const std::string state = state_unit(*text.factor, *text.q);
   if (text.factor->memory != Memory::kNone) {
     q = std::string("\\mathcal{M}_{\\text{") + memory_name(text.factor->memory) + "}," +
-        replaced(text.memory, " ", "\\,") + (text.damping.empty() ? "" : "," + text.damping) +
-        "}[" + q + "]";
+        replaced(text.memory, " ", "\\,") +
+        (text.second.empty() ? "" : "," + replaced(text.second, " ", "\\,")) + "}[" + q + "]";
   }
   if (text.factor->centred && text.curve.empty()) {
     q += " - " + latex_number(text.centre_value, state);

@@ -63,6 +63,13 @@ double dwell(double s, double path, double h, double length) {
   return settled + (s - settled) * elementary::exp(-turns);
 }
 
+/// s' = (1 - s)/recovery - speed s/length over h at constant speed.
+double thixotropic(double s, double speed, double h, double length, double recovery) {
+  const double rate = 1.0 / recovery + speed / length;
+  const double settled = 1.0 / (recovery * rate);
+  return settled + (s - settled) * elementary::exp(-h * rate);
+}
+
 }  // namespace
 
 const std::vector<Shape>& shapes() {
@@ -126,7 +133,8 @@ double curve_at(const double* values, std::size_t count, double u) {
 }
 
 int numbers_of(Memory memory) {
-  return memory == Memory::kNone ? 0 : memory == Memory::kSecondOrder ? 2 : 1;
+  if (memory == Memory::kNone) return 0;
+  return memory == Memory::kSecondOrder || memory == Memory::kThixotropic ? 2 : 1;
 }
 
 std::size_t numbers_of(const Factor& factor) {
@@ -143,6 +151,7 @@ FactorRun::FactorRun(const Factor& factor, const double* numbers)
       pole_(factor.memory == Memory::kSecondOrder ? pole_of(numbers[0], numbers[1]) : 0.0),
       swing_(pole_) {
   if (memory_ != Memory::kNone) size_ = *numbers;
+  if (memory_ == Memory::kThixotropic) recovery_ = numbers[1];
   if (memory_ == Memory::kSecondOrder) gain_ = std::norm(pole_) / pole_.imag();
   numbers += numbers_of(memory_);
   if (factor.centred) centre_ = *numbers++;
@@ -171,6 +180,13 @@ double FactorRun::state(double q, double h, bool first) {
       return gain_ * x_.imag();
     case Memory::kDelay:
       return delay_.step(q, h, first);
+    case Memory::kThixotropic:
+      if (first) {  // as if it had moved so for long
+        s_ = is_rate_ ? 1.0 / (1.0 + recovery_ * std::abs(q) / size_) : 1.0;
+      } else {
+        s_ = thixotropic(s_, std::abs(moved) / h, h, size_, recovery_);
+      }
+      return s_;
     default:
       s_ = first ? 0.0 : dwell(s_, std::abs(moved), h, size_);
       return s_;

@@ -4,12 +4,13 @@
 
 #include "dcnn/physics/law.h"
 #include "physics/effect_law.h"
+#include "physics/law/factor_text.h"
 
 namespace dcnn::law {
 namespace {
 
-const std::vector<std::string> kMemories{"none", "lag",   "high_pass",    "play",
-                                         "dahl", "dwell", "second_order", "delay"};
+const std::vector<std::string> kMemories{"none",  "lag",          "high_pass", "play",       "dahl",
+                                         "dwell", "second_order", "delay",     "thixotropic"};
 constexpr std::size_t kMostFactors = 4;
 const std::vector<std::string> kToldAgain{"expression", "latex", "words", "coordinates", "states"};
 
@@ -81,16 +82,12 @@ std::string path_unit(const Coordinate& q) {
 
 std::string memory_unit(const Factor& factor, const Coordinate& q) {
   if (factor.memory == Memory::kPlay) return q.unit;
-  if (factor.memory == Memory::kDahl || factor.memory == Memory::kDwell) return path_unit(q);
+  if (factor.memory == Memory::kDahl || factor.memory == Memory::kDwell ||
+      factor.memory == Memory::kThixotropic) {
+    return path_unit(q);
+  }
   if (factor.memory == Memory::kSecondOrder) return "Hz";
   return "s";
-}
-
-/// Unit of what the shape is taken of.
-std::string state_unit(const Factor& factor, const Coordinate& q) {
-  if (factor.memory == Memory::kDahl) return "";
-  if (factor.memory == Memory::kDwell) return "s";
-  return q.unit;
 }
 
 void add_numbers(const Factor& factor, const std::string& index, const Terms& terms,
@@ -107,6 +104,7 @@ void add_numbers(const Factor& factor, const std::string& index, const Terms& te
   if (factor.memory == Memory::kSecondOrder) {
     add("damping_", "", false, kLeastDamping, kMostDamping);
   }
+  if (factor.memory == Memory::kThixotropic) add("recovery_", "s", false, 1e-4, 1e5);
   const std::string unit = state_unit(factor, q);
   if (factor.centred) add("centre_", unit, !shape.free_centre, -1e9, 1e9);
   add("scale_", unit, !shape.free_scale, shape.signed_scale ? -1e9 : 1e-9, 1e9);

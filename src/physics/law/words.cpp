@@ -24,9 +24,12 @@ std::string subject(const FactorText& text) {
       return "the presliding of " + q + " over " + text.memory;
     case Memory::kSecondOrder:
       return q + " behind a second-order lag of " + text.memory + " and damping ratio " +
-             text.damping;
+             text.second;
     case Memory::kDelay:
       return q + " " + text.memory + " before";
+    case Memory::kThixotropic:
+      return "a structure that " + text.memory + " of " + q + " breaks down and " + text.second +
+             " of rest rebuild (thixotropy)";
     case Memory::kDwell:
       return "the time that " + q + " needed for the last " + text.memory;
     default:
