@@ -55,7 +55,8 @@ Recording predict_with_machine(const AxisMachine& machine, const std::filesystem
 }
 
 Recording predict_with_simulator(const std::filesystem::path& model,
-                                 const std::filesystem::path& data, const ReadOptions& read) {
+                                 const std::filesystem::path& data, ReadOptions read) {
+  read.static_list = true;
   if (const Json json = read_json(model, Exit::kData); is_axis_machine(json)) {
     return predict_with_machine(parse_axis_machine(json, model.string(), Exit::kModel), data, read);
   }

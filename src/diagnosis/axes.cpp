@@ -221,7 +221,8 @@ Diagnosis diagnose_axes(const DiagnosisRequest& request,
           if (progress) progress(plan->axis().name + ": " + text);
         });
     machine.axes.push_back({plan->columns, base, diagnosis.corrected.effects,
-                            *diagnosis.corrected.derivative, plan->sense});
+                            diagnosis.corrected.derivative.value_or(DerivativeSpec{}),
+                            plan->sense});
     translate(diagnosis, *plan);
     reports.push_back(diagnosis.report);
     for (const double error : given) uncorrected += error;

@@ -20,7 +20,8 @@ namespace {
 constexpr double kBaseTolerance = 1e-3;  // of a column's length that others must leave
 
 std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
-                                const ReadOptions& options, const System& system) {
+                                ReadOptions options, const System& system) {
+  options.static_list = true;
   std::vector<Recording> recordings;
   for (const auto& path : paths) {
     recordings.push_back(read_recording(path, options, system));
@@ -99,7 +100,7 @@ std::vector<Index> used_columns(const std::vector<Recording>& recordings, const 
 bool moves(const Case& study) {
   constexpr double kDeviations = 10.0;
   const std::string& name = study.axis->axis().position;
-  if (name.empty()) return true;
+  if (name.empty() || study.is_static()) return true;
   Signals position;
   double square = 0.0, rows = 0.0;
   for (const Log& log : study.logs) {
@@ -133,6 +134,7 @@ double end_of_motion(const std::vector<Recording>& recordings, const System& sys
     if (!axis.simulated.empty()) forces.back() -= recording.column(axis.simulated);
   }
   const double dt = recordings.front().dt;
+  if (dt == 0.0) return Case().motion_hz;
   const double band = std::max(Case().motion_hz, motion_band(positions, dt));
   return std::max(band, band_of_position_lines(forces, positions, dt, band));
 }

@@ -137,8 +137,11 @@ Json unnamed_part(const Search& search, const std::vector<BandTest>& bands, cons
   const auto most =
       std::max_element(bands.begin(), bands.end(),
                        [](const BandTest& a, const BandTest& b) { return a.excess < b.excess; });
-  part["words"] = "something that no effect of the catalogue explains, mostly between " +
-                  brief(most->from_hz) + " and " + brief(most->to_hz) + " Hz";
+  std::string something = "something that no effect of the catalogue explains";
+  if (!study.is_static()) {  // rows of poses have no frequency
+    something += ", mostly between " + brief(most->from_hz) + " and " + brief(most->to_hz) + " Hz";
+  }
+  part["words"] = something;
   const bool holds = std::all_of(laws.begin(), laws.end(),
                                  [](const Json& law) { return law["law"]["established"] == true; });
   part["suffices"] = held_out && !refuted && !laws.empty() && holds;

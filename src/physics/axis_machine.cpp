@@ -22,6 +22,10 @@ Rates rates_of(const Recording& recording, const Axis& axis, const DerivativeSpe
   if (!axis.position.empty()) rates.q = recording.column(axis.position);
   if (!axis.velocity.empty()) rates.v = recording.column(axis.velocity);
   if (!axis.acceleration.empty()) rates.a = recording.column(axis.acceleration);
+  if (recording.dt == 0.0) {  // positions at rest
+    rates.v = rates.a = VectorXd::Zero(recording.samples());
+    return rates;
+  }
   const bool has_v = rates.v.size() > 0, has_a = rates.a.size() > 0;
   if (!has_v && rates.q.size() > 0) {
     const Derivatives d = differentiate(rates.q, recording, spec);
@@ -97,13 +101,12 @@ MatrixXd payload_columns(const Recording& recording, const System& system, std::
 }
 
 Motion axis_motion(const Recording& recording, const Axis& axis, const DerivativeSpec& derivative) {
-  require(recording.dt > 0.0, Exit::kData, recording.name,
-          ": a system of axes needs the time; add column t");
   const Rates rates = rates_of(recording, axis, derivative);
   const Index samples = recording.samples();
   Motion motion;
   motion.recording = recording.name;
-  motion.t = recording.column("t");
+  motion.has_clock = recording.has("t");
+  motion.t = times_of(recording);
   motion.dt = recording.dt;
   motion.of_axis = true;
   motion.segments = recording.segments;

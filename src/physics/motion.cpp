@@ -94,6 +94,12 @@ void stand_still(Motion& motion, Index samples) {
 
 }  // namespace
 
+Eigen::VectorXd times_of(const Recording& recording) {
+  if (recording.has("t")) return recording.column("t");
+  return Eigen::VectorXd::LinSpaced(recording.samples(), 0.0,
+                                    static_cast<double>(recording.samples() - 1));
+}
+
 MatrixXd continuous_euler(const Recording& recording) {
   MatrixXd euler = euler_angles(recording);
   const std::vector<std::string> names{"alpha", "beta", "gamma"};
@@ -118,10 +124,8 @@ Motion motion_of(const Recording& recording, const ToolModel& model,
   motion.euler = continuous_euler(recording);
   if (recording.has("temperature")) motion.temperature = recording.column("temperature");
   if (motion.is_static()) {
-    const auto last = static_cast<double>(recording.samples() - 1);
     motion.has_clock = recording.has("t");
-    motion.t = motion.has_clock ? recording.column("t")
-                                : Eigen::VectorXd::LinSpaced(recording.samples(), 0.0, last);
+    motion.t = times_of(recording);
     stand_still(motion, recording.samples());
   } else {
     motion.t = recording.column("t");

@@ -49,6 +49,9 @@ Motion motion_of(const Recording& recording, const ToolModel& model,
 /// The exact motion of a trajectory, without numerical differentiation.
 Motion motion_of(const Trajectory& trajectory, const ToolModel& model);
 
+/// t, or the rows in their order where there is none, (T).
+Eigen::VectorXd times_of(const Recording& recording);
+
 /// Euler angles of a recording as one continuous branch, (T,3): the logged ones where the log
 /// itself is continuous; where it jumps at +-pi, unwrapped onto the branch with a mean in [0, 2
 /// pi), so that recordings of a tool that points down share one branch whichever side they begin
