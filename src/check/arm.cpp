@@ -183,13 +183,6 @@ VectorXd solve(const std::vector<NormalJoint>& joints, const VectorXd& weight) {
   return below ? VectorXd(normal.ldlt().solve(right)) : x;
 }
 
-/// Of a joint's residuals.
-double independent_residuals_of_joint(const Log& log, const Sampled& rows) {
-  const double poses = 0.75 * static_cast<double>(rows.centres.size());
-  const double slow = kIndependentPerSecond * rows.seconds(log.rows());
-  return std::min({kMostIndependent, poses, rows.half == 0 ? poses : slow});
-}
-
 double deviation(const VectorXd& values) {
   const VectorXd centred = values.array() - values.mean();
   return std::sqrt(centred.squaredNorm() / static_cast<double>(std::max<Index>(1, centred.size())));
@@ -223,7 +216,7 @@ ArmFit fit_arm(const Log& log, const Sampled& all, const Reading& reading) {
   const auto normal = normal_joints(chain, motion_of(log, rows, reading), fit.torque, prior);
   fit.variance = rms.cwiseAbs2();
   fit.floor = floors_of(fit.torque, normal);
-  fit.independent = independent_residuals_of_joint(log, rows);
+  fit.independent = independent_residuals(log, rows);
   VectorXd x, weight;
   for (int k = 0; k < kReweightings; ++k) {
     weight = fit.independent / static_cast<double>(n) *

@@ -208,7 +208,7 @@ Adopted adopt(const Log& log) {
   out.rows = sample(log);
   out.compared = log.is_wrist() && static_cast<Index>(out.rows.centres.size()) >= kFewestCentres &&
                  !is_dead(log);
-  out.independent = independent_residuals(out.rows);
+  out.independent = independent_residuals(log, out.rows);
   Motions motions(log, out.rows);
   const double prior = adopt_rounds(log, out.compared ? &motions : nullptr, out);
   if (out.compared) {

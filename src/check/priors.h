@@ -39,9 +39,9 @@ constexpr double kWiderRarer = 3.0;
 constexpr double kLinkError = 0.3;
 /// Share of a joint's torque that a described arm may be wrong by.
 constexpr double kArmError = 0.05;
-/// Independent residuals of a joint in a second: what a description leaves is as slow as the
-/// motion.
-constexpr double kIndependentPerSecond = 1.0;
+/// Independent residuals in a second: what a description of the rigid bodies leaves is as slow as
+/// the motion, which has a band of some 1 Hz.
+constexpr double kIndependentPerSecond = 2.0;
 /// Mass of what an arm carries, over its own.
 constexpr double kPayloadShare = 0.1;
 

@@ -78,7 +78,7 @@ std::vector<JointRate> joint_rates(const Log& log, const Sampled& rows, const Re
 
 double rates_weight(const Log& log, const Sampled& rows, const Reading& reading) {
   if (rows.half == 0 || rows.centres.size() < 12) return 0.0;
-  const double independent = independent_residuals(rows);
+  const double independent = independent_residuals(log, rows);
   double each = 0.0;
   std::vector<double> all;  // of one meaning for every rate
   for (const JointRate& joint : joint_rates(log, rows, reading)) {

@@ -66,8 +66,8 @@ struct Sampled {
 };
 /// No rows where a motion is too short to be differentiated.
 Sampled sample(const Log& log);
-/// Effective number of residuals.
-double independent_residuals(const Sampled& rows);
+/// Effective number of residuals of an axis.
+double independent_residuals(const Log& log, const Sampled& rows);
 
 /// The motion as one reading has it, per sample.
 struct Kinematics {

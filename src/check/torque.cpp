@@ -121,7 +121,7 @@ double TorqueDesign::lever_weight(const TorqueFit& fit) const {
   }
   const double lever = std::max(fit.moment.norm() / e_.adopted.fit.mass, kShortestLever);
   const double told = fit.moment.dot(fit.covariance.ldlt().solve(fit.moment));
-  const double residuals = std::min(kMostIndependent, 0.75 * static_cast<double>(logged_.rows()));
+  const double residuals = e_.adopted.independent;
   // The likeliest lever under its prior and the recording together, as for a mass.
   double best = -1e300;
   for (int k = 0; k <= kLeverSteps; ++k) {
@@ -140,7 +140,7 @@ double TorqueDesign::lever_weight(const TorqueFit& fit) const {
 double TorqueDesign::force_weight(const TorqueFit& fit) const {
   if (!e_.adopted.motion.has_position) return 0.0;
   const auto n = static_cast<double>(logged_.rows());
-  const double residuals = std::min(kMostIndependent, 0.75 * n);
+  const double residuals = e_.adopted.independent;
   const double error = std::max(kLinkError * fit.moment.norm(), kOtherPoint * force_.mass);
   const Matrix3d own = 3.0 * n / residuals * force_.covariance.block<3, 3>(1, 1);
   const Matrix3d both = own + fit.covariance / residuals + error * error * Matrix3d::Identity();
@@ -153,7 +153,7 @@ double TorqueDesign::force_weight(const TorqueFit& fit) const {
 
 double TorqueDesign::log_weight(const TorqueReading& reading) const {
   const TorqueFit found = fit(reading);
-  const double residuals = std::min(kMostIndependent, 0.75 * static_cast<double>(logged_.rows()));
+  const double residuals = e_.adopted.independent;
   const double floor = kToolError * size_of(logged_);
   return elementary::log(reading.prior) + lever_weight(found) + force_weight(found) -
          0.5 * residuals * log_variance(found.residual / reading.unit, floor);

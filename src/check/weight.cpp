@@ -65,7 +65,7 @@ double mass_weight(const Log& log, const Sampled& rows, const RigidFit& fit,
     const double subtracted =
         reading.weight_apart ? plausibility((mass - fit.weighed) / mass, kSubtracted) : 0.0;
     return plausibility(mass, typical) + subtracted -
-           0.5 * independent_residuals(rows) * elementary::log(1.0 + z * z);
+           0.5 * independent_residuals(log, rows) * elementary::log(1.0 + z * z);
   };
   const double estimate = std::max(fit.free_mass, kLeastMass);
   double best = weight(estimate);
@@ -81,20 +81,23 @@ double fit_weight(const Log& log, const Sampled& rows, const RigidFit& fit,
   const Eigen::MatrixXd logged = rows.smoothed(log.block({"fx", "fy", "fz"}), rows.value);
   const double floor = kToolError * rms(about_mean(logged)) / std::sqrt(3.0);
   // In the units of the log: a density of what was logged.
-  return -0.5 * independent_residuals(rows) * log_variance(fit.residual / reading.force, floor);
+  return -0.5 * independent_residuals(log, rows) *
+         log_variance(fit.residual / reading.force, floor);
 }
 
 }  // namespace
 
-double independent_residuals(const Sampled& rows) {
-  return std::min(kMostIndependent, 0.75 * static_cast<double>(rows.centres.size()));
+double independent_residuals(const Log& log, const Sampled& rows) {
+  const double poses = 0.75 * static_cast<double>(rows.centres.size());
+  const double slow = kIndependentPerSecond * rows.seconds(log.rows());
+  return std::min({kMostIndependent, poses, rows.half == 0 ? poses : slow});
 }
 
 double log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
                   const Reading& reading) {
   double sum = elementary::log(reading.prior) + angle_weight(log, reading);
   if (reading.estimated > 0) {  // Schwarz' penalty
-    sum -= 0.5 * reading.estimated * elementary::log(independent_residuals(rows));
+    sum -= 0.5 * reading.estimated * elementary::log(independent_residuals(log, rows));
   }
   if (log.smooth && log.step > 0.0) sum += clock_weight(log, reading.clock);
   if (!log.joints.empty()) {
