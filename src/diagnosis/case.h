@@ -77,6 +77,10 @@ struct Case {
   Index channel_count() const { return static_cast<Index>(channels.size()); }
   bool has_torque() const { return !channels.empty() && channels.back() > 2; }
   bool is_static() const { return logs.front().motion.is_static(); }
+  /// Forces alone: of torques, which have a step of their own, no effect tells it.
+  bool is_rounded(Index channel) const {
+    return rounding_step > 0.0 && channels[static_cast<std::size_t>(channel)] < 3;
+  }
   bool has_clock() const { return logs.front().motion.has_clock; }
   double dt() const { return logs.front().motion.dt; }
 };

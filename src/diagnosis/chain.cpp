@@ -24,13 +24,16 @@ void round_mean(const Case& study, Eigen::MatrixXd& mean) {
     sizes.push_back(k % 2 ? -size : size);
   }
   if (sizes.empty()) return;  // the noise hides the steps
-  const Eigen::ArrayXXd angle = 2.0 * kPi / q * mean.array(), twice = 2.0 * elementary::cos(angle);
-  Eigen::ArrayXXd sine = elementary::sin(angle);
-  Eigen::ArrayXXd before = Eigen::ArrayXXd::Zero(angle.rows(), angle.cols());
-  for (const double size : sizes) {
-    mean.array() += size * sine;
-    before = twice * sine - before;  // sin((k + 1) x) = 2 cos(x) sin(k x) - sin((k - 1) x)
-    before.swap(sine);
+  for (Index j = 0; j < mean.cols(); ++j) {
+    if (!study.is_rounded(j)) continue;
+    const Eigen::ArrayXd angle = 2.0 * kPi / q * mean.col(j).array(),
+                         twice = 2.0 * elementary::cos(angle);
+    Eigen::ArrayXd sine = elementary::sin(angle), before = Eigen::ArrayXd::Zero(angle.size());
+    for (const double size : sizes) {
+      mean.col(j).array() += size * sine;
+      before = twice * sine - before;  // sin((k + 1) x) = 2 cos(x) sin(k x) - sin((k - 1) x)
+      before.swap(sine);
+    }
   }
 }
 

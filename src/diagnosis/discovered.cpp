@@ -166,7 +166,7 @@ Laws in_place_of_names(Search& search, const HoldOut& holdout) {
     laws.members.resize(1);
     std::vector<Member> other = rest;
     other.push_back(laws.members.front());
-    const int more = fitted_numbers(laws.found.front()) - numbers;
+    const int more = numbers_of(laws, {}) - numbers;  // its lever among them
     const JointFit with = joint_fit(setting, other);
     if (fit.chi2 - with.chi2 - setting.price * more < least_gain_of_law(setting)) continue;
     const double support =

@@ -64,6 +64,21 @@ double Floor::density(double hz) const {
   return plain * gain * gain;
 }
 
+double Floor::power_deviation(double seconds) const {
+  double sum = 0.0, squares = 0.0;
+  for (int i = 0; i < kFloorPoints; ++i) {
+    const double hz = (i + 0.5) / kFloorPoints * 0.5 / dt;
+    const double all = density(hz) + pose_density(hz);
+    sum += all;
+    squares += all * all;
+  }
+  // (integral of S^2)/(T (integral of S)^2) over frequencies up to 1/(2 dt) (Bendat and Piersol,
+  // Random Data, 2010, 8.3).
+  const double bandwidth = 0.5 / dt;
+  const double variance = squares * kFloorPoints / (sum * sum * bandwidth * seconds);
+  return sum > 0.0 ? std::sqrt(variance) : 0.0;
+}
+
 double Floor::pose_density(double hz) const {
   if (pose_gain.empty()) return 0.0;
   const double place = 2.0 * hz * dt * static_cast<double>(pose_gain.size());

@@ -199,8 +199,10 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
     rows += static_cast<double>(std::count(held.begin(), held.end(), 1));
   // Relative deviation of an rms of n normal numbers: 1/sqrt(2n).
   const auto block = static_cast<double>(search.setting().whitener.block());
-  const double chance = kChance / std::sqrt(2.0 * std::max(1.0, rows / block));
+  const double independent = kChance / std::sqrt(2.0 * std::max(1.0, rows / block));
   const Case& fitted = search.study();
+  double fitted_rows = 0.0;
+  for (const Log& log : fitted.logs) fitted_rows += static_cast<double>(log.motion.samples());
   // What the band above the motion hardly tells of the noise below may all be left of the fit.
   // Slow noise is none of recordings without one whole period of it.
   const double periods = search.bands().empty() ? 0.0 : search.bands().front().dof;
@@ -230,6 +232,13 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
         fitted.is_static() || (tested && !fitted.axis && search.fit().members.empty() &&
                                !search.floors()[j].pose_gain.empty());
     if (left_is_noise) noise = std::max(noise, left);
+    double chance = independent;
+    if (!fitted.is_static()) {  // the noise of either recording is a sample of it
+      const Floor& floor = search.floors()[j];
+      chance = std::max(chance, 0.5 * kChance *
+                                    std::hypot(floor.power_deviation(rows * fitted.dt()),
+                                               floor.power_deviation(fitted_rows * fitted.dt())));
+    }
     const double ratio = errors[j] / std::max(1e-300, noise);
     if (ratio > kMost * (1.0 + chance) && (!worst || ratio > worst->ratio)) {
       worst = Excess{j, ratio};

@@ -60,10 +60,10 @@ bool Search::admit_colour() {
 }
 
 /// Searches from nothing in slow noise, which is estimated again beside whatever is found, and
-/// keeps what that finds where it leaves nothing and is likelier than all names that gain without
-/// such noise. Else these names are the better beginning where they are likelier without it too:
-/// noise as loud as what is left weighs every band alike, and an event is no first guess in it.
-/// True where either is kept.
+/// keeps what that finds where it leaves nothing in any band and is likelier than all names that
+/// gain without such noise, and the best product of what moves beside them. Else these names are
+/// the better beginning where they are likelier without it too: noise as loud as what is left
+/// weighs every band alike, and an event is no first guess in it. True where either is kept.
 bool Search::admit_slow_noise() {
   if (tried_slow_noise_ || study_.is_static() || study_.axis || study_.without.coloured_floor) {
     return false;
@@ -80,11 +80,12 @@ bool Search::admit_slow_noise() {
   while (grow()) {
   }
   const double plain = unlikely();
+  const double with_term = plain - most_of_a_term(*setting_, fit_) + kNumberPrice;
   in_slow_noise_ = true;
   events_allowed_ = false;  // an event has the spectrum of such noise
   settle(to_begin_with());
   explore();
-  if (unlikely() < plain && are_constant() && is_independent()) return true;
+  if (unlikely() < std::min(plain, with_term) && are_constant() && !is_alarming_now()) return true;
   const std::vector<Member> found = fit_.members;
   begun_ += passes() - before;  // an attempt that failed is not what the search may take
   in_slow_noise_ = false;

@@ -60,10 +60,12 @@ double log_likelihood(const Eigen::VectorXd& density, const Eigen::VectorXd& hz,
 
 void add_rounding(const Case& study, std::vector<Floor>& floors) {
   const double q = study.rounding_step, s = study.rounding_noise;
-  for (Floor& floor : floors) {
+  for (std::size_t j = 0; j < floors.size(); ++j) {
+    Floor& floor = floors[j];
     floor.rounding = 0.0;
     const double known = floor.deviation();
-    if (q > 0.0) floor.rounding = std::max(0.0, q * q / 12.0 + s * s - known * known);
+    if (study.is_rounded(static_cast<Index>(j)))
+      floor.rounding = std::max(0.0, q * q / 12.0 + s * s - known * known);
   }
 }
 

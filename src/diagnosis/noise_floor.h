@@ -50,6 +50,9 @@ struct Floor {
   double density(double hz) const;
   /// Standard deviation with what the pose's noise adds.
   double whole_deviation() const;
+  /// Relative standard deviation of the mean square of a recording of so many seconds: of slow
+  /// noise it has few periods.
+  double power_deviation(double seconds) const;
   /// Variance that the pose's noise adds.
   double pose_variance() const;
   /// What the pose's noise adds to the density.

@@ -173,6 +173,42 @@ TEST(NoiseFloor, OfRoundedReadingsHoldsTheirRounding) {
 }
 
 // Many sensors filter what they send: a plateau and a fall of two orders are no first-order colour.
+TEST(NoiseFloor, OfTorquesHoldsNoRoundingOfForces) {
+  Case study = recordings_of(1);
+  study.channels = {2, 3};
+  study.rounding_step = 0.05;
+  study.rounding_noise = 0.01;
+  Floor floor;
+  floor.white = 1e-6;
+  floor.dt = kDt;
+  std::vector<Floor> floors(2, floor);
+  add_rounding(study, floors);
+  EXPECT_GT(floors[0].rounding, 1e-4);
+  EXPECT_EQ(floors[1].rounding, 0.0);
+}
+
+TEST(NoiseFloor, ThePowerOfARecordingSpreadsAsItsSpectrumTells) {
+  constexpr int kRecordings = 400;
+  const double seconds = kDt * kRows;
+  for (const double rho : {0.0, 0.995}) {
+    Floor floor;
+    floor.dt = kDt;
+    (rho > 0.0 ? floor.coloured : floor.white) = 1.0;
+    floor.rho = rho;
+    Rng rng({31u});
+    double sum = 0.0, squares = 0.0;
+    for (const Eigen::MatrixXd& x : noise_of(kRecordings, rho, rng)) {
+      const double power = x.squaredNorm() / kRows;
+      sum += power;
+      squares += power * power;
+    }
+    const double mean = sum / kRecordings,
+                 deviation = std::sqrt(squares / kRecordings - mean * mean) / mean;
+    // A deviation of 400 numbers is known to 3.5 %.
+    EXPECT_NEAR(floor.power_deviation(seconds) / deviation, 1.0, 0.15) << rho;
+  }
+}
+
 TEST(NoiseFloor, OfAFilteredSensorIsThatOfItsPlateau) {
   constexpr double kCutoff = 45.0;  // Hz
   constexpr int kInside = 8;        // samples that the sensor filters for each that it sends

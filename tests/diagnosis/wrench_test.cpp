@@ -52,6 +52,20 @@ TEST(Wrench, FrictionAndACableAreFoundWhereTheyAct) {
   }
 }
 
+/// The steps of the forces, of 50 mN, are none of the torques, whose noise is 3 mN m.
+TEST(Wrench, ACoarseForceHidesNoTorque) {
+  const Bench bench(with_torque(
+      {hidden("coulomb_friction", "base_y", at_lever({{"fc_n", 0.4}, {"v0_mps", 0.01}})),
+       hidden("quantisation", nullptr, {{"step_n", 0.05}})}));
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(report["verdict"], "explained");
+  EXPECT_EQ(test::found(report), (std::set<std::string>{"coulomb_friction", "quantisation"}))
+      << report["findings"].dump(1);
+  for (std::size_t j = 3; j < 6; ++j) {
+    EXPECT_NEAR(report["fit"]["noise_floor"][j].get<double>(), 0.003, 0.0003) << j;
+  }
+}
+
 TEST(Wrench, ALawWithoutANameActsSomewhereToo) {
   Json law = hidden("discovered", nullptr,
                     at_lever({{"amplitude_n", -2.0}, {"scale_1_mps", 0.1}, {"power_1", 1.5}}));
