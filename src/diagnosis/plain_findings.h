@@ -6,10 +6,6 @@
 
 namespace dcnn {
 
-/// Whether a finding, whatever may stand in its place, is rather wrong than right: held-out
-/// channels speak against it, or it explains less than what no name does.
-bool is_doubtful(const Json& finding);
-
 /// Whether a spring is a constant force: the interval of its stiffness holds zero, or its rest lies
 /// turns away.
 bool is_constant(const Json& finding);

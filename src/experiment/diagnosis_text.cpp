@@ -108,7 +108,7 @@ std::string to_text(const Diagnosis& diagnosis) {
         << " recordings: a constant offset has no name\n";
   }
   for (const Json& finding : in_lines(report["findings"])) {
-    out << "found       " << finding_text(finding);
+    out << (is_doubtful(finding) ? "doubtful    " : "found       ") << finding_text(finding);
   }
   out << notes_text(report);
   if (!report["search"]["complete"].get<bool>()) {

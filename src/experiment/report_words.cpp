@@ -87,10 +87,12 @@ const std::map<std::string, std::string>& special_words() {
 
 /// Of an axis, which turns or slides: its parameters have no unit in their name.
 const std::map<std::string, std::string>& axis_stem_words() {
-  static const std::map<std::string, std::string> kWords{{"fc", "friction"},
-                                                         {"fs", "friction at standstill"},
-                                                         {"width", "path over which it reverses"},
-                                                         {"rest", "position at rest"}};
+  static const std::map<std::string, std::string> kWords{
+      {"fc", "friction"},
+      {"fs", "friction at standstill"},
+      {"width", "path over which it reverses"},
+      {"rest", "position at rest"},
+      {"order", "phase per unit of position, rad"}};
   return kWords;
 }
 

@@ -45,6 +45,16 @@ Diagnosis text_diagnosis() {
   return diagnosis;
 }
 
+TEST(DiagnosisText, MarksWhatIsRatherWrongThanRight) {
+  Diagnosis diagnosis = text_diagnosis();
+  Json& finding = diagnosis.report["findings"][0];
+  finding["confidence"] = 0.3;
+  finding["alternatives"] = Json::array();
+  EXPECT_NE(to_text(diagnosis).find("doubtful    dry friction, along the tool; confidence 30 %\n"),
+            std::string::npos)
+      << to_text(diagnosis);
+}
+
 TEST(DiagnosisText, SaysFindingsInWordsAndUnits) {
   const std::string text = to_text(text_diagnosis());
   for (const char* words :

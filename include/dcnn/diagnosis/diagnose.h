@@ -62,6 +62,10 @@ Json in_lines(const Json& findings);
 /// False of a positive number (value, ci95) whose interval spans two decades: of a stiffness that
 /// only a much finer motion would tell the recordings know a bound at most.
 bool is_told(const Json& number);
+/// Whether a finding, whatever may stand in its place, is rather wrong than right: held-out
+/// channels speak against it, or it explains less than what no name does.
+bool is_doubtful(const Json& finding);
+
 /// What was found, in one plain sentence.
 std::string headline(const Json& report);
 /// By target, of the held-out recordings; of the fitted ones in reports that do not know theirs.
