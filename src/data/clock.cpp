@@ -56,6 +56,16 @@ double step_of(const Eigen::VectorXd& t, double median) {
   return std::abs(time - ticks) > 0.5 ? median * time / ticks : median;
 }
 
+/// The decimal digit to which the numbers were rounded, at most 1; 0 where they have many digits.
+double last_digit(const Eigen::Ref<const Eigen::VectorXd>& numbers) {
+  constexpr double kFinest = 1e-9, kWhole = 1e-6;
+  for (double digit = 1.0; digit > kFinest; digit *= 0.1) {
+    const Eigen::ArrayXd places = numbers.array() / digit;
+    if ((places - places.round()).abs().maxCoeff() < kWhole) return digit;
+  }
+  return 0.0;
+}
+
 std::vector<Segment> split_at_gaps(const Eigen::VectorXd& t, double dt) {
   std::vector<Segment> segments = {{0, t.size()}};
   for (Index i = 1; i < t.size(); ++i) {
@@ -130,10 +140,38 @@ bool is_list_of_poses(const Recording& recording, double step, const std::string
 
 }  // namespace
 
+std::optional<double> step_of_rounded(const Eigen::VectorXd& t) {
+  constexpr Index kFewestRows = 20;
+  const Index n = t.size();
+  if (n < kFewestRows) return std::nullopt;
+  // Least squares of a line over the rows' places.
+  const double half = 0.5 * static_cast<double>(n - 1);
+  const Eigen::ArrayXd place = Eigen::ArrayXd::LinSpaced(n, -half, half);
+  const Eigen::ArrayXd about = t.array() - t.mean();
+  const double step = (about * place).sum() / place.square().sum();
+  const Eigen::ArrayXd steps = (t.tail(n - 1) - t.head(n - 1)).array();
+  if (!((steps - step).abs().maxCoeff() > kOff * step)) return std::nullopt;
+  // Numbers that are written with so many digits in all have the fewest decimals where they are
+  // large: at the end.
+  constexpr double kHalf = 0.55;  // of the digit, and a little for the line's own error
+  const double digit = last_digit(t.tail(n / 10));
+  const bool is_even = (about - step * place).abs().maxCoeff() <= kHalf * digit;
+  return is_even ? std::optional(step) : std::nullopt;
+}
+
 void set_clock(Recording& recording, const std::string& file, bool poses) {
   recording.segments = {{0, recording.samples()}};
   if (!recording.has("t")) return;
   Eigen::VectorXd t = recording.column("t");
+  if (const auto step = step_of_rounded(t)) {
+    const Index n = t.size();
+    t = t[0] + *step * Eigen::ArrayXd::LinSpaced(n, 0.0, static_cast<double>(n - 1));
+    recording.set("t", t);
+    std::ostringstream note;
+    note << "stamps have few digits: put on the even clock of " << 1.0 / *step
+         << " Hz that they show";
+    recording.notes.push_back(note.str());
+  }
   check_increasing(t, file);
   if (t[0] > kEpoch) {
     recording.clock_origin = t[0];

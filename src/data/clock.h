@@ -1,9 +1,16 @@
 // The clock of a recording: increasing, without gaps inside a segment, regular.
 #pragma once
 
+#include <optional>
+
 #include "dcnn/data/recording.h"
 
 namespace dcnn {
+
+/// Of an even clock whose stamps were written with so few digits that their steps differ by a
+/// fifth: that clock's step [s]. None of stamps that leave it by more than their last digit
+/// explains.
+std::optional<double> step_of_rounded(const Eigen::VectorXd& t);
 
 /// Checks column t (line = row + 2 in errors that name `file`), moves its origin where it is an
 /// epoch time, and fills dt and segments. A recording without t, and where `poses` one whose rows

@@ -189,6 +189,11 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
     report["notes"].push_back("a line at " + brief(*noisy_hum) +
                               " Hz, the phase of which does not last: it counts as noise");
   }
+  if (study.axis && study.is_static()) {
+    report["notes"].push_back(study.axis->axis().name +
+                              ": positions at rest do not tell the noise of their readings: all "
+                              "that is left may be noise, or a law of what is not logged");
+  }
   if (const auto note = note_of_zeros(search)) report["notes"].push_back(*note);
   const std::vector<std::string> without = study.without.names();
   if (!without.empty()) report["without"] = without;

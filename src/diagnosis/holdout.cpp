@@ -218,6 +218,7 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
     // Of recordings of their own the noise is as loud as they say; of held-out blocks as it is
     // beside them, for it is bounded by the error that is judged.
     double noise = blocks_ ? fitted_noise : floors[j].whole_deviation();
+    const double stated = noise;
     if (all) {
       const double most = std::min((*all)[j].deviation(), left);
       noise = std::max(noise, most * std::min(1.0, noise / fitted_noise));
@@ -235,13 +236,13 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
     double chance = independent;
     if (!fitted.is_static()) {  // the noise of either recording is a sample of it
       const Floor& floor = search.floors()[j];
-      chance = std::max(chance, 0.5 * kChance *
-                                    std::hypot(floor.power_deviation(rows * fitted.dt()),
-                                               floor.power_deviation(fitted_rows * fitted.dt())));
+      const double held = floor.power_deviation(rows * fitted.dt()),
+                   known = floor.power_deviation(fitted_rows * fitted.dt());
+      chance = std::max(chance, 0.5 * kChance * std::sqrt(held * held + known * known));
     }
     const double ratio = errors[j] / std::max(1e-300, noise);
     if (ratio > kMost * (1.0 + chance) && (!worst || ratio > worst->ratio)) {
-      worst = Excess{j, ratio};
+      worst = Excess{j, ratio, noise > kMost * stated};
     }
   }
   return worst;

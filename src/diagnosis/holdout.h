@@ -37,6 +37,7 @@ class HoldOut {
   struct Excess {
     std::size_t channel;
     double ratio;  ///< error over noise
+    bool of_fit;   ///< which is what the model leaves of the fitted recordings
   };
   std::optional<Excess> excess(const Search& search, const std::vector<Floor>& floors) const;
   /// The noise of the held-out recordings, by what the model leaves of them above the motion's

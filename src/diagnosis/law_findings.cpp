@@ -131,7 +131,8 @@ Json unnamed_part(const Search& search, const std::vector<BandTest>& bands, cons
   Json part{{"excess_rms", excess}, {"formula", nullptr}, {"words", nullptr}};
   if (!search.remains() && refuted) {
     part["words"] = "a held-out error of " + study.targets[refuted->channel] + " of " +
-                    brief(refuted->ratio) + " times its noise";
+                    brief(refuted->ratio) + " times " +
+                    (refuted->of_fit ? "that of the fitted recordings" : "its noise");
   }
   if (!search.remains()) return part;
   const auto most =

@@ -59,6 +59,18 @@ bool Search::admit_colour() {
   return false;
 }
 
+/// An event has the spectrum of slow noise, but need not have its size: one that was found without
+/// such noise stands beside it where both are likelier.
+void Search::put_events_beside_noise(const std::vector<Member>& found) {
+  for (const Member& event : found) {
+    if (!event.interval_s) continue;
+    const std::vector<Member> before = fit_.members;
+    const double alone = unlikely();
+    settle(with_member(before, event));
+    if (unlikely() > alone) settle(before);
+  }
+}
+
 /// Searches from nothing in slow noise, which is estimated again beside whatever is found, and
 /// keeps what that finds where it leaves nothing in any band and is likelier than all names that
 /// gain without such noise, and the best product of what moves beside them. Else these names are
@@ -80,11 +92,13 @@ bool Search::admit_slow_noise() {
   while (grow()) {
   }
   const double plain = unlikely();
+  const std::vector<Member> without_noise = fit_.members;
   const double with_term = plain - most_of_a_term(*setting_, fit_) + kNumberPrice;
   in_slow_noise_ = true;
   events_allowed_ = false;  // an event has the spectrum of such noise
   settle(to_begin_with());
   explore();
+  put_events_beside_noise(without_noise);
   if (unlikely() < std::min(plain, with_term) && are_constant() && !is_alarming_now()) return true;
   const std::vector<Member> found = fit_.members;
   begun_ += passes() - before;  // an attempt that failed is not what the search may take

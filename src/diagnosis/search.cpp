@@ -50,7 +50,9 @@ double Search::passes() const {
 
 bool Search::laws_are_spent() const {
   constexpr std::uint64_t kMostSamples = 300'000'000;  // of forces: about two minutes
-  return study_.law_work->samples() >= kMostSamples;
+  // All axes of a machine together.
+  const std::uint64_t parts = study_.axis ? study_.axis->system.axes.size() : 1;
+  return study_.law_work->samples() >= kMostSamples / parts;
 }
 
 void Search::say(const std::string& text) const {

@@ -196,6 +196,7 @@ class Search {
   bool is_independent();
   bool may_be_slow_noise(const Member& member) const;
   bool admit_slow_noise();
+  void put_events_beside_noise(const std::vector<Member>& found);
   bool admit_colour();
   bool admit_own_zeros();
   void judge();

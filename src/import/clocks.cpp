@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "data/clock.h"
 #include "data/text.h"
 #include "dcnn/core/error.h"
 #include "import/rate_clock.h"
@@ -263,16 +264,21 @@ ClockFigures clock_figures(const std::vector<double>& times) {
   ClockFigures figures;
   const std::vector<double> steps = steps_of(times);
   if (steps.empty()) return figures;
-  figures.step = median_of(steps);
+  const auto finite = [](double t) { return std::isfinite(t); };
+  std::optional<double> rounded;
+  if (std::all_of(times.begin(), times.end(), finite)) {
+    rounded = step_of_rounded(Eigen::VectorXd::Map(times.data(), Index(times.size())));
+  }
+  figures.step = rounded.value_or(median_of(steps));
   Index off = 0;
   for (const double step : steps) {
+    if (rounded) break;  // even, but for the digits
     figures.gaps += step > kGapSteps * figures.step;
     figures.repeats += step == 0.0;
     figures.backward += step < 0.0;
     off += std::abs(step - figures.step) > kOffStep * figures.step;
   }
   figures.off = static_cast<double>(off) / static_cast<double>(steps.size());
-  const auto finite = [](double t) { return std::isfinite(t); };
   figures.begin = *std::find_if(times.begin(), times.end(), finite);
   figures.end = *std::find_if(times.rbegin(), times.rend(), finite);
   return figures;
