@@ -26,10 +26,17 @@ double bound_at(const std::vector<std::pair<double, double>>& bounds, double hz)
   return bounds.back().second;
 }
 
+double power_law(double at_one, double slope, double hz) {
+  const double from = std::max(hz, kSlowest);
+  return at_one / (slope == 1.0 ? from : elementary::pow(from, slope));
+}
+
 }  // namespace
 
 void Floor::amplify(double factor) {
-  for (double* part : {&white, &coloured, &filtered, &flicker, &markov, &lines}) *part *= factor;
+  for (double* part : {&white, &coloured, &filtered, &flicker, &power, &markov, &lines}) {
+    *part *= factor;
+  }
 }
 
 double Floor::deviation() const {
@@ -56,6 +63,7 @@ double Floor::whole_deviation() const {
 double Floor::density(double hz) const {
   const double fitted = white + (coloured > 0.0 ? coloured * ar_shape(rho, hz, dt) : 0.0) +
                         filtered * filter_shape(filter_hz, hz) + flicker / std::max(hz, kSlowest) +
+                        (power > 0.0 ? power_law(power, slope, hz) : 0.0) +
                         markov / (1.0 + (hz / corner_hz) * (hz / corner_hz));
   const double plain = fitted * bound_at(bounds, hz);
   if (lowpass_hz == 0.0) return plain;

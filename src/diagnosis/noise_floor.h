@@ -22,6 +22,8 @@ struct Floor {
   /// Behind a second-order Butterworth filter of the maker: density at 0 Hz, cut-off [Hz].
   double filtered = 0.0, filter_hz = 1.0;
   double flicker = 0.0;  ///< density [per sample] times frequency [Hz]
+  /// Slow part of density 1/f^slope: that at 1 Hz.
+  double power = 0.0, slope = 1.0;
   /// Slow first-order Gauss-Markov part: its density at 0 Hz and its corner [Hz].
   double markov = 0.0, corner_hz = 1.0;
   double lines = 0.0;  ///< variance of lines above the motion's band, part of no density
@@ -44,8 +46,8 @@ struct Floor {
 
   /// Makes all parts of the density, and the lines, so many times as large.
   void amplify(double factor);
-  double deviation() const;                                       ///< of the sensor alone
-  bool is_slow() const { return flicker > 0.0 || markov > 0.0; }  ///< louder the lower
+  double deviation() const;                                        ///< of the sensor alone
+  bool is_slow() const { return flicker + power + markov > 0.0; }  ///< louder the lower
   /// Density at `hz`, scaled so that white noise of variance s^2 has density s^2.
   double density(double hz) const;
   /// Standard deviation with what the pose's noise adds.

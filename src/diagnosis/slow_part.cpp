@@ -57,10 +57,12 @@ std::vector<Cell> gathered(const std::vector<SlowBin>& bins) {
   return list;
 }
 
-/// A form of slow noise without its level: 1/f, or a Gauss-Markov process of this corner [Hz].
+/// A form of slow noise without its level: 1/f^slope, or a Gauss-Markov process of this corner
+/// [Hz].
 struct Form {
-  double corner_hz = 0.0;  ///< 0 for 1/f
-  double price() const { return corner_hz > 0.0 ? kCorner : 0.0; }
+  double corner_hz = 0.0;  ///< 0 for the former
+  double slope = 1.0;
+  double price() const { return corner_hz > 0.0 || slope != 1.0 ? kCorner : 0.0; }
 };
 
 /// The likeliest level of a form in one channel, none included, and its log-likelihood (Whittle).
@@ -84,7 +86,7 @@ Leveled leveled(const Form& form, const std::vector<Cell>& cells, double floor_l
   consider({});
   if (form.corner_hz == 0.0) {
     for (double corner = prior::kLeastCorner; corner < prior::kMostCorner; corner *= kRatio) {
-      consider({.flicker = corner * floor_level});
+      consider({.power = floor_level * elementary::pow(corner, form.slope), .slope = form.slope});
     }
     return best;
   }
@@ -95,7 +97,7 @@ Leveled leveled(const Form& form, const std::vector<Cell>& cells, double floor_l
 }
 
 std::vector<Form> all_forms() {
-  std::vector<Form> forms{{}};
+  std::vector<Form> forms{{}, {.slope = 0.5}, {.slope = 1.5}};
   for (double hz = prior::kLeastCorner; hz < prior::kMostCorner; hz *= kRatio)
     forms.push_back({hz});
   return forms;
@@ -104,7 +106,8 @@ std::vector<Form> all_forms() {
 }  // namespace
 
 void SlowPart::add_to(Floor& floor) const {
-  floor.flicker += flicker;
+  floor.power += power;
+  floor.slope = slope;
   floor.markov += markov;
   floor.corner_hz = corner_hz;
 }

@@ -8,13 +8,13 @@
 
 namespace dcnn {
 
-/// What is added to a floor: 1/f noise or a first-order Gauss-Markov process.
+/// What is added to a floor: noise of density 1/f^p or a first-order Gauss-Markov process.
 struct SlowPart {
-  double flicker = 0.0;                  ///< density times frequency [Hz]
+  double power = 0.0, slope = 1.0;       ///< density at 1 Hz, and p
   double markov = 0.0, corner_hz = 1.0;  ///< density at 0 Hz, and the corner
 
   void add_to(Floor& floor) const;
-  int numbers() const { return (flicker > 0.0) + 2 * (markov > 0.0); }
+  int numbers() const { return (power > 0.0) * (1 + (slope != 1.0)) + 2 * (markov > 0.0); }
 };
 
 /// The likeliest (Whittle) for what is left below 10 Hz beside these floors, by channel, of one

@@ -105,6 +105,35 @@ TEST(SlowPart, ChannelsOfOneSensorShareTheirForm) {
   EXPECT_GE(rising, 51);  // of 60: a form is chosen wrongly in one recording of ten
 }
 
+// The same with a steeper rise, of which a process with a corner has no trace below it.
+TEST(SlowPart, RisesAsSteeplyAsTheNoise) {
+  constexpr Index kLength = 10000;
+  constexpr double kSteep = 1.5;
+  const Case study = noisy_case(kLength, 3);
+  Floor floor;
+  floor.white = 1.0, floor.dt = kPeriod;
+  constexpr int kTrials = 20;
+  double sum = 0.0;
+  for (int seed = 0; seed < kTrials; ++seed) {
+    Rng rng(static_cast<std::uint64_t>(100 + seed));
+    Eigen::MatrixXd x(kLength, 3);
+    for (Index j = 0; j < 3; ++j) {
+      for (double& value : x.col(j)) value = rng.normal();
+      for (double corner = 0.01; corner < 20.0; corner *= 2.0) {
+        x.col(j) += markov_noise(kLength, 4.0 * std::pow(corner, -kSteep), corner, rng);
+      }
+    }
+    const auto parts = slow_parts(study, {x}, {floor, floor, floor});
+    ASSERT_TRUE(parts);
+    for (const SlowPart& part : *parts) {
+      Floor slow;
+      part.add_to(slow);
+      sum += std::log(slow.density(0.1) / slow.density(1.0)) / std::log(10.0);
+    }
+  }
+  EXPECT_NEAR(sum / (3.0 * kTrials), kSteep, 0.2);
+}
+
 // 25 times the floor below 0.3 Hz, a deviation of a quarter of the noise's: no drift, step or
 // contact makes it, and the name stands beside it.
 TEST(SlowNoise, IsNoEventAndHidesNoName) {
