@@ -11,8 +11,6 @@ namespace {
 
 constexpr double kStill = 0.05;  // of the rms velocity: below it friction has no sign
 constexpr Index kFewestGearBins = 16;
-/// Periods of a variation that is called that of gears: once does not show that it repeats.
-constexpr double kFewestRepeats = 2.0;
 
 /// What is left against the motion, in bins of the position.
 PositionBins gear_bins(const Case& study, const Signals& left) {
@@ -45,7 +43,7 @@ void add_gear_frictions(const Case& study, const Signals& left, std::vector<Memb
   const PositionBins bins = gear_bins(study, left);
   if (bins.size() < kFewestGearBins || !(bins.count.maxCoeff() > 0.0)) return;
   const EffectFit& form = kind.fits[0];
-  const double least = kFewestRepeats / kFewestTurns * least_order(study, 0),
+  const double least = least_order(study, 0, kFewestRepeats),
                end = highest_order(study, form.shapes[0], bins.width);
   const double order =
       best_order(bins, std::max(least, unit_of(study, form.shapes[0]) * form.shapes[0].low), end);

@@ -47,7 +47,7 @@ struct Floor {
   /// Makes all parts of the density, and the lines, so many times as large.
   void amplify(double factor);
   double deviation() const;                                        ///< of the sensor alone
-  bool is_slow() const { return flicker + power + markov > 0.0; }  ///< louder the lower
+  bool is_slow() const { return flicker + power + markov > 0.0; }  ///< denser at lower frequencies
   /// Density at `hz`, scaled so that white noise of variance s^2 has density s^2.
   double density(double hz) const;
   /// Standard deviation with what the pose's noise adds.

@@ -137,13 +137,13 @@ double position_bin(const Case& study) {
   return range / std::clamp(order * range / kLargestPhase, kPositionBins, kMostBins);
 }
 
-double least_order(const Case& study, int angle) {
+double least_order(const Case& study, int angle, double periods) {
   double range = 0.0;
   for (const Log& log : study.logs) {
     const auto q = log.motion.euler.col(angle);
     range = std::max(range, q.maxCoeff() - q.minCoeff());
   }
-  return kFewestTurns * 2.0 * std::numbers::pi / range;
+  return periods * 2.0 * std::numbers::pi / range;
 }
 
 double highest_order(const Case& study, const ShapeParameter& order, double width) {

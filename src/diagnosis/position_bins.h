@@ -31,8 +31,11 @@ double position_bin(const Case& study);
 /// told from a spring or a drift.
 constexpr double kFewestTurns = 0.7;
 
-/// The lowest order that is looked for in an angle (column of Motion::euler).
-double least_order(const Case& study, int angle);
+/// Periods of a variation that is called that of gears: once does not show that it repeats.
+constexpr double kFewestRepeats = 2.0;
+
+/// The lowest order in an angle (column of Motion::euler) that completes so many periods.
+double least_order(const Case& study, int angle, double periods = kFewestTurns);
 
 /// The highest order that is looked for in bins of this width [rad or m]: of a tool's angle that of
 /// the catalogue, of an axis, which may be a linear one of any pitch, what the bins tell.

@@ -73,31 +73,44 @@ TEST(SlowPart, HasTheDensityOfTheNoise) {
   }
 }
 
+/// Three channels of white noise of unit density and noise of density c/f^slope, but for a factor:
+/// first-order processes an octave apart, the one with its corner at f of density c/f^slope at
+/// rest.
+Eigen::MatrixXd rising_noise(Index rows, double c, double slope, Rng& rng) {
+  Eigen::MatrixXd x(rows, 3);
+  for (Index j = 0; j < 3; ++j) {
+    for (double& value : x.col(j)) value = rng.normal();
+    for (double corner = 0.01; corner < 20.0; corner *= 2.0) {
+      x.col(j) += markov_noise(rows, c * std::pow(corner, -slope), corner, rng);
+    }
+  }
+  return x;
+}
+
+/// The slow parts of that noise, whose floor is known.
+std::vector<SlowPart> parts_of_rising_noise(double c, double slope, int seed) {
+  constexpr Index kLength = 10000;
+  Floor floor;
+  floor.white = 1.0, floor.dt = kPeriod;
+  Rng rng(static_cast<std::uint64_t>(seed));
+  const auto parts = slow_parts(noisy_case(kLength, 3), {rising_noise(kLength, c, slope, rng)},
+                                {floor, floor, floor});
+  EXPECT_TRUE(parts);
+  return parts.value_or(std::vector<SlowPart>(3));
+}
+
 // 1/f noise as a sum of first-order processes, an octave apart; it equals the floor at 5 Hz. One
 // channel of 20 s often looks like a process with a corner, which is flat where this rises.
 TEST(SlowPart, ChannelsOfOneSensorShareTheirForm) {
-  constexpr Index kLength = 10000;
   constexpr double kCornerHz = 5.0;
-  const Case study = noisy_case(kLength, 3);
-  Floor floor;
-  floor.white = 1.0, floor.dt = kPeriod;
+  // sum over octaves of r/(1 + (f/c)^2), r ~ 1/c, is pi/2/ln 2 r c/f.
+  constexpr double kSize = kCornerHz * 2.0 * std::numbers::ln2 / std::numbers::pi;
   constexpr int kTrials = 20;
   int rising = 0;
   for (int seed = 0; seed < kTrials; ++seed) {
-    Rng rng(static_cast<std::uint64_t>(seed));
-    Eigen::MatrixXd x(kLength, 3);
-    for (Index j = 0; j < 3; ++j) {
-      for (double& value : x.col(j)) value = rng.normal();
-      // sum over octaves of r/(1 + (f/c)^2), r ~ 1/c, is pi/2/ln 2 r c/f.
-      for (double corner = 0.01; corner < 20.0; corner *= 2.0) {
-        const double at_rest = kCornerHz / corner * 2.0 * std::numbers::ln2 / std::numbers::pi;
-        x.col(j) += markov_noise(kLength, at_rest, corner, rng);
-      }
-    }
-    const auto parts = slow_parts(study, {x}, {floor, floor, floor});
-    ASSERT_TRUE(parts);
-    for (const SlowPart& part : *parts) {
-      Floor sum = floor;
+    for (const SlowPart& part : parts_of_rising_noise(kSize, 1.0, seed)) {
+      Floor sum;
+      sum.white = 1.0, sum.dt = kPeriod;
       part.add_to(sum);
       rising += std::abs(std::log(sum.density(0.1) / (1.0 + kCornerHz / 0.1))) < 0.5 ? 1 : 0;
     }
@@ -107,25 +120,11 @@ TEST(SlowPart, ChannelsOfOneSensorShareTheirForm) {
 
 // The same with a steeper rise, of which a process with a corner has no trace below it.
 TEST(SlowPart, RisesAsSteeplyAsTheNoise) {
-  constexpr Index kLength = 10000;
   constexpr double kSteep = 1.5;
-  const Case study = noisy_case(kLength, 3);
-  Floor floor;
-  floor.white = 1.0, floor.dt = kPeriod;
   constexpr int kTrials = 20;
   double sum = 0.0;
   for (int seed = 0; seed < kTrials; ++seed) {
-    Rng rng(static_cast<std::uint64_t>(100 + seed));
-    Eigen::MatrixXd x(kLength, 3);
-    for (Index j = 0; j < 3; ++j) {
-      for (double& value : x.col(j)) value = rng.normal();
-      for (double corner = 0.01; corner < 20.0; corner *= 2.0) {
-        x.col(j) += markov_noise(kLength, 4.0 * std::pow(corner, -kSteep), corner, rng);
-      }
-    }
-    const auto parts = slow_parts(study, {x}, {floor, floor, floor});
-    ASSERT_TRUE(parts);
-    for (const SlowPart& part : *parts) {
+    for (const SlowPart& part : parts_of_rising_noise(4.0, kSteep, 100 + seed)) {
       Floor slow;
       part.add_to(slow);
       sum += std::log(slow.density(0.1) / slow.density(1.0)) / std::log(10.0);
