@@ -87,6 +87,7 @@ discovery::Problem problem_of(const Setting& setting, const JointFit& fit, const
     problem.records.push_back({&log.motion, load_of(setting.study.simulator, effects, log)});
     sizes.push_back(log.motion.samples());
   }
+  problem.is_spent = [&study] { return laws_are_spent(study); };
   const std::vector<Index> own = rows_of_forces(study, whitener);
   const Index samples = std::accumulate(sizes.begin(), sizes.end(), Index{0});
   problem.whiten = [passage = Passage(study, effects), &whitener, &setting, own,
@@ -111,6 +112,13 @@ discovery::Problem problem_of(const Setting& setting, const JointFit& fit, const
 }
 
 }  // namespace
+
+bool laws_are_spent(const Case& study) {
+  constexpr std::uint64_t kMostSamples = 150'000'000;  // of forces: about a minute
+  // All axes of a machine together.
+  const std::uint64_t parts = study.axis ? study.axis->system.axes.size() : 1;
+  return study.law_work->samples() >= kMostSamples / parts;
+}
 
 std::vector<discovery::Discovered> laws_in(const Setting& setting, const JointFit& fit) {
   const Index block = setting.whitener.block();

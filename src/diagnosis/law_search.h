@@ -8,6 +8,8 @@
 
 namespace dcnn {
 
+/// Whether searches for laws have computed as much as they may.
+bool laws_are_spent(const Case& study);
 /// Laws in what a fit leaves: looked for in block means, then fitted again at the log's rate.
 std::vector<discovery::Discovered> laws_in(const Setting& setting, const JointFit& fit);
 /// Laws of known form, fitted to what a fit leaves at the log's rate.

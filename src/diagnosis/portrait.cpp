@@ -26,6 +26,7 @@ std::vector<Abscissa> coordinates_of_law(const Case& study, const Member& member
     const Axis& axis = study.axis->axis();
     terms = law::axis_terms(axis.name, axis.unit, axis.position_unit, study.axis->sense);
   }
+  terms = law::with_signals(terms, of.structure.signals);
   const bool has_scale = *law::directions()[of.structure.direction].unit != 0;
   const law::Vector3d own = law::own_vector(of.structure, of.numbers.data() + 1 + has_scale);
   const Index rows = log.motion.samples();
@@ -38,9 +39,9 @@ std::vector<Abscissa> coordinates_of_law(const Case& study, const Member& member
     seen.push_back(factor.coordinate);
     const law::Coordinate& q = terms.coordinates[factor.coordinate];
     Abscissa c{Eigen::VectorXd(rows), Eigen::MatrixXd::Zero(rows, 3),
-               q.words + " [" + q.unit + "]"};
+               q.words + (q.unit.empty() ? "" : " [" + q.unit + "]")};
     for (Index k = 0; k < rows; ++k) {
-      const law::Sample now = law::sample_of(log.motion, k, load.row(k));
+      const law::Sample now = law::sample_of(log.motion, k, load.row(k), of.structure.signals);
       const law::Vector3d n = law::direction_at(of.structure.direction, now, own);
       c.x(k) = law::coordinate_at(factor.coordinate, now, n, own);
       c.direction.row(k) = n.transpose();

@@ -8,6 +8,7 @@
 #include "diagnosis/candidates.h"
 #include "diagnosis/detectors.h"
 #include "diagnosis/events.h"
+#include "diagnosis/law_search.h"
 #include "diagnosis/outlying.h"
 #include "diagnosis/rest.h"
 
@@ -48,12 +49,7 @@ double Search::passes() const {
   return static_cast<double>(study_.work->samples()) / static_cast<double>(samples_);
 }
 
-bool Search::laws_are_spent() const {
-  constexpr std::uint64_t kMostSamples = 300'000'000;  // of forces: about two minutes
-  // All axes of a machine together.
-  const std::uint64_t parts = study_.axis ? study_.axis->system.axes.size() : 1;
-  return study_.law_work->samples() >= kMostSamples / parts;
-}
+bool Search::laws_are_spent() const { return dcnn::laws_are_spent(study_); }
 
 void Search::say(const std::string& text) const {
   if (progress_) progress_(text);

@@ -189,14 +189,16 @@ Eigen::VectorXd Whitener::operator()(const Signals& signals) const {
     const Eigen::MatrixXd& signal = signals[run.log];
     means.resize(run.count);
     for (Index j = 0; j < channels_; ++j) {
-      means = signal.col(j)
-                  .segment(run.first, run.count * block_)
-                  .reshaped(block_, run.count)
-                  .colwise()
-                  .mean();
+      auto white = out.segment(row, run.count);
+      const auto own = signal.col(j).segment(run.first, run.count * block_);
+      if (own.isZero(0.0)) {  // most laws act along one axis
+        white.setZero();
+        row += run.count;
+        continue;
+      }
+      means = own.reshaped(block_, run.count).colwise().mean();
       const Filter& filter = filters_[static_cast<std::size_t>(j)];
       const Index most = std::min(run.count, static_cast<Index>(filter.coefficients.size()) - 1);
-      auto white = out.segment(row, run.count);
       white = means;
       for (Index b = 0; b < most; ++b) {  // shorter predictors where less is remembered
         const auto order = static_cast<std::size_t>(b);

@@ -16,6 +16,11 @@ Data::Data(const Problem& problem) : problem_(problem) {
     of_axis_ = record.motion->of_axis;
   }
   begins_.push_back(samples_);
+  if (!problem.records.empty()) {
+    for (const LoggedSignal& logged : problem.records.front().motion->signals) {
+      if (signals_.size() < law::kMostSignals) signals_.push_back(logged.name);
+    }
+  }
   seconds_ = dt_ * static_cast<double>(samples_);
   step_ = VectorXd::Constant(samples_, dt_);
   values_.assign(law::coordinates().size(), VectorXd(samples_));
@@ -29,7 +34,7 @@ void Data::read(const Record& record, Index begin) {
   std::vector<bool> there(values_.size());
   for (std::size_t c = 0; c < there.size(); ++c) there[c] = !of_axis_ || law::is_of_axes(c);
   for (Index k = 0; k < motion.samples(); ++k) {
-    const law::Sample now = law::sample_of(motion, k, record.load.row(k));
+    const law::Sample now = law::sample_of(motion, k, record.load.row(k), signals_);
     for (std::size_t c = 0; c < values_.size(); ++c) {
       if (law::is_own(c)) break;  // the last ones
       values_[c](begin + k) = there[c] ? law::coordinate_at(c, now) : 0.0;
@@ -131,18 +136,34 @@ VectorXd Data::product(const std::vector<Piece>& pieces, const Sketch& of) const
   return product;
 }
 
-VectorXd Data::lagged(const VectorXd& signal, double tau) const {
+VectorXd Data::lagged(const VectorXd& signal, double tau, double spread) const {
   VectorXd out(samples_);
   law::LagRun<double> lag;
+  law::LagsRun lags(spread > 0.0 ? tau : 0.0, spread);
   for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
     for (Index k = begins_[r]; k < begins_[r + 1]; ++k) {
-      out(k) = lag.step(signal(k), tau, step_(k), k == begins_[r]);
+      const bool first = k == begins_[r];
+      out(k) = spread > 0.0 ? lags.step(signal(k), step_(k), first)
+                            : lag.step(signal(k), tau, step_(k), first);
+    }
+  }
+  return out;
+}
+
+MatrixXd Data::presliding(double length) const {
+  MatrixXd out(samples_, 3);
+  law::PreslidingRun run;
+  for (std::size_t r = 0; r + 1 < begins_.size(); ++r) {
+    for (Index k = begins_[r]; k < begins_[r + 1]; ++k) {
+      const law::Sample& now = now_[static_cast<std::size_t>(k)];
+      out.row(k) = run.step(now, length, step_(k), k == begins_[r]).transpose();
     }
   }
   return out;
 }
 
 MatrixXd Data::vector_of(const Sketch& sketch) const {
+  if (sketch.vector_length > 0.0) return presliding(sketch.vector_length);
   const MatrixXd direction = this->direction(sketch);
   const double scale = *law::directions()[sketch.direction].unit ? sketch.vector_scale : 1.0;
   if (sketch.vector_lag <= 0.0) return direction / scale;
@@ -169,9 +190,12 @@ MatrixXd Data::transposed(const VectorXd& rows) const {
 }
 
 VectorXd Data::raw_column(const Sketch& sketch) const {
-  VectorXd strength = product(sketch.pieces, sketch);
-  if (sketch.lag > 0.0) strength = lagged(strength, sketch.lag);
-  return whiten(strength.asDiagonal() * vector_of(sketch));
+  return raw_column(product(sketch.pieces, sketch), vector_of(sketch), sketch);
+}
+
+VectorXd Data::raw_column(VectorXd product, const MatrixXd& vector, const Sketch& sketch) const {
+  if (sketch.lag > 0.0) product = lagged(product, sketch.lag, sketch.spread);
+  return whiten(product.asDiagonal() * vector);
 }
 
 MatrixXd Data::projected(const MatrixXd& columns) const {

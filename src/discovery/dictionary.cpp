@@ -116,6 +116,20 @@ void add_load(const Data& data, std::size_t c, std::vector<Atom>& list) {
   add_swings(data, c, list);
 }
 
+void add_signal(const Data& data, std::size_t c, std::vector<Atom>& list) {
+  const double rms = data.rms(c), range = data.half_range(c), middle = data.middle(c);
+  list.push_back({piece("linear", c, rms)});
+  for (const double p : {0.5, 1.5, 2.0, 3.0}) list.push_back({piece("power", c, rms, p)});
+  for (const double p : {1.0, 2.0}) list.push_back({piece("even_power", c, rms, p)});
+  for (const double s : {0.1, 0.4}) list.push_back({centred(piece("tanh", c, s * range), middle)});
+  for (const double s : {1.0, -1.0}) list.push_back({piece("exponential", c, s * range)});
+  for (const double tau : {0.1, 0.3, 1.0, 3.0, 10.0, 30.0}) {
+    list.push_back({remembering(piece("linear", c, rms), Memory::kLag, tau)});
+    list.push_back({remembering(piece("linear", c, rms), Memory::kHighPass, tau)});
+  }
+  list.push_back({remembering(piece("linear", c, rms), Memory::kPlay, 0.1 * range)});
+}
+
 void add_products(const Data& data, std::vector<Atom>& list) {
   const std::size_t count = law::coordinates().size();
   for (std::size_t a = 0; a < count; ++a) {
@@ -159,6 +173,7 @@ void add_triples(const Data& data, std::vector<Atom>& list) {
 Kind kind_of(std::size_t coordinate) {
   const law::Coordinate& q = law::coordinates()[coordinate];
   if (q.is_clock) return Kind::kClock;
+  if (law::is_signal(coordinate)) return Kind::kSignal;
   const std::string unit = q.unit;
   if (q.frame.empty() || q.name == "load_across") return Kind::kSize;
   if (unit == "m" || unit == "rad") return Kind::kPlace;
@@ -193,6 +208,12 @@ Piece swinging(Piece piece, double hz) {
   return piece;
 }
 
+Piece lagging(Piece piece, double seconds, double spread) {
+  piece = remembering(piece, Memory::kLags, seconds);
+  piece.second = spread;
+  return piece;
+}
+
 Piece thixotropic(Piece piece, double length, double seconds) {
   piece = remembering(piece, Memory::kThixotropic, length);
   piece.second = seconds;
@@ -220,6 +241,9 @@ std::vector<Atom> dictionary(const Data& data) {
         break;
       case Kind::kLoad:
         add_load(data, c, list);
+        break;
+      case Kind::kSignal:
+        add_signal(data, c, list);
         break;
       default:
         break;

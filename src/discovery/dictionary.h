@@ -7,10 +7,11 @@ namespace dcnn::discovery {
 
 /// What may be done with a coordinate.
 enum class Kind {
-  kRate,   ///< signed, with a zero of its own
-  kSize,   ///< not negative
-  kPlace,  ///< without a zero of its own: position, angle
-  kLoad,   ///< a force
+  kRate,    ///< signed, with a zero of its own
+  kSize,    ///< not negative
+  kPlace,   ///< without a zero of its own: position, angle
+  kLoad,    ///< a force
+  kSignal,  ///< logged, of any unit
   kClock,
 };
 Kind kind_of(std::size_t coordinate);
@@ -20,6 +21,8 @@ Piece centred(Piece piece, double centre);
 Piece remembering(Piece piece, law::Memory memory, double size);
 /// Behind a state of second order with this natural frequency, lightly damped.
 Piece swinging(Piece piece, double hz);
+/// Behind many lags about `seconds`.
+Piece lagging(Piece piece, double seconds, double spread);
 /// Broken down by motion over `length`, rebuilt in `seconds`.
 Piece thixotropic(Piece piece, double length, double seconds);
 

@@ -52,12 +52,9 @@ Terms without(Terms terms, std::size_t k) {
   return terms;
 }
 
-/// Numbers of each fitted again beside the others.
+/// Numbers of all fitted again together.
 void settle(const Problem& problem, Terms& terms, int steps) {
-  for (std::size_t k = 0; k < terms.size(); ++k) {
-    const Problem rest = beside(problem, without(terms, k));
-    terms[k] = refined(Data(rest), terms[k], steps).sketch;
-  }
+  terms = refined_together(Data(problem), terms, steps);
 }
 
 /// Gain of all together, less their penalties.
@@ -182,13 +179,14 @@ bool suffices(const Problem& problem, const Terms& terms) {
 
 /// The best of sums that were found in two ways; greedy alone where one law explains all.
 Terms search(const Problem& problem) {
+  const auto is_spent = [&] { return problem.is_spent && problem.is_spent(); };
   Terms first = greedy(problem);
   prune(problem, first);
-  if (first.empty() || (first.size() == 1 && suffices(problem, first))) return first;
+  if (first.empty() || (first.size() == 1 && suffices(problem, first)) || is_spent()) return first;
   Terms second = gathered(problem);
   prune(problem, second);
   Terms& best = score_of(problem, second) > score_of(problem, first) ? second : first;
-  if (!suffices(problem, best)) {
+  if (!suffices(problem, best) && !is_spent()) {
     // Each term was found beside others that have changed since.
     Terms again = best;
     evolve_beside(problem, again);
@@ -211,7 +209,7 @@ std::vector<std::string> rivals_of(const Data& data, const Sketch& sketch) {
   for (const Trial& trial : trials) {
     if (list.size() >= kMostRivals || trial.score < least) break;
     if (structure_of(trial.sketch) == structure_of(sketch)) continue;
-    list.push_back(law::expression(law_of(trial.sketch)));
+    list.push_back(law::expression(law_of(trial.sketch, data.signals())));
   }
   return list;
 }
@@ -219,7 +217,8 @@ std::vector<std::string> rivals_of(const Data& data, const Sketch& sketch) {
 Discovered judged_beside(const Problem& problem, const Terms& terms, std::size_t k, bool rivals) {
   const Problem rest = beside(problem, without(terms, k));
   const Data data(rest);
-  Trial trial = weighed(data, with_round_references(terms[k]));
+  Trial trial = weighed(data, terms[k]);
+  trial.sketch.amplitude = terms[k].amplitude;  // beside the others as they are
   // An error of the motion may buy as much of a small term as of the greatest.
   const double largest = problem.residual.squaredNorm() - rest.residual.squaredNorm() + trial.gain;
   trial.score = trial.gain - penalty(trial.sketch, largest);
@@ -242,8 +241,9 @@ std::optional<std::size_t> least_worthy(const std::vector<Discovered>& laws) {
 std::vector<Discovered> accepted(const Problem& problem, Terms terms, bool rivals) {
   for (;;) {
     make_plainer(problem, terms);
-    // A term is fitted as if the others followed: they do here.
-    for (int sweep = 0; sweep < 2 && terms.size() > 1; ++sweep) settle(problem, terms, 4);
+    if (terms.size() > 1) settle(problem, terms, 8);
+    for (Sketch& sketch : terms) sketch = with_round_references(sketch);
+    settle(problem, terms, 0);  // their amplitudes
     std::vector<Discovered> laws;
     for (std::size_t k = 0; k < terms.size(); ++k) {
       laws.push_back(judged_beside(problem, terms, k, rivals && terms.size() == 1));
@@ -278,7 +278,8 @@ std::vector<Discovered> discover(const Problem& problem) {
 
 std::vector<Discovered> refitted(const Problem& problem, const std::vector<Discovered>& laws) {
   Terms terms;
-  for (const Discovered& found : laws) terms.push_back(sketch_of(found.law));
+  const Data data(problem);
+  for (const Discovered& found : laws) terms.push_back(sketch_of(found.law, data.signals()));
   settle(problem, terms, 8);
   auto again = accepted(problem, terms, false);
   for (Discovered& found : again) {

@@ -145,7 +145,7 @@ Discovered judged(const Data& data, const Trial& trial) {
   const MatrixXd tangent = tangent_of(data, trial.sketch);
   const auto blocks = blocks_of(data.problem().rows);
   Discovered found;
-  found.law = law_of(trial.sketch);
+  found.law = law_of(trial.sketch, data.signals());
   found.gain = trial.gain;
   found.inflation = inflation_of(data, residual - amplitude * trial.column, trial.column);
   // The model's error is a share of gains, which a residual that is not white inflates as well.
@@ -153,8 +153,10 @@ Discovered judged(const Data& data, const Trial& trial) {
   found.score = (trial.score + numbers) / found.inflation - numbers;
   found.held_out_gain = held_out_gain(residual, tangent, blocks);
   found.disagreement = disagreement_of(residual, trial.column, amplitude, blocks);
-  found.established = found.disagreement <= prior::kConstant;
   found.deviation = deviations(found.law.structure, tangent, found.inflation);
+  // Where not even its sign is known, other numbers undo the amplitude: the form is not told.
+  found.established = found.disagreement <= prior::kConstant &&
+                      std::abs(amplitude) > prior::kSigned * found.deviation(0);
   return found;
 }
 

@@ -17,9 +17,11 @@ using Eigen::VectorXd;
 
 constexpr std::size_t kMostPieces = 3, kParents = 3, kModulators = 5;
 constexpr int kRounds = 3;
-constexpr int kFirstSteps = 4, kLastSteps = 15;
-constexpr double kLeastExtra = 10.0;  // of chi-square, for a modulator to be refined
-constexpr double kSameScore = 1.0;    // of chi-square, for finer curves: a limit of computation
+constexpr int kFirstSteps = 2, kNextSteps = 3, kLastSteps = 15;
+constexpr std::size_t kFewestNext = 8, kNextShare = 3;  // of the trials, one in so many
+constexpr double kLeastProduct = 0.01;  // of factors, somewhere: else the amplitude is no size
+constexpr double kLeastExtra = 10.0;    // of chi-square, for a modulator to be refined
+constexpr double kSameScore = 1.0;      // of chi-square, for finer curves: a limit of computation
 
 /// What a second column adds to the gain of the first.
 double extra_gain(const Data& data, const Trial& trial, const VectorXd& column) {
@@ -36,13 +38,12 @@ double extra_gain(const Data& data, const Trial& trial, const VectorXd& column) 
 std::vector<Sketch> modulated(const Data& data, const Trial& trial) {
   const auto pieces = modulators(data);
   std::vector<std::pair<double, std::size_t>> gains(pieces.size());
-  VectorXd strength = data.product(trial.sketch.pieces, trial.sketch);
+  const VectorXd strength = data.product(trial.sketch.pieces, trial.sketch);
   const MatrixXd vector = data.vector_of(trial.sketch);
   for_each_piece(static_cast<Index>(pieces.size()), [&](Index k) {
     const auto at = static_cast<std::size_t>(k);
-    VectorXd product = strength.cwiseProduct(data.product({pieces[at]}, trial.sketch));
-    if (trial.sketch.lag > 0.0) product = data.lagged(product, trial.sketch.lag);
-    const VectorXd column = data.projected(data.whiten(product.asDiagonal() * vector));
+    const VectorXd product = strength.cwiseProduct(data.product({pieces[at]}, trial.sketch));
+    const VectorXd column = data.projected(data.raw_column(product, vector, trial.sketch));
     gains[at] = {extra_gain(data, trial, column), at};
   });
   std::stable_sort(gains.begin(), gains.end(),
@@ -80,11 +81,14 @@ void add_deletions(const Data& data, const Sketch& from, std::vector<Sketch>& li
     }
   }
   for (const Sketch& plain : made_plain(from)) list.push_back(plain);
-  for (double Sketch::*lag : {&Sketch::lag, &Sketch::vector_lag}) {
-    if (!(from.*lag > 0.0)) continue;
+  using Size = double Sketch::*;
+  for (const Size size :
+       {&Sketch::lag, &Sketch::vector_lag, &Sketch::vector_length, &Sketch::spread}) {
+    if (!(from.*size > 0.0)) continue;
     if (from.pieces.empty() && law::is_axis(from.direction)) continue;  // a constant force is left
     Sketch sketch = from;
-    sketch.*lag = 0.0;
+    sketch.*size = 0.0;
+    if (!(sketch.lag > 0.0)) sketch.spread = 0.0;
     list.push_back(sketch);
   }
 }
@@ -129,6 +133,26 @@ std::vector<Sketch> with_curves(const Data& data, const Sketch& from) {
   return list;
 }
 
+/// The product behind a lag or many, the direction behind a lag or a presliding.
+void add_lags(const Data& data, const Sketch& from, std::vector<Sketch>& list) {
+  const auto add = [&](double Sketch::*size, double value) {
+    list.push_back(from);
+    list.back().*size = value;
+  };
+  if (!(from.lag > 0.0)) {
+    add(&Sketch::lag, 0.15);
+    add(&Sketch::lag, 1.0);
+    list.back().spread = 30.0;
+  } else if (!(from.spread > 0.0)) {
+    add(&Sketch::spread, 10.0);
+  }
+  if (from.vector_lag > 0.0 || from.vector_length > 0.0) return;
+  if (!law::is_axis(from.direction)) add(&Sketch::vector_lag, 0.15);
+  if (from.direction == direction_named("along_velocity")) {
+    for (const double share : {0.01, 0.1}) add(&Sketch::vector_length, share * data.diagonal());
+  }
+}
+
 std::vector<Sketch> variants(const Data& data, const Trial& trial) {
   const Sketch& from = trial.sketch;
   std::vector<Sketch> list = with_curves(data, from);
@@ -153,16 +177,7 @@ std::vector<Sketch> variants(const Data& data, const Trial& trial) {
     for (const Sketch& oblique : made_oblique(from)) list.push_back(oblique);
     for (const Sketch& along : made_along(from)) list.push_back(along);
   }
-  Sketch sketch = from;
-  if (!(sketch.lag > 0.0)) {
-    sketch.lag = 0.15;
-    list.push_back(sketch);
-  }
-  sketch = from;
-  if (!(sketch.vector_lag > 0.0) && !law::is_axis(sketch.direction)) {
-    sketch.vector_lag = 0.15;
-    list.push_back(sketch);
-  }
+  add_lags(data, from, list);
   if (from.pieces.size() < kMostPieces) {
     const auto more = modulated(data, trial);
     list.insert(list.end(), more.begin(), more.end());
@@ -180,8 +195,30 @@ std::vector<Trial> fitted(const Data& data, const std::vector<Sketch>& sketches,
   return trials;
 }
 
+/// All of them fitted a little, and the better ones more: those of the best score. A sketch that
+/// gains little in its first steps seldom gains in later ones (successive halving, Jamieson and
+/// Talwalkar 2016).
+std::vector<Trial> screened(const Data& data, const std::vector<Sketch>& sketches) {
+  std::vector<Trial> trials = fitted(data, sketches, kFirstSteps);
+  rank(trials);
+  std::vector<Sketch> better;
+  const std::size_t count =
+      std::min(trials.size(), std::max(kFewestNext, trials.size() / kNextShare));
+  for (std::size_t k = 0; k < count; ++k) better.push_back(trials[k].sketch);
+  std::vector<Trial> next = fitted(data, better, kNextSteps);
+  std::move(next.begin(), next.end(), trials.begin());
+  return trials;
+}
+
+/// Whether the factors never come near the amplitude: numbers that undo each other, whose sizes no
+/// recording tells.
+bool is_degenerate(const Data& data, const Sketch& sketch) {
+  return data.product(sketch.pieces, sketch).cwiseAbs().maxCoeff() < kLeastProduct;
+}
+
 /// The best first, one trial a structure.
-void rank_structures(std::vector<Trial>& trials) {
+void rank_structures(const Data& data, std::vector<Trial>& trials) {
+  std::erase_if(trials, [&](const Trial& trial) { return is_degenerate(data, trial.sketch); });
   rank(trials);
   std::vector<Trial> unique;
   for (Trial& trial : trials) {
@@ -211,8 +248,8 @@ std::vector<Sketch> with_other_curves(const Data& data, const Sketch& from) {
 std::vector<Trial> evolved(const Data& data, std::vector<Trial> trials) {
   std::vector<Sketch> sketches;
   for (const Trial& trial : trials) sketches.push_back(trial.sketch);
-  trials = fitted(data, sketches, 2 * kFirstSteps);
-  rank_structures(trials);
+  trials = fitted(data, sketches, kFirstSteps + 2 * kNextSteps);
+  rank_structures(data, trials);
   std::vector<law::Structure> done;
   for (int round = 0; round < kRounds; ++round) {
     std::vector<Sketch> next;
@@ -225,14 +262,14 @@ std::vector<Trial> evolved(const Data& data, std::vector<Trial> trials) {
       next.insert(next.end(), more.begin(), more.end());
     }
     if (next.empty()) break;
-    auto children = fitted(data, next, kFirstSteps);
+    auto children = screened(data, next);
     trials.insert(trials.end(), children.begin(), children.end());
-    rank_structures(trials);
+    rank_structures(data, trials);
     // The best few to the end: what is compared must have converged.
     for (std::size_t k = 0; k < std::min(kParents, trials.size()); ++k) {
       trials[k] = refined(data, trials[k].sketch, kLastSteps);
     }
-    rank_structures(trials);
+    rank_structures(data, trials);
     if (trials.size() > 40) trials.resize(40);
   }
   return trials;
@@ -246,7 +283,7 @@ Sketch with_finer_curves(const Data& data, const Sketch& from) {
     auto children = fitted(data, with_other_curves(data, trials.front().sketch), kLastSteps);
     trials.resize(1);
     trials.insert(trials.end(), children.begin(), children.end());
-    rank_structures(trials);
+    rank_structures(data, trials);
     if (trials.front().score <= before + kSameScore) return trials.front().sketch;
   }
 }

@@ -122,13 +122,20 @@ std::vector<Sketch> own_directions(const Data& data) {
       list.push_back(sketch);
     }
   }
-  if (data.varies(coordinate_named("distance"))) add_points(data, list);
+  if (!data.varies(coordinate_named("distance"))) return list;
+  add_points(data, list);
+  for (const double share : {0.005, 0.03, 0.2, 1.0}) {  // a contact that gives way
+    Sketch sketch;
+    sketch.direction = direction_named("along_velocity");
+    sketch.vector_length = share * data.diagonal();
+    list.push_back(sketch);
+  }
   return list;
 }
 
 std::vector<Atom> own_atoms(const Data& data, const Sketch& direction) {
   if (law::is_central(direction.direction)) return atoms_of_distance(data, direction);
-  if (direction.vector_lag > 0.0) return {{}};
+  if (direction.vector_lag > 0.0 || direction.vector_length > 0.0) return {{}};
   std::vector<Atom> list;
   for (const char* motion : {"v_along", "w_along"}) add_motion_along(data, motion, list);
   const std::size_t f = coordinate_named("f_along");

@@ -13,7 +13,8 @@ using law::Memory;
 
 /// States that are no displacement or rate of their coordinate.
 bool has_other_unit(Memory memory) {
-  return memory == Memory::kDahl || memory == Memory::kDwell || memory == Memory::kThixotropic;
+  return memory == Memory::kDahl || memory == Memory::kStop || memory == Memory::kDwell ||
+         memory == Memory::kThixotropic;
 }
 
 void add_modulators(const Data& data, std::size_t c, std::vector<Piece>& list) {
@@ -131,6 +132,7 @@ std::vector<Piece> other_shapes(const Data& data, const Piece& from) {
   add("step", -0.2 * size);
   if (from.extra != 0.0) add("switched", 0.2 * size, from.extra);
   if (kind_of(c) == Kind::kSize) add("inverse_power", size, 2.0);
+  if (kind_of(c) == Kind::kSignal) add("exponential", data.half_range(c));
   if (c == coordinate_named("distance")) {
     add("gaussian", size);
     add("exponential", 0.5 * size);
@@ -146,7 +148,7 @@ namespace {
 
 /// Where the coordinate, or the state that it drives, lies: centre and half of the range.
 std::pair<double, double> range_of(const Data& data, const law::Factor& factor) {
-  if (factor.memory == Memory::kDahl) return {0.0, 1.0};
+  if (factor.memory == Memory::kDahl || factor.memory == Memory::kStop) return {0.0, 1.0};
   if (factor.memory == Memory::kHighPass) return {0.0, data.half_range(factor.coordinate)};
   return {data.middle(factor.coordinate), data.half_range(factor.coordinate)};
 }
@@ -190,14 +192,14 @@ std::vector<Piece> as_curves(const Data& data, const Piece& from) {
   const auto f = [&](double q) { return value_at(from, q); };
   if (from.values.empty()) {  // a fine table may be right where a coarse one is not
     auto list = sampled(data, from, kFirst, f);
-    if (from.factor.memory == Memory::kDahl) return list;  // which is mostly at its ends
+    if (has_other_unit(memory)) return list;  // which is mostly at its ends
     const auto fine = sampled(data, from, kFine, f);
     list.insert(list.end(), fine.begin(), fine.end());
     return list;
   }
   const std::size_t nodes = from.values.size(), more = 2 * nodes - 1, fewer = (nodes + 1) / 2;
   std::vector<Piece> list;
-  if (more <= kMost && from.factor.memory != Memory::kDahl) list = sampled(data, from, more, f);
+  if (more <= kMost && !has_other_unit(memory)) list = sampled(data, from, more, f);
   if (fewer >= law::kFewestNodes) {
     const auto plain = sampled(data, from, fewer, f);
     list.insert(list.end(), plain.begin(), plain.end());
@@ -235,16 +237,19 @@ std::vector<Piece> with_memories(const Data& data, const Piece& from) {
     return list;
   }
   list.push_back(remembering(from, Memory::kLag, 0.2));
+  list.push_back(lagging(from, 1.0, 30.0));
   for (const double delay : {0.1, 0.3}) list.push_back(remembering(from, Memory::kDelay, delay));
   if (kind_of(c) == Kind::kRate || kind_of(c) == Kind::kLoad) {
     for (const double hz : {0.7, 2.0}) list.push_back(swinging(from, hz));
   }
-  if (kind_of(c) == Kind::kPlace || kind_of(c) == Kind::kLoad) {
+  if (kind_of(c) == Kind::kPlace || kind_of(c) == Kind::kLoad || kind_of(c) == Kind::kSignal) {
     list.push_back(remembering(from, Memory::kPlay, 0.1 * data.half_range(c)));
+    list.push_back(remembering(from, Memory::kPlays, 0.5 * data.half_range(c)));
   }
   if (kind_of(c) == Kind::kPlace || law::coordinates()[c].is_rate) {
     Piece p = piece("linear", c, 1.0);
     list.push_back(remembering(p, Memory::kDahl, 0.03 * data.path_range(c)));
+    list.push_back(remembering(p, Memory::kStop, 0.03 * data.path_range(c)));
   }
   return list;
 }

@@ -5,6 +5,7 @@
 
 #include "core/elementary.h"
 #include "core/linear_algebra.h"
+#include "discovery/handles.h"
 #include "discovery/priors.h"
 
 namespace dcnn::discovery {
@@ -16,114 +17,65 @@ using Eigen::VectorXd;
 constexpr double kSettled = 0.05;                           // of chi-square
 constexpr double kFirstDamping = 1e-6, kMostDamping = 1e3;  // of the diagonal
 constexpr double kDamped = 30.0;  // times more after a step that is no better, less after others
-constexpr double kFarthestPoint = 3.0;  // diagonals of what was reached
-constexpr double kSteepest = 3.0;       // of an oblique axis: beyond 1 another axis is nearer
 
-/// A number of a sketch on the scale that it is searched on.
-struct Handle {
-  double* value;
-  bool logarithmic;
-  double low, high;
-  double step;  // of a difference
-  double most;  // of one Gauss-Newton step
-
-  double get() const { return logarithmic ? elementary::log(std::abs(*value)) : *value; }
-  void set(double x) const {
-    if (logarithmic) {
-      const double size = std::clamp(elementary::exp(x), low, high);
-      *value = std::copysign(size, *value);
-    } else {
-      *value = std::clamp(x, low, high);
-    }
-  }
+/// Sketches with the amplitudes that are best together.
+struct Sum {
+  std::vector<Sketch> terms;
+  MatrixXd columns;  // of unit amplitudes
+  VectorXd left;
+  double gain = 0.0;
 };
 
-Handle positive(double& value, double low, double high) {
-  return {&value, true, low, high, 0.01, 0.8};
+Sum balanced(const Data& data, std::vector<Sketch> terms) {
+  const VectorXd& residual = data.problem().residual;
+  Sum sum{std::move(terms), MatrixXd(residual.size(), 0), residual, 0.0};
+  sum.columns.resize(residual.size(), static_cast<Index>(sum.terms.size()));
+  for (std::size_t k = 0; k < sum.terms.size(); ++k) {
+    sum.columns.col(static_cast<Index>(k)) = data.column(sum.terms[k]);
+  }
+  const MatrixXd gram = sum.columns.transpose() * sum.columns;
+  const VectorXd score = sum.columns.transpose() * residual;
+  VectorXd amplitudes = VectorXd::Zero(score.size());
+  if (gram.size() == 1 && gram(0, 0) > 0.0) amplitudes = score / gram(0, 0);
+  if (gram.size() > 1) amplitudes = solve_gram(gram, score, 1e-9);
+  if (!amplitudes.allFinite()) amplitudes.setZero();
+  for (std::size_t k = 0; k < sum.terms.size(); ++k) {
+    sum.terms[k].amplitude = amplitudes(static_cast<Index>(k));
+  }
+  sum.left -= sum.columns * amplitudes;
+  sum.gain = 2.0 * amplitudes.dot(score) - amplitudes.dot(gram * amplitudes);
+  return sum;
 }
 
-void add_handles(const Data& data, Piece& piece, std::vector<Handle>& list) {
-  const std::size_t c = piece.factor.coordinate;
-  const law::Shape& shape = law::shapes()[piece.factor.shape];
-  const bool clock_memory = piece.factor.memory == law::Memory::kLag ||
-                            piece.factor.memory == law::Memory::kHighPass ||
-                            piece.factor.memory == law::Memory::kDelay;
-  if (clock_memory) {
-    list.push_back(positive(piece.memory, 2.0 * data.dt(), 0.5 * data.seconds()));
-  } else if (piece.factor.memory == law::Memory::kSecondOrder) {
-    list.push_back(positive(piece.memory, 1.0 / data.seconds(), 0.25 / data.dt()));
-    list.push_back(positive(piece.second, law::kLeastDamping, law::kMostDamping));
-  } else if (piece.factor.memory == law::Memory::kThixotropic) {
-    const double path = data.path_range(c);
-    list.push_back(positive(piece.memory, 1e-3 * path, 100.0 * path));
-    list.push_back(positive(piece.second, 2.0 * data.dt(), data.seconds()));
-  } else if (piece.factor.memory == law::Memory::kPlay) {
-    list.push_back(positive(piece.memory, 1e-3 * data.half_range(c), data.half_range(c)));
-  } else if (piece.factor.memory != law::Memory::kNone) {
-    list.push_back(positive(piece.memory, 1e-3 * data.path_range(c), 2.0 * data.path_range(c)));
-  }
-  const double range = data.half_range(c);
-  if (piece.factor.centred && shape.free_centre) {
-    list.push_back({&piece.centre, false, data.low(c) - range, data.high(c) + range, 5e-3 * range,
-                    0.3 * range});
-  }
-  if (shape.free_scale) {
-    const double size = std::max(range, data.rms(c));
-    list.push_back(positive(piece.scale, 2e-3 * size, 50.0 * size));
-  }
-  for (std::size_t k = 0; k < piece.values.size(); ++k) {
-    if (k != piece.factor.peak) list.push_back({&piece.values[k], false, -1e3, 1e3, 0.02, 10.0});
-  }
-  if (!*shape.extra) return;
-  const bool is_power = shape.most < 100.0;
-  list.push_back({&piece.extra, false, is_power ? prior::kLeastPower : shape.least, shape.most,
-                  is_power ? 0.01 : 0.01 * (1.0 + std::abs(piece.extra)),
-                  is_power ? 0.5 : 2.0 * (1.0 + std::abs(piece.extra))});
-}
-
-/// Two of an oblique axis, or the place of a point, which may lie outside what was reached.
-void add_own_handles(const Data& data, Sketch& sketch, std::vector<Handle>& list) {
-  if (law::is_central(sketch.direction)) {
-    const std::size_t x = coordinate_named("x");
-    const double diagonal = 2.0 * data.rms(coordinate_named("distance"));
-    for (std::size_t k = 0; k < 3; ++k) {
-      list.push_back({&sketch.own[k], false, data.low(x + k) - kFarthestPoint * diagonal,
-                      data.high(x + k) + kFarthestPoint * diagonal, 2e-3 * diagonal,
-                      0.15 * diagonal});
-    }
-  } else if (sketch.oblique) {
-    for (std::size_t k = 0; k < 2; ++k) {
-      list.push_back({&sketch.own[k], false, -kSteepest, kSteepest, 0.01, 0.3});
+/// Raw columns of a sketch whose numbers move one at a time: what they leave is computed once.
+class Moving {
+ public:
+  Moving(const Data& data, const Sketch& sketch)
+      : data_(data), vector_(data.vector_of(sketch)), others_(sketch.pieces.size()) {
+    for (std::size_t k = 0; k < others_.size(); ++k) {
+      auto pieces = sketch.pieces;
+      pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(k));
+      others_[k] = data.product(pieces, sketch);
     }
   }
-}
-
-/// In the order of the law's numbers, without the amplitude and the references.
-std::vector<Handle> handles_of(const Data& data, Sketch& sketch) {
-  std::vector<Handle> list;
-  add_own_handles(data, sketch, list);
-  if (sketch.vector_lag > 0.0) {
-    list.push_back(positive(sketch.vector_lag, 2.0 * data.dt(), 0.5 * data.seconds()));
+  VectorXd column(const Sketch& sketch, int moved_piece) const {
+    if (moved_piece < 0) return data_.raw_column(sketch);
+    const auto k = static_cast<std::size_t>(moved_piece);
+    return data_.raw_column(others_[k].cwiseProduct(data_.product({sketch.pieces[k]}, sketch)),
+                            vector_, sketch);
   }
-  if (sketch.lag > 0.0) {
-    list.push_back(positive(sketch.lag, 0.5 * data.dt(), 0.5 * data.seconds()));
-  }
-  for (Piece& piece : sketch.pieces) add_handles(data, piece, list);
-  return list;
-}
 
-void solve_amplitude(const Data& data, Trial& trial) {
-  const double energy = trial.column.squaredNorm();
-  const double score = trial.column.dot(data.problem().residual);
-  trial.sketch.amplitude = energy > 0.0 ? score / energy : 0.0;
-  trial.gain = energy > 0.0 ? score * score / energy : 0.0;
-}
+ private:
+  const Data& data_;
+  MatrixXd vector_;
+  std::vector<VectorXd> others_;  // the product of all factors but one
+};
 
 /// Derivatives by the search scales, unit amplitude.
-MatrixXd derivatives(const Data& data, const Trial& here) {
-  Sketch sketch = here.sketch;
+MatrixXd derivatives(const Data& data, Sketch sketch) {
   const auto handles = handles_of(data, sketch);
-  MatrixXd columns(here.column.size(), static_cast<Index>(handles.size()));
+  MatrixXd columns(data.problem().residual.size(), static_cast<Index>(handles.size()));
+  const Moving moving(data, sketch);
   const VectorXd from = data.raw_column(sketch);
   for (std::size_t k = 0; k < handles.size(); ++k) {
     const double before = *handles[k].value, at = handles[k].get();
@@ -133,9 +85,9 @@ MatrixXd derivatives(const Data& data, const Trial& here) {
       handles[k].set(at - handles[k].step);
       moved = handles[k].get() - at;
     }
-    columns.col(static_cast<Index>(k)) = moved == 0.0
-                                             ? VectorXd(VectorXd::Zero(here.column.size()))
-                                             : VectorXd((data.raw_column(sketch) - from) / moved);
+    const VectorXd column = moving.column(sketch, handles[k].of_piece);
+    columns.col(static_cast<Index>(k)) =
+        moved == 0.0 ? VectorXd(VectorXd::Zero(from.size())) : VectorXd((column - from) / moved);
     *handles[k].value = before;
   }
   return data.projected(columns);
@@ -143,8 +95,7 @@ MatrixXd derivatives(const Data& data, const Trial& here) {
 
 /// A curve where the motion hardly is goes on as beside: its second differences weigh a little of
 /// what the mean value of its nodes does. In a Gram matrix whose first row is the amplitude's.
-void add_bending(const Data& data, const Trial& here, MatrixXd& gram, VectorXd& score) {
-  Sketch sketch = here.sketch;
+void add_bending(const Data& data, Sketch sketch, MatrixXd& gram, VectorXd& score) {
   const auto handles = handles_of(data, sketch);
   for (const Piece& piece : sketch.pieces) {
     const auto count = static_cast<Index>(piece.values.size());
@@ -168,26 +119,84 @@ void add_bending(const Data& data, const Trial& here, MatrixXd& gram, VectorXd& 
   }
 }
 
-/// Normal equations of a step of the numbers, the amplitude first.
+/// Normal equations of a step of all numbers, those of each term behind its amplitude.
 struct Normal {
   MatrixXd gram;
   VectorXd score;
-  /// Damped by a share of the diagonal (Marquardt 1963), without the amplitude's.
+  std::vector<Index> begins;  // places of the amplitudes
+  /// Damped by a share of the diagonal (Marquardt 1963), without the amplitudes'.
   VectorXd step(double damping) const {
     MatrixXd damped = gram;
-    damped.diagonal().tail(gram.cols() - 1) *= 1.0 + damping;
-    return solve_gram(damped, score, 1e-9).bottomRows(gram.cols() - 1);
+    damped.diagonal() *= 1.0 + damping;
+    for (const Index place : begins) damped(place, place) = gram(place, place);
+    return solve_gram(damped, score, 1e-9);
   }
 };
 
-Normal normal_of(const Data& data, const Trial& here, const MatrixXd& slopes) {
-  MatrixXd A(slopes.rows(), slopes.cols() + 1);
-  A << here.column, here.sketch.amplitude * slopes;
-  const VectorXd left = data.problem().residual - here.sketch.amplitude * here.column;
-  Normal normal{A.transpose() * A, A.transpose() * left};
-  add_bending(data, here, normal.gram, normal.score);
+Normal normal_of(const Data& data, const Sum& sum) {
+  std::vector<MatrixXd> slopes;
+  Normal normal;
+  Index count = 0;
+  for (const Sketch& sketch : sum.terms) {
+    slopes.push_back(sketch.amplitude * derivatives(data, sketch));
+    normal.begins.push_back(count);
+    count += slopes.back().cols() + 1;
+  }
+  MatrixXd A(sum.left.size(), count);
+  for (std::size_t k = 0; k < slopes.size(); ++k) {
+    A.col(normal.begins[k]) = sum.columns.col(static_cast<Index>(k));
+    A.middleCols(normal.begins[k] + 1, slopes[k].cols()) = slopes[k];
+  }
+  normal.gram = A.transpose() * A;
+  normal.score = A.transpose() * sum.left;
+  for (std::size_t k = 0; k < slopes.size(); ++k) {
+    const Index first = normal.begins[k], size = slopes[k].cols() + 1;
+    MatrixXd gram = normal.gram.block(first, first, size, size);
+    VectorXd score = normal.score.segment(first, size);
+    add_bending(data, sum.terms[k], gram, score);
+    normal.gram.block(first, first, size, size) = gram;
+    normal.score.segment(first, size) = score;
+  }
   return normal;
 }
+
+/// The terms with their numbers changed, each by no more than it may.
+std::vector<Sketch> changed(const Data& data, std::vector<Sketch> terms, const Normal& normal,
+                            const VectorXd& change) {
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    const auto handles = handles_of(data, terms[t]);
+    for (std::size_t k = 0; k < handles.size(); ++k) {
+      const double most = handles[k].most;
+      const double step = change(normal.begins[t] + 1 + static_cast<Index>(k));
+      handles[k].set(handles[k].get() + std::clamp(step, -most, most));
+    }
+  }
+  return terms;
+}
+
+/// Gauss-Newton steps of all numbers together.
+Sum fitted_together(const Data& data, const std::vector<Sketch>& terms, int most_steps) {
+  Sum here = balanced(data, terms);
+  double damping = kFirstDamping;
+  for (int step = 0; step < most_steps && here.gain > 0.0; ++step) {
+    const Normal normal = normal_of(data, here);
+    if (normal.gram.cols() == static_cast<Index>(terms.size())) break;  // amplitudes alone
+    const double before = here.gain;
+    bool better = false;
+    for (; damping < kMostDamping && !better; damping *= better ? 1.0 : kDamped) {
+      const VectorXd change = normal.step(damping);
+      if (!change.allFinite()) break;
+      Sum there = balanced(data, changed(data, here.terms, normal, change));
+      better = there.gain > here.gain;
+      if (better) here = std::move(there);
+    }
+    if (!better || here.gain - before < kSettled) break;
+    damping = std::max(kFirstDamping, damping / kDamped);
+  }
+  return here;
+}
+
+Trial trial_of(const Sum& sum) { return {sum.terms.front(), sum.gain, 0.0, sum.columns.col(0)}; }
 
 }  // namespace
 
@@ -205,45 +214,22 @@ void rank(std::vector<Trial>& trials) {
                    [](const Trial& a, const Trial& b) { return a.score > b.score; });
 }
 
-Trial weighed(const Data& data, const Sketch& sketch) {
-  Trial trial{sketch, 0.0, 0.0, data.column(sketch)};
-  solve_amplitude(data, trial);
-  return trial;
-}
+Trial weighed(const Data& data, const Sketch& sketch) { return trial_of(balanced(data, {sketch})); }
 
 Trial refined(const Data& data, const Sketch& sketch, int most_steps) {
-  Trial here = weighed(data, sketch);
-  double damping = kFirstDamping;
-  for (int step = 0; step < most_steps && here.gain > 0.0; ++step) {
-    const MatrixXd slopes = derivatives(data, here);
-    if (slopes.cols() == 0) break;
-    const Normal normal = normal_of(data, here, slopes);
-    const double before = here.gain;
-    bool better = false;
-    for (; damping < kMostDamping && !better; damping *= better ? 1.0 : kDamped) {
-      const VectorXd change = normal.step(damping);
-      if (!change.allFinite()) break;
-      Sketch next = here.sketch;
-      const auto handles = handles_of(data, next);
-      for (std::size_t k = 0; k < handles.size(); ++k) {
-        const double most = handles[k].most;
-        handles[k].set(handles[k].get() + std::clamp(change(static_cast<Index>(k)), -most, most));
-      }
-      Trial there = weighed(data, next);
-      better = there.gain > here.gain;
-      if (better) here = std::move(there);
-    }
-    if (!better || here.gain - before < kSettled) break;
-    damping = std::max(kFirstDamping, damping / kDamped);
-  }
-  return here;
+  return trial_of(fitted_together(data, {sketch}, most_steps));
+}
+
+std::vector<Sketch> refined_together(const Data& data, const std::vector<Sketch>& terms,
+                                     int most_steps) {
+  return fitted_together(data, terms, most_steps).terms;
 }
 
 MatrixXd tangent_of(const Data& data, const Sketch& sketch) {
-  Trial here{sketch, 0.0, 0.0, data.column(sketch)};
-  const MatrixXd slopes = derivatives(data, here);
-  MatrixXd columns(here.column.size(), slopes.cols() + 1);
-  columns << here.column, sketch.amplitude * slopes;
+  const VectorXd column = data.column(sketch);
+  const MatrixXd slopes = derivatives(data, sketch);
+  MatrixXd columns(column.size(), slopes.cols() + 1);
+  columns << column, sketch.amplitude * slopes;
   Sketch copy = sketch;
   const auto handles = handles_of(data, copy);
   for (std::size_t k = 0; k < handles.size(); ++k) {

@@ -1,4 +1,4 @@
-// The numbers of one sketch fitted to the residual, and what that gains.
+// The numbers of sketches fitted to the residual, and what that gains.
 #pragma once
 
 #include "discovery/data.h"
@@ -17,6 +17,10 @@ Trial weighed(const Data& data, const Sketch& sketch);
 
 /// Gauss-Newton over its numbers, the amplitude solved for, at most so many steps.
 Trial refined(const Data& data, const Sketch& sketch, int most_steps);
+/// The same of sketches whose forces add up, all numbers together; the amplitudes alone for no
+/// steps.
+std::vector<Sketch> refined_together(const Data& data, const std::vector<Sketch>& terms,
+                                     int most_steps);
 
 /// Derivatives of the whitened column by the numbers that are fitted, the amplitude first, in the
 /// order of the law's numbers; by the numbers themselves, not their search scales.

@@ -15,7 +15,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kBatch = 64;
-constexpr std::size_t kExact = 4;  // times as many are weighed exactly as are asked for
+// Estimates leave out what is known beside a law: many are weighed exactly, and the best of them
+// behind lags too.
+constexpr std::size_t kExact = 300, kLagged = 100;
+constexpr double kLags[] = {0.1, 0.3, 1.0, 3.0, 10.0};  // s
 
 /// Power that whitening makes of a channel's signals of motion, per sample.
 Eigen::RowVector3d power_gains(const Data& data) {
@@ -190,6 +193,37 @@ class Crowd {
   std::map<std::multiset<std::size_t>, int> counts_;
 };
 
+void weigh(const Data& data, std::vector<Trial>& trials) {
+  for_each_piece(static_cast<Index>(trials.size()), [&](Index k) {
+    Trial& trial = trials[static_cast<std::size_t>(k)];
+    trial = weighed(data, trial.sketch);
+  });
+}
+
+/// The first of them with the product behind a lag, the best first.
+std::vector<Trial> lagged(const Data& data, const std::vector<Trial>& trials) {
+  std::vector<Trial> lagged;
+  for (std::size_t k = 0; k < std::min(kLagged, trials.size()); ++k) {
+    const Sketch& sketch = trials[k].sketch;
+    if (sketch.pieces.empty()) continue;  // of a direction: dictionaries hold these
+    for (const double tau : kLags) {
+      lagged.push_back(told(sketch, 0.0));
+      lagged.back().sketch.lag = tau;
+    }
+  }
+  weigh(data, lagged);
+  rank(lagged);
+  return lagged;
+}
+
+/// Adds the first `count` of a list that are not alike.
+void add_best(const std::vector<Trial>& from, std::size_t count, std::vector<Trial>& list) {
+  Crowd crowd;
+  for (const Trial& trial : from) {
+    if (count > 0 && crowd.admits(trial.sketch)) list.push_back(trial), --count;
+  }
+}
+
 }  // namespace
 
 std::vector<Trial> scan(const Data& data, std::size_t count) {
@@ -212,16 +246,18 @@ std::vector<Trial> scan(const Data& data, std::size_t count) {
   std::vector<Trial> all;
   for (const auto& list : found) all.insert(all.end(), list.begin(), list.end());
   rank(all);
-  Crowd crowd, final_crowd;
+  Crowd crowd;
   std::vector<Trial> exact, best;
   for (const Trial& candidate : all) {
-    if (exact.size() >= kExact * count) break;
-    if (crowd.admits(candidate.sketch)) exact.push_back(weighed(data, candidate.sketch));
+    if (exact.size() >= kExact) break;
+    if (crowd.admits(candidate.sketch)) exact.push_back(candidate);
   }
+  weigh(data, exact);
   rank(exact);
-  for (Trial& trial : exact) {
-    if (best.size() < count && final_crowd.admits(trial.sketch)) best.push_back(std::move(trial));
-  }
+  const std::vector<Trial> late = lagged(data, exact);
+  add_best(exact, count, best);
+  add_best(late, count / 2, best);
+  rank(best);
   return best;
 }
 

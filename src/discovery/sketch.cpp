@@ -1,5 +1,6 @@
 #include "discovery/sketch.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <string>
@@ -16,6 +17,11 @@ std::size_t place_named(const List& list, const char* name) {
   }
   assert(false && "a shape, coordinate or direction of this name");
   return 0;
+}
+
+/// Place of a name in the list, or the list's length.
+std::size_t place_of(const std::vector<std::string>& list, const std::string& name) {
+  return static_cast<std::size_t>(std::find(list.begin(), list.end(), name) - list.begin());
 }
 
 double one_digit(double value) {
@@ -52,7 +58,9 @@ void each_number(AnySketch& sketch, const Visit& visit) {
   if (has_vector_scale(sketch)) visit(sketch.vector_scale);
   for (int k = 0; k < own_numbers(sketch); ++k) visit(sketch.own[static_cast<std::size_t>(k)]);
   if (sketch.vector_lag > 0.0) visit(sketch.vector_lag);
+  if (sketch.vector_length > 0.0) visit(sketch.vector_length);
   if (sketch.lag > 0.0) visit(sketch.lag);
+  if (sketch.spread > 0.0) visit(sketch.spread);
   for (auto& piece : sketch.pieces) each_number_of(piece, visit);
 }
 
@@ -86,27 +94,45 @@ Sketch with_axis(Sketch sketch, const law::Vector3d& e) {
 law::Structure structure_of(const Sketch& sketch) {
   law::Structure structure = direction_of(sketch);
   structure.direction_lagged = sketch.vector_lag > 0.0;
+  structure.presliding = sketch.vector_length > 0.0;
   structure.lagged = sketch.lag > 0.0;
+  structure.spread = sketch.spread > 0.0;
   for (const Piece& piece : sketch.pieces) structure.factors.push_back(piece.factor);
   return structure;
 }
 
-law::Law law_of(const Sketch& sketch) {
+law::Law law_of(const Sketch& sketch, const std::vector<std::string>& signals) {
   std::vector<double> numbers;
   each_number(sketch, [&](double value) { numbers.push_back(value); });
-  return {structure_of(sketch),
+  law::Structure structure = structure_of(sketch);
+  for (law::Factor& factor : structure.factors) {
+    if (!law::is_signal(factor.coordinate)) continue;
+    const std::string& name = signals.at(factor.coordinate - law::signal_coordinate(0));
+    factor.coordinate = law::signal_coordinate(place_of(structure.signals, name));
+    if (factor.coordinate == law::signal_coordinate(structure.signals.size())) {
+      structure.signals.push_back(name);
+    }
+  }
+  return {structure,
           Eigen::Map<Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()))};
 }
 
-Sketch sketch_of(const law::Law& law) {
+Sketch sketch_of(const law::Law& law, const std::vector<std::string>& signals) {
   Sketch sketch;
   sketch.direction = law.structure.direction;
   sketch.oblique = law.structure.oblique;
   sketch.vector_lag = law.structure.direction_lagged ? 1.0 : 0.0;
+  sketch.vector_length = law.structure.presliding ? 1.0 : 0.0;
   sketch.lag = law.structure.lagged ? 1.0 : 0.0;
+  sketch.spread = law.structure.spread ? 1.0 : 0.0;
   for (const law::Factor& factor : law.structure.factors) {
     Piece piece;
     piece.factor = factor;
+    if (law::is_signal(factor.coordinate)) {
+      const std::size_t own = factor.coordinate - law::signal_coordinate(0);
+      piece.factor.coordinate =
+          law::signal_coordinate(place_of(signals, law.structure.signals.at(own)));
+    }
     piece.values.resize(factor.nodes);
     sketch.pieces.push_back(piece);
   }
@@ -138,7 +164,7 @@ int free_numbers(const Sketch& sketch) {
 }
 
 int memories(const Sketch& sketch) {
-  int count = (sketch.lag > 0.0) + (sketch.vector_lag > 0.0);
+  int count = (sketch.lag > 0.0) + (sketch.vector_lag > 0.0) + (sketch.vector_length > 0.0);
   for (const Piece& piece : sketch.pieces) count += piece.factor.memory != law::Memory::kNone;
   return count;
 }

@@ -21,6 +21,8 @@ struct Sketch {
   std::array<double, 3> own{};  ///< of the direction itself: two of an oblique axis, or a point, m
   double vector_scale = 1.0;
   double vector_lag = 0.0, lag = 0.0;  ///< s; 0 for none
+  double vector_length = 0.0;          ///< m, of presliding; 0 for none
+  double spread = 0.0;                 ///< of the lag; 0 for one lag
   double amplitude = 1.0;
   std::vector<Piece> pieces;
 };
@@ -35,8 +37,9 @@ law::Vector3d own_vector(const Sketch& sketch);
 /// The sketch along the axis `e` of the frame in which its direction is, told from the nearest of
 /// that frame's axes.
 Sketch with_axis(Sketch sketch, const law::Vector3d& e);
-law::Law law_of(const Sketch& sketch);
-Sketch sketch_of(const law::Law& law);
+/// The law names those of `signals` that it takes; a sketch numbers them in the order of that list.
+law::Law law_of(const Sketch& sketch, const std::vector<std::string>& signals);
+Sketch sketch_of(const law::Law& law, const std::vector<std::string>& signals);
 
 /// Place of a shape, coordinate or direction by its name.
 std::size_t shape_named(const char* name);

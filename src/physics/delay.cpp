@@ -54,7 +54,7 @@ Eigen::VectorXd earlier(const Eigen::VectorXd& x, const std::vector<double>& ins
 }  // namespace
 
 void delay(Eigen::MatrixXd& signals, const Motion& motion, double seconds) {
-  if (signals.rows() == 0) return;
+  if (signals.isZero(0.0)) return;  // torques where only forces are meant, or no rows
   for (const Segment& segment : motion.segments) {
     const std::vector<double> instants = instants_of(motion, segment);
     for (Index i = 0; i < signals.cols(); ++i) {

@@ -59,6 +59,11 @@ std::vector<std::string> signals_of(const std::vector<EffectSpec>& effects) {
   for (const EffectSpec& effect : effects) {
     const auto driver = effect.parameters.find("driven_by");
     if (driver) names.push_back(driver->get<std::string>());
+    const auto signals =
+        effect.law.is_object() ? effect.law.value("signals", Json::array()) : Json::array();
+    for (const Json& name : signals) {
+      if (name.is_string()) names.push_back(name.get<std::string>());
+    }
   }
   return names;
 }

@@ -23,7 +23,7 @@ std::optional<Drive> read_drive(const EffectKind& kind, Options& parameters);
 void apply_driven(const Drive& drive, const EffectSpec& effect, const Motion& motion,
                   const ToolModel& model, Wrench& wrench);
 
-/// The signals that drive one of the effects.
+/// The signals that drive one of the effects, or that a discovered law takes.
 std::vector<std::string> signals_of(const std::vector<EffectSpec>& effects);
 /// Adds those of them that the recording has to its motion.
 void read_signals(const Recording& recording, const std::vector<std::string>& names,

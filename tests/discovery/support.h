@@ -78,7 +78,8 @@ inline MatrixXd prediction(const Scene& at, const std::vector<Discovered>& laws)
   for (const Discovered& found : laws) {
     law::LawRun run(found.law);
     for (Index k = 0; k < at.motion.samples(); ++k) {
-      const law::Sample now = law::sample_of(at.motion, k, at.load.row(k));
+      const law::Sample now =
+          law::sample_of(at.motion, k, at.load.row(k), found.law.structure.signals);
       wrench.force.row(k) += run.step(now, at.motion.dt, k == 0).transpose();
     }
   }

@@ -391,16 +391,19 @@ TEST(DiscoveredLaw, RefusesUnknownWordsAndUnitsThatItsStructureDoesNotHave) {
 TEST(DiscoveredLaw, EveryShapeAndMemoryIsFiniteAndTold) {
   const Motion motion = example_motion(200);
   for (std::size_t shape = 0; shape < law::shapes().size(); ++shape) {
-    for (int memory = 0; memory <= static_cast<int>(law::Memory::kDelay); ++memory) {
+    for (int memory = 0; memory <= static_cast<int>(law::Memory::kPlays); ++memory) {
       law::Factor factor{shape, 5, static_cast<law::Memory>(memory), true};
       if (law::is_curve(shape)) factor.nodes = 5, factor.peak = 2;
-      law::Law law{{2, false, false, false, {factor}}, {}};
+      law::Structure structure;
+      structure.direction = 2;
+      structure.factors = {factor};
+      law::Law law{structure, {}};
       const auto list = law::numbers_of(law.structure);
       law.numbers = Eigen::VectorXd::Constant(static_cast<Index>(list.size()), 0.5);
       law::LawRun run(law);
       for (Index k = 0; k < motion.samples(); ++k) {
         const auto force =
-            run.step(law::sample_of(motion, k, Eigen::Vector3d::Ones()), 0.002, k == 0);
+            run.step(law::sample_of(motion, k, Eigen::Vector3d::Ones(), {}), 0.002, k == 0);
         ASSERT_TRUE(force.allFinite());
       }
       const Json told = law::to_json(law);

@@ -32,6 +32,8 @@ struct Problem {
   std::vector<Row> rows;
   Eigen::VectorXd residual;  ///< whitened, 0 in rows that must not be looked at
   Eigen::MatrixXd known;     ///< whitened columns that are fitted beside the law, orthonormal
+  /// Whether a search should end with what it has; null: never.
+  std::function<bool()> is_spent = nullptr;
 };
 
 /// A law and what speaks for it.

@@ -25,6 +25,10 @@ struct Coordinate {
 const std::vector<Coordinate>& coordinates();
 /// Taken along the law's own direction, or from its point: none without one.
 bool is_own(std::size_t coordinate);
+/// A column of the recordings, which a structure names; "signal_1" … stand for them in files.
+constexpr std::size_t kMostSignals = 3;
+bool is_signal(std::size_t coordinate);
+std::size_t signal_coordinate(std::size_t signal);
 /// What the axis of a machine has: angle alpha, what moves along base x, sizes, time.
 bool is_of_axes(std::size_t coordinate);
 
@@ -56,6 +60,8 @@ const Terms& tool_terms();
 /// effort is told, which overcomes friction, and -1 where the reaction to it is.
 Terms axis_terms(const std::string& axis, const std::string& effort,
                  const std::string& position_unit, double resisting);
+/// The same with these columns as signals, which have no unit that is known.
+Terms with_signals(Terms terms, const std::vector<std::string>& columns);
 
 /// f(u), u = (q - centre)/scale, q the coordinate or a state that it drives; p a further number. A
 /// curve has neither: it goes through values at even distances from u = -1 to 1.
@@ -86,16 +92,21 @@ enum class Memory {
   kHighPass,  ///< q - s with that s
   kPlay,      ///< s follows q at the distance of a width (Krasnosel'skii and Pokrovskii 1989)
   kDahl,   ///< ds = (dx - abs(dx) s)/width, x the coordinate or, of a rate, its integral; |s| <= 1
+  kStop,   ///< ds = dx while abs(s) < width: elastic, then it slips (Prandtl 1928); over the width
   kDwell,  ///< s' = 1 - abs(x') s/length: seconds of contact (Dieterich 1979)
   kSecondOrder,  ///< s'' = w^2 (q - s) - 2 d w s', w the natural frequency, d the damping ratio
   kDelay,        ///< q as it was so many seconds ago
   /// s' = (1 - s)/recovery - abs(x') s/length: 1 after a rest, broken down by motion (Moore 1959)
   kThixotropic,
+  kLags,   ///< the mean of lags whose times are evenly spread on a log scale (Fung 1972)
+  kPlays,  ///< the mean of plays whose widths are evenly spread up to a size (Iwan 1966)
 };
-/// Numbers of a state: a size, and the damping ratio of the second order or the time of recovery.
+/// Numbers of a state: a size, and the damping ratio of the second order, the time of recovery, or
+/// the ratio of the longest of many lags to the shortest, whose geometric mean is the size.
 int numbers_of(Memory memory);
 /// Of a state of second order: below 1, where two lags do the same.
 constexpr double kLeastDamping = 0.005, kMostDamping = 0.98;
+constexpr double kMostSpread = 1e6;  ///< of many lags
 
 struct Factor {
   std::size_t shape = 0, coordinate = 0;  ///< places in shapes() and coordinates()
@@ -116,14 +127,19 @@ struct Number {
   double low = 0.0, high = 0.0;  ///< bounds; positive where low > 0
 };
 
-/// force = amplitude · product of factors · direction, the product behind a lag where `lagged`.
+/// force = amplitude · product of factors · direction, the product behind a lag where `lagged`, or
+/// behind the mean of many where that is `spread`.
 struct Structure {
   std::size_t direction = 0;
   bool direction_lagged = false;  ///< the vector passes a first-order lag
-  bool lagged = false;
+  /// Of the direction of motion: in the base frame it follows over a path, z' = v/L - abs(v) z/L
+  /// (Dahl 1968, of vectors): a contact that gives way before it slides.
+  bool presliding = false;
+  bool lagged = false, spread = false;
   bool on_torque = false;
   std::vector<Factor> factors;
   bool oblique = false;  ///< the direction's axis e_k is e_k + a e_(k+1) + b e_(k+2), normalised
+  std::vector<std::string> signals = {};  ///< columns that its factors take
   bool operator==(const Structure&) const = default;
 };
 /// Numbers of the direction itself: a and b of an oblique axis, or the point.
@@ -161,9 +177,12 @@ struct Sample {
   Vector3d euler, p_B, v_B, a_B, w_S, dw_S;
   Vector3d load_S;  ///< N, the force that the law is added to
   double t = 0.0;   ///< s, the recording's clock
+  std::array<double, kMostSignals> signals{};
 };
-/// Of a row of a motion that has velocities; its place is 0 where it has none.
-Sample sample_of(const Motion& motion, Eigen::Index row, const Vector3d& load_S);
+/// Of a row of a motion that has velocities; its place is 0 where it has none, and so are `signals`
+/// that it has not.
+Sample sample_of(const Motion& motion, Eigen::Index row, const Vector3d& load_S,
+                 const std::vector<std::string>& signals);
 /// Not of those that are the law's own.
 double coordinate_at(std::size_t coordinate, const Sample& now);
 /// The same of all, along the unit vector `n_S` or from the point `own`.
@@ -182,6 +201,26 @@ class LagRun {
  private:
   Value s_{}, before_{};
   double h_ = -1.0, decay_ = 0.0, ramp_ = 0.0;  // of the step before
+};
+
+/// The mean of lags whose times are evenly spread on a log scale over `spread` about `tau`.
+class LagsRun {
+ public:
+  LagsRun(double tau, double spread);  ///< s, and longest over shortest; tau 0 for none
+  double step(double q, double h, bool first);
+
+ private:
+  std::vector<double> times_;
+  std::vector<LagRun<double>> lags_;
+};
+
+/// The direction of motion over a path, in the sensor frame as it turns; 0 where a stretch begins.
+class PreslidingRun {
+ public:
+  Vector3d step(const Sample& now, double length, double h, bool first);
+
+ private:
+  Vector3d z_B_ = Vector3d::Zero();
 };
 
 /// A value as it was some time ago, linear between samples; of long delays a sample is kept every
@@ -211,6 +250,7 @@ class FactorRun {
 
  private:
   double state(double q, double h, bool first);
+  double mean_of_plays(double q, bool first);
   const Shape* shape_;
   std::vector<double> curve_;  // values at its nodes
   Memory memory_;
@@ -218,7 +258,9 @@ class FactorRun {
   double size_ = 1.0, recovery_ = 1.0, centre_ = 0.0, scale_ = 1.0, extra_ = 0.0;
   double s_ = 0.0, before_ = 0.0;
   LagRun<double> lag_;
+  LagsRun lags_;
   DelayRun delay_;
+  std::vector<double> plays_;
   // Of second order: the state is the imaginary part of x' = pole x + q, times a gain.
   std::complex<double> pole_, x_;
   double gain_ = 1.0;
@@ -233,10 +275,12 @@ class LawRun {
 
  private:
   Structure structure_;
-  double amplitude_ = 0.0, scale_ = 1.0, direction_tau_ = 0.0, tau_ = 0.0;
+  double amplitude_ = 0.0, scale_ = 1.0, direction_tau_ = 0.0, length_ = 0.0, tau_ = 0.0;
   Vector3d own_;
   std::vector<FactorRun> factors_;
   LagRun<double> lag_;
+  LagsRun lags_{0.0, 1.0};
+  PreslidingRun presliding_;
   LagRun<Vector3d> direction_lag_;
 };
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "dcnn/physics/law.h"
 #include "physics/effect_law.h"
 
@@ -17,10 +19,17 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const T
           ": a discovered law needs columns x,y,z or vx,vy,vz");
   require(!law::needs_position(of.structure) || motion.p_B.rows() == rows, Exit::kData,
           motion.recording, ": the discovered law needs columns x,y,z");
+  for (const std::string& signal : of.structure.signals) {
+    const bool logged =
+        std::any_of(motion.signals.begin(), motion.signals.end(),
+                    [&](const LoggedSignal& column) { return column.name == signal; });
+    require(logged || rows == 0, Exit::kData, motion.recording, ": column '", signal,
+            "', which a discovered law follows, is missing; log it");
+  }
   Eigen::MatrixXd& on = of.structure.on_torque ? wrench.torque : wrench.force;
   law::LawRun run(of);
   for (Index k = 0; k < rows; ++k) {
-    const law::Sample now = law::sample_of(motion, k, wrench.force.row(k));
+    const law::Sample now = law::sample_of(motion, k, wrench.force.row(k), of.structure.signals);
     const auto force = run.step(now, k > 0 ? step(motion, k) : motion.dt, k == 0);
     if (on.rows() > 0) on.row(k) += force.transpose();
   }
@@ -39,7 +48,8 @@ EffectStream stream(const EffectSpec& spec, Options& parameters) {
 
 bool online(const EffectSpec& spec) {
   Options structure(spec.law, "law", Exit::kData);
-  return !law::needs_clock(law::parse_structure(structure));
+  const law::Structure of = law::parse_structure(structure);
+  return !law::needs_clock(of) && of.signals.empty();
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ enum CoordinateBlock : std::size_t {
   kLoad,
   kLoadAcross,
   kClock,
-  kVelocityAlong,
+  kSignal,
+  kVelocityAlong = kSignal + kMostSignals,
   kRateAlong,
   kPositionAlong,
   kLoadAlong,
@@ -93,6 +94,9 @@ const std::vector<Coordinate>& coordinates() {
       {"load", "N", "", "the size of the predicted force"},
       {"load_across", "N", "tool", "the size of the predicted force across the tool"},
       {"t", "s", "", "the time", false, true},
+      {"signal_1", "", "", "a logged signal"},
+      {"signal_2", "", "", "a logged signal"},
+      {"signal_3", "", "", "a logged signal"},
       {"v_along", "m/s", "axis", "the velocity along it", true},
       {"w_along", "rad/s", "axis", "the angular velocity about it", true},
       {"p_along", "m", "axis", "the position along it"},
@@ -130,6 +134,10 @@ const std::vector<Direction>& directions() {
 std::size_t drive_direction() { return kBaseAxis; }
 
 bool is_own(std::size_t coordinate) { return coordinate >= kVelocityAlong; }
+bool is_signal(std::size_t coordinate) {
+  return coordinate >= kSignal && coordinate < kSignal + kMostSignals;
+}
+std::size_t signal_coordinate(std::size_t signal) { return kSignal + signal; }
 bool is_axis(std::size_t direction) { return direction < kAlongVelocity; }
 bool has_axis(std::size_t direction) {
   return is_axis(direction) || (direction >= kVelocityCross && direction < kFromPoint);
@@ -152,6 +160,7 @@ Vector3d own_vector(const Structure& structure, const double* numbers) {
 }
 
 double coordinate_at(std::size_t coordinate, const Sample& now) {
+  if (is_signal(coordinate)) return now.signals[coordinate - kSignal];
   const auto i = static_cast<Eigen::Index>(coordinate % 3);
   switch (coordinate / 3 * 3) {
     case kVelocityBase:

@@ -6,10 +6,12 @@ namespace dcnn::law {
 
 std::vector<FactorText> texts_of(const Law& law, const Terms& terms) {
   const auto list = numbers_of(law.structure, terms);
+  const auto& signals = law.structure.signals;
   std::vector<FactorText> texts;
   for (std::size_t k = 0; k < law.structure.factors.size(); ++k) {
     const Factor& factor = law.structure.factors[k];
-    FactorText text{&factor, &shapes()[factor.shape], &terms.coordinates[factor.coordinate],
+    FactorText text{&factor, &shapes()[factor.shape],
+                    with_signals(terms, signals).coordinates[factor.coordinate],
                     std::to_string(k + 1)};
     for (std::size_t i = 0; i < list.size(); ++i) {
       const double value = law.numbers(static_cast<Eigen::Index>(i));
@@ -20,7 +22,7 @@ std::vector<FactorText> texts_of(const Law& law, const Terms& terms) {
                list[i].name.starts_with(stem + text.index + "_");
       };
       if (begins("memory_")) text.memory = told;
-      if (begins("damping_") || begins("recovery_")) text.second = told;
+      if (begins("damping_") || begins("recovery_") || begins("spread_")) text.second = told;
       if (begins("centre_")) text.centre = told, text.centre_value = value;
       if (begins("scale_")) text.scale = told, text.scale_value = value;
       if (begins("power_") || begins("ratio_") || begins("gain_")) text.extra = value;
@@ -32,7 +34,10 @@ std::vector<FactorText> texts_of(const Law& law, const Terms& terms) {
 }
 
 std::string state_unit(const Factor& factor, const Coordinate& q) {
-  if (factor.memory == Memory::kDahl || factor.memory == Memory::kThixotropic) return "";
+  if (factor.memory == Memory::kDahl || factor.memory == Memory::kStop ||
+      factor.memory == Memory::kThixotropic) {
+    return "";
+  }
   if (factor.memory == Memory::kDwell) return "s";
   return q.unit;
 }

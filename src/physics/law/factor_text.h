@@ -12,7 +12,7 @@ namespace dcnn::law {
 struct FactorText {
   const Factor* factor;
   const Shape* shape;
-  const Coordinate* q;
+  Coordinate q;
   std::string index = {}, memory = {}, second = {}, centre = {}, scale = {};
   double centre_value = 0.0, scale_value = 1.0, extra = 0.0;
   std::vector<double> curve = {};  // values at its nodes

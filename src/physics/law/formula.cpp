@@ -21,13 +21,15 @@ const char* memory_name(Memory memory) {
       {Memory::kLag, "lag"},     {Memory::kHighPass, "highpass"},
       {Memory::kPlay, "play"},   {Memory::kDahl, "dahl"},
       {Memory::kDwell, "dwell"}, {Memory::kSecondOrder, "second_order"},
-      {Memory::kDelay, "delay"}, {Memory::kThixotropic, "thixotropic"}};
+      {Memory::kDelay, "delay"}, {Memory::kThixotropic, "thixotropic"},
+      {Memory::kStop, "stop"},   {Memory::kLags, "lags"},
+      {Memory::kPlays, "plays"}};
   return names.at(memory);
 }
 
 /// What the shape is taken of, as a part of a formula.
 std::string state_expression(const FactorText& text) {
-  const std::string& q = text.q->name;
+  const std::string& q = text.q.name;
   if (text.factor->memory == Memory::kNone) return q;
   return std::string(memory_name(text.factor->memory)) + "(" + q + ", " + text.memory +
          (text.second.empty() ? "" : ", " + text.second) + ")";
@@ -68,13 +70,13 @@ std::string latex_number(double value, const std::string& unit) {
 }
 
 std::string latex_factor(const FactorText& text) {
-  const std::string name = text.q->name;
+  const std::string name = text.q.name;
   const auto cut = name.find('_');
   std::string q = name.size() > 1 && cut == std::string::npos ? "\\text{" + name + "}" : name;
   if (cut != std::string::npos) {
     q = name.substr(0, cut) + "_{\\text{" + replaced(name.substr(cut + 1), "_", " ") + "}}";
   }
-  const std::string state = state_unit(*text.factor, *text.q);
+  const std::string state = state_unit(*text.factor, text.q);
   if (text.factor->memory != Memory::kNone) {
     q = std::string("\\mathcal{M}_{\\text{") + memory_name(text.factor->memory) + "}," +
         replaced(text.memory, " ", "\\,") +
@@ -111,8 +113,14 @@ std::string expression(const Law& law, const Terms& terms) {
   if (structure.direction_lagged) {
     vector = "lag(" + vector + ", " + brief(law.numbers(next++)) + " s)";
   }
+  if (structure.presliding) {
+    vector = "presliding(" + vector + ", " + brief(law.numbers(next++)) + " m)";
+  }
   if (structure.lagged) {
-    product = "lag(" + product + ", " + brief(law.numbers(next)) + " s)";
+    const std::string tau = brief(law.numbers(next)) + " s";
+    product = structure.spread
+                  ? "lags(" + product + ", " + tau + ", " + brief(law.numbers(next + 1)) + ")"
+                  : "lag(" + product + ", " + tau + ")";
   }
   return terms.axis.empty() ? product + " along " + vector : product;
 }
@@ -133,7 +141,16 @@ std::string latex(const Law& law, const Terms& terms) {
            "\\right]";
   };
   if (structure.direction_lagged) vector = lagged(vector);
-  if (structure.lagged) text = lagged(text);
+  if (structure.presliding) {
+    vector = "\\mathcal{M}_{\\text{presliding}," + latex_number(law.numbers(next++), "m") + "}[" +
+             vector + "]";
+  }
+  if (structure.spread) {
+    text = "\\mathcal{M}_{\\text{lags}," + latex_number(law.numbers(next), "s") + "," +
+           brief(law.numbers(next + 1)) + "}[" + text + "]";
+  } else if (structure.lagged) {
+    text = lagged(text);
+  }
   return terms.axis.empty() ? text + "\\;" + vector : text;
 }
 

@@ -43,6 +43,9 @@ double falling(double u, double p) {  // Stribeck's: 1 + p at rest, 1 far from i
   return 1.0 + p * elementary::exp(-std::min(u * u, kMostExponent));
 }
 
+/// States of which a mean is taken: a spectrum from its shortest to its longest time, or of widths.
+constexpr std::size_t kSpread = 8;
+
 /// ds = (dx - abs(dx) s)/width over dx, exactly: towards the sign of dx, exponential in the path.
 double dahl(double s, double dx, double width) {
   const double end = dx < 0.0 ? -1.0 : 1.0;
@@ -134,7 +137,9 @@ double curve_at(const double* values, std::size_t count, double u) {
 
 int numbers_of(Memory memory) {
   if (memory == Memory::kNone) return 0;
-  return memory == Memory::kSecondOrder || memory == Memory::kThixotropic ? 2 : 1;
+  const bool two =
+      memory == Memory::kSecondOrder || memory == Memory::kThixotropic || memory == Memory::kLags;
+  return two ? 2 : 1;
 }
 
 std::size_t numbers_of(const Factor& factor) {
@@ -147,17 +152,29 @@ FactorRun::FactorRun(const Factor& factor, const double* numbers)
     : shape_(&shapes()[factor.shape]),
       memory_(factor.memory),
       is_rate_(coordinates()[factor.coordinate].is_rate),
+      lags_(factor.memory == Memory::kLags ? LagsRun(numbers[0], numbers[1]) : LagsRun(0.0, 1.0)),
       delay_(factor.memory == Memory::kDelay ? *numbers : 0.0),
       pole_(factor.memory == Memory::kSecondOrder ? pole_of(numbers[0], numbers[1]) : 0.0),
       swing_(pole_) {
   if (memory_ != Memory::kNone) size_ = *numbers;
   if (memory_ == Memory::kThixotropic) recovery_ = numbers[1];
+  if (memory_ == Memory::kPlays) plays_.resize(kSpread);
   if (memory_ == Memory::kSecondOrder) gain_ = std::norm(pole_) / pole_.imag();
   numbers += numbers_of(memory_);
   if (factor.centred) centre_ = *numbers++;
   scale_ = *numbers++;
   if (is_curve(factor.shape)) curve_.assign(numbers, numbers + factor.nodes);
   if (*shape_->extra) extra_ = *numbers;
+}
+
+double FactorRun::mean_of_plays(double q, bool first) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < plays_.size(); ++k) {
+    const double width = size_ * (static_cast<double>(k) + 0.5) / static_cast<double>(kSpread);
+    plays_[k] = first ? q : std::clamp(plays_[k], q - width, q + width);
+    sum += plays_[k];
+  }
+  return sum / static_cast<double>(kSpread);
 }
 
 double FactorRun::state(double q, double h, bool first) {
@@ -172,9 +189,16 @@ double FactorRun::state(double q, double h, bool first) {
     case Memory::kPlay:
       s_ = first ? q : std::clamp(s_, q - size_, q + size_);
       return s_;
+    case Memory::kPlays:
+      return mean_of_plays(q, first);
+    case Memory::kLags:
+      return lags_.step(q, h, first);
     case Memory::kDahl:
       s_ = first ? 0.0 : dahl(s_, moved, size_);
       return s_;
+    case Memory::kStop:
+      s_ = first ? 0.0 : std::clamp(s_ + moved, -size_, size_);
+      return s_ / size_;
     case Memory::kSecondOrder:
       x_ = first ? -q / pole_ : swing_.advance(x_, before_, q, h);
       return gain_ * x_.imag();
@@ -198,6 +222,21 @@ double FactorRun::step(double q, double h, bool first) {
   before_ = q;
   const double u = (s - centre_) / scale_;
   return curve_.empty() ? shape_->value(u, extra_) : curve_at(curve_.data(), curve_.size(), u);
+}
+
+LagsRun::LagsRun(double tau, double spread) {
+  if (!(tau > 0.0)) return;
+  lags_.resize(kSpread);
+  for (std::size_t k = 0; k < kSpread; ++k) {
+    const double place = (static_cast<double>(k) + 0.5) / static_cast<double>(kSpread) - 0.5;
+    times_.push_back(tau * elementary::pow(spread, place));
+  }
+}
+
+double LagsRun::step(double q, double h, bool first) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < lags_.size(); ++k) sum += lags_[k].step(q, times_[k], h, first);
+  return sum / static_cast<double>(lags_.size());
 }
 
 DelayRun::DelayRun(double delay) : delay_(delay) {

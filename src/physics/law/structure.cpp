@@ -9,8 +9,9 @@
 namespace dcnn::law {
 namespace {
 
-const std::vector<std::string> kMemories{"none",  "lag",          "high_pass", "play",       "dahl",
-                                         "dwell", "second_order", "delay",     "thixotropic"};
+const std::vector<std::string> kMemories{"none",  "lag",         "high_pass", "play",
+                                         "dahl",  "stop",        "dwell",     "second_order",
+                                         "delay", "thixotropic", "lags",      "plays"};
 constexpr std::size_t kMostFactors = 4;
 const std::vector<std::string> kToldAgain{"expression", "latex", "words", "coordinates", "states"};
 
@@ -39,6 +40,19 @@ std::size_t place_in(Options& options, const std::string& key, const List& list)
   return static_cast<std::size_t>(found - list.begin());
 }
 
+/// Columns of the recordings.
+std::vector<std::string> parse_signals(Options& options) {
+  if (!options.has("signals")) return {};
+  const Json list = options.raw("signals");
+  const bool is_list = list.is_array() && list.size() <= kMostSignals &&
+                       std::all_of(list.begin(), list.end(), [](const Json& name) {
+                         return name.is_string() && !name.get<std::string>().empty();
+                       });
+  if (!is_list) options.reject("signals", "must be a list of at most ", kMostSignals, " columns");
+  return list.get<std::vector<std::string>>();
+}
+
+/// `terms` have the names of coordinates() for signals: a column may be called as a coordinate is.
 Factor parse_factor(Options options, const Terms& terms) {
   Factor factor;
   factor.shape = place_in(options, "shape", shapes());
@@ -81,9 +95,9 @@ std::string path_unit(const Coordinate& q) {
 }
 
 std::string memory_unit(const Factor& factor, const Coordinate& q) {
-  if (factor.memory == Memory::kPlay) return q.unit;
-  if (factor.memory == Memory::kDahl || factor.memory == Memory::kDwell ||
-      factor.memory == Memory::kThixotropic) {
+  if (factor.memory == Memory::kPlay || factor.memory == Memory::kPlays) return q.unit;
+  if (factor.memory == Memory::kDahl || factor.memory == Memory::kStop ||
+      factor.memory == Memory::kDwell || factor.memory == Memory::kThixotropic) {
     return path_unit(q);
   }
   if (factor.memory == Memory::kSecondOrder) return "Hz";
@@ -105,6 +119,7 @@ void add_numbers(const Factor& factor, const std::string& index, const Terms& te
     add("damping_", "", false, kLeastDamping, kMostDamping);
   }
   if (factor.memory == Memory::kThixotropic) add("recovery_", "s", false, 1e-4, 1e5);
+  if (factor.memory == Memory::kLags) add("spread_", "", false, 1.0, kMostSpread);
   const std::string unit = state_unit(factor, q);
   if (factor.centred) add("centre_", unit, !shape.free_centre, -1e9, 1e9);
   add("scale_", unit, !shape.free_scale, shape.signed_scale ? -1e9 : 1e-9, 1e9);
@@ -142,7 +157,9 @@ void add_own_numbers(const Structure& structure, std::vector<Number>& list) {
 }
 
 Json factor_json(const Factor& factor, const Coordinate& q) {
-  Json json{{"shape", shapes()[factor.shape].name}, {"of", q.name}};
+  const bool signal = is_signal(factor.coordinate);
+  Json json{{"shape", shapes()[factor.shape].name},
+            {"of", signal ? coordinates()[factor.coordinate].name : q.name}};
   if (factor.memory != Memory::kNone) {
     json["memory"] = kMemories[static_cast<std::size_t>(factor.memory)];
   }
@@ -158,12 +175,25 @@ Structure parse_structure(Options& options, const Terms& terms) {
   structure.direction =
       terms.axis.empty() ? place_in(options, "axis", directions()) : drive_direction();
   structure.direction_lagged = options.get<bool>("direction_lagged", false);
+  structure.presliding = options.get<bool>("direction_presliding", false);
   structure.lagged = options.get<bool>("lagged", false);
+  structure.spread = options.get<bool>("lag_spread", false);
   structure.on_torque = options.get<bool>("on_torque", false);
   structure.oblique = terms.axis.empty() && options.get<bool>("oblique", false);
   if (structure.oblique && !has_axis(structure.direction)) {
     options.reject("oblique", "is of axes, not of '", directions()[structure.direction].name, "'");
   }
+  const std::string axis = directions()[structure.direction].name;
+  if (structure.presliding && (axis != "along_velocity" || structure.direction_lagged)) {
+    options.reject("direction_presliding", "is of the axis along_velocity without a lag");
+  }
+  if (structure.spread && !structure.lagged) options.reject("lag_spread", "needs 'lagged'");
+  structure.signals = parse_signals(options);
+  std::vector<std::string> slots;
+  for (std::size_t k = 0; k < structure.signals.size(); ++k) {
+    slots.push_back(coordinates()[signal_coordinate(k)].name);
+  }
+  const Terms here = with_signals(terms, slots);
   const Json factors = options.raw("factors");
   if (!factors.is_array() || factors.size() > kMostFactors) {
     options.reject("factors", "must be a list of at most ", kMostFactors, " factors, not ",
@@ -171,7 +201,7 @@ Structure parse_structure(Options& options, const Terms& terms) {
   }
   for (std::size_t k = 0; k < factors.size(); ++k) {
     structure.factors.push_back(parse_factor(
-        Options(factors[k], "law: factor " + std::to_string(k + 1), Exit::kData), terms));
+        Options(factors[k], "law: factor " + std::to_string(k + 1), Exit::kData), here));
     refuse_without_axis(options, structure, structure.factors.back().coordinate);
   }
   const bool changes = !structure.factors.empty() || structure.direction_lagged;
@@ -199,7 +229,9 @@ std::vector<Number> numbers_of(const Structure& structure, const Terms& terms) {
   }
   add_own_numbers(structure, list);
   if (structure.direction_lagged) list.push_back({"vector_lag_s", "s", false, 1e-4, 1e5});
+  if (structure.presliding) list.push_back({"vector_length_m", "m", false, 1e-9, 1e6});
   if (structure.lagged) list.push_back({"lag_s", "s", false, 1e-4, 1e5});
+  if (structure.spread) list.push_back({"lag_spread", "", false, 1.0, kMostSpread});
   for (std::size_t k = 0; k < structure.factors.size(); ++k) {
     add_numbers(structure.factors[k], std::to_string(k + 1), terms, list);
   }
@@ -234,12 +266,16 @@ Json to_json(const Law& law, const Terms& terms) {
   if (terms.axis.empty()) json["axis"] = directions()[structure.direction].name;
   if (structure.oblique) json["oblique"] = true;
   if (structure.direction_lagged) json["direction_lagged"] = true;
+  if (structure.presliding) json["direction_presliding"] = true;
   if (structure.lagged) json["lagged"] = true;
+  if (structure.spread) json["lag_spread"] = true;
   if (structure.on_torque) json["on_torque"] = true;
+  if (!structure.signals.empty()) json["signals"] = structure.signals;
+  const Terms here = with_signals(terms, structure.signals);
   Json factors = Json::array(), used = Json::array(), states = Json::array();
   for (std::size_t k = 0; k < structure.factors.size(); ++k) {
     const Factor& factor = structure.factors[k];
-    const Coordinate& q = terms.coordinates[factor.coordinate];
+    const Coordinate& q = here.coordinates[factor.coordinate];
     factors.push_back(factor_json(factor, q));
     used.push_back(Json{{"name", q.name}, {"frame", q.frame}, {"unit", q.unit}});
     if (factor.memory == Memory::kNone) continue;

@@ -26,11 +26,20 @@ const AxisTerm* axis_term(const std::string& of_tool) {
 }  // namespace
 
 bool is_of_axes(std::size_t coordinate) {
-  return axis_term(coordinates()[coordinate].name) != nullptr;
+  return is_signal(coordinate) || axis_term(coordinates()[coordinate].name) != nullptr;
 }
 
 const Terms& tool_terms() {
-  static const Terms terms{coordinates(), ""};
+  static const Terms terms = with_signals({coordinates(), ""}, {});
+  return terms;
+}
+
+Terms with_signals(Terms terms, const std::vector<std::string>& columns) {
+  for (std::size_t k = 0; k < kMostSignals; ++k) {
+    Coordinate& q = terms.coordinates[signal_coordinate(k)];
+    q.name = k < columns.size() ? columns[k] : "";
+    q.words = "the logged " + q.name;
+  }
   return terms;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 /// What the shape is taken of, in words.
 std::string subject(const FactorText& text) {
-  const std::string q = text.q->words;
+  const std::string q = text.q.words;
   switch (text.factor->memory) {
     case Memory::kLag:
       return q + " behind a lag of " + text.memory;
@@ -20,6 +20,12 @@ std::string subject(const FactorText& text) {
       return "the deviation of " + q + " from its mean over the last " + text.memory;
     case Memory::kPlay:
       return q + " behind a play of " + text.memory + " to either side";
+    case Memory::kPlays:
+      return q + " behind many plays, of up to " + text.memory + " to either side";
+    case Memory::kLags:
+      return q + " behind many lags, " + text.memory + " within a factor of " + text.second;
+    case Memory::kStop:
+      return "the stretch that " + q + " makes before it slips at " + text.memory;
     case Memory::kDahl:
       return "the presliding of " + q + " over " + text.memory;
     case Memory::kSecondOrder:
@@ -138,10 +144,13 @@ std::string words(const Law& law, const Terms& terms) {
     if (u == 0.0) continue;
     size *= std::abs(factor.shape->value(u, factor.extra));
     // Presliding has no unit: its size is told where it is complete.
-    if (how.starts_with("largest at") || factor.factor->memory == Memory::kDahl) continue;
+    if (how.starts_with("largest at") || factor.factor->memory == Memory::kDahl ||
+        factor.factor->memory == Memory::kStop) {
+      continue;
+    }
     const std::string where =
         u == 1.0 ? factor.scale : brief(u * std::abs(factor.scale_value)) + unit_of(factor);
-    at += (at.empty() ? " at " : " and ") + where + " of " + factor.q->words;
+    at += (at.empty() ? " at " : " and ") + where + " of " + factor.q.words;
   }
   const Structure& structure = law.structure;
   Eigen::Index next = 1;
@@ -153,7 +162,13 @@ std::string words(const Law& law, const Terms& terms) {
   if (structure.direction_lagged) {
     text += ", the vector behind a lag of " + brief(law.numbers(next++)) + " s";
   }
+  if (structure.presliding) {
+    text += ", which builds up over " + brief(law.numbers(next++)) + " m of the path";
+  }
   if (structure.lagged) text += ", following with " + brief(law.numbers(next)) + " s";
+  if (structure.spread) {
+    text += " within a factor of " + brief(law.numbers(next + 1)) + " (many lags)";
+  }
   return text + ": " + brief(size) + " " + amplitude_unit(law, terms) + at;
 }
 
