@@ -60,7 +60,9 @@ std::vector<double> Search::doubts(double little) {
   }
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     if (fit_.members[m].fixed) continue;
-    const double slack = little * std::max(0.0, net_gain(m));
+    // An offset is no law of motion: what goes with it by so little is another effect beside it.
+    const bool is_offset = fit_.members[m].kind->stage == Stage::kOffset;
+    const double slack = (is_offset ? kSmallRest : little) * std::max(0.0, net_gain(m));
     double& apart = doubts[m];
     apart = strengths[m] > slack ? strengths[m] / modulated : 0.0;
     if (tests[m].refutes() && tests[m].excess > slack) {

@@ -218,7 +218,9 @@ bool is_degenerate(const Data& data, const Sketch& sketch) {
 
 /// The best first, one trial a structure.
 void rank_structures(const Data& data, std::vector<Trial>& trials) {
-  std::erase_if(trials, [&](const Trial& trial) { return is_degenerate(data, trial.sketch); });
+  for (Trial& trial : trials) {
+    if (is_degenerate(data, trial.sketch)) trial.gain = 0.0;
+  }
   rank(trials);
   std::vector<Trial> unique;
   for (Trial& trial : trials) {

@@ -26,6 +26,9 @@ EffectStream stream(const EffectSpec&, Options& parameters) {
   };
 }
 
+/// Of a sensor in its own unit; more is another unit or another sensor, which dcnn-check names.
+constexpr double kMost = 3.0;
+
 }  // namespace
 
 const EffectKind effect{
@@ -38,11 +41,13 @@ const EffectKind effect{
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 3,
+              .most_strength = kMost,
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"gain_x", a(0)}, {"gain_y", a(1)}, {"gain_z", a(2)}};
                   }},
              {.amplitudes = 1,  // of all axes, as a unit or an amplifier that they share makes it
+              .most_strength = kMost,
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"gain_x", a(0)}, {"gain_y", a(0)}, {"gain_z", a(0)}};
