@@ -40,6 +40,8 @@ std::vector<Sketch> direction_sketches(const Data& data);
 std::vector<Piece> modulators(const Data& data);
 /// Other shapes of a piece's coordinate.
 std::vector<Piece> other_shapes(const Data& data, const Piece& piece);
+/// A line of a rate or a load along an axis, and a constant force, which is an effect with a name.
+bool has_constant(const Sketch& sketch);
 /// What 1 + p f(u) is for large p: f(u) alone, which needs one number fewer. Nothing for others.
 std::vector<Piece> without_constant(const Piece& piece);
 /// The piece's shape as a curve, or a curve with twice or half as many nodes.

@@ -99,7 +99,7 @@ std::vector<Sketch> plainer(const Data& data, const Sketch& from) {
   std::vector<Sketch> list;
   add_deletions(data, from, list);
   std::erase_if(list, [numbers = free_numbers(from)](const Sketch& sketch) {
-    return free_numbers(sketch) >= numbers;
+    return free_numbers(sketch) >= numbers || has_constant(sketch);
   });
   for (std::size_t k = 0; k < from.pieces.size(); ++k) {
     for (const Piece& piece : without_constant(from.pieces[k])) {
@@ -166,8 +166,8 @@ std::vector<Sketch> variants(const Data& data, const Trial& trial) {
         list.push_back(sketch);
       }
     }
-    if (kind_of(from.pieces[k].factor.coordinate) != Kind::kPlace &&
-        !from.pieces[k].factor.centred && law::shapes()[from.pieces[k].factor.shape].free_centre) {
+    if (kind_of(piece.factor.coordinate) != Kind::kPlace && !piece.factor.centred &&
+        law::shapes()[piece.factor.shape].free_centre) {
       Sketch sketch = from;
       sketch.pieces[k] = centred(sketch.pieces[k], 0.0);
       list.push_back(sketch);
@@ -182,6 +182,7 @@ std::vector<Sketch> variants(const Data& data, const Trial& trial) {
     const auto more = modulated(data, trial);
     list.insert(list.end(), more.begin(), more.end());
   }
+  std::erase_if(list, has_constant);
   return list;
 }
 

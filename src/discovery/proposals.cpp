@@ -72,6 +72,14 @@ void add_modulators(const Data& data, std::size_t c, std::vector<Piece>& list) {
 
 }  // namespace
 
+bool has_constant(const Sketch& sketch) {
+  if (sketch.pieces.size() != 1 || !law::is_axis(sketch.direction)) return false;
+  const law::Factor& factor = sketch.pieces[0].factor;
+  const bool line = factor.centred && factor.shape == shape_named("linear");
+  return (line || factor.shape == shape_named("affine")) && factor.memory == law::Memory::kNone &&
+         kind_of(factor.coordinate) != Kind::kPlace;
+}
+
 std::vector<Piece> without_constant(const Piece& from) {
   constexpr double kMostly = 3.0;  // times the constant: a limit of computation, the score decides
   if (std::abs(from.extra) < kMostly) return {};
