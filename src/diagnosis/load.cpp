@@ -6,6 +6,7 @@
 
 #include "data/clock.h"
 #include "data/held_rows.h"
+#include "data/known_columns.h"
 #include "data/spikes.h"
 #include "physics/effect_law.h"
 
@@ -113,6 +114,26 @@ std::vector<std::string> wrist_signals(const DiagnosisRequest& request,
   return names;
 }
 
+/// Tells of columns that vary and that nothing looks at.
+void note_unused_columns(const DiagnosisRequest& request, Recording& recording) {
+  std::vector<std::string> used{"t",     "x",  "y",  "z",  "alpha", "beta",
+                                "gamma", "qw", "qx", "qy", "qz"};
+  for (const auto& list : {known_columns(System{}), request.signals}) {
+    used.insert(used.end(), list.begin(), list.end());
+  }
+  std::string unused, first;
+  for (const std::string& name : recording.table.columns) {
+    if (std::find(used.begin(), used.end(), name) != used.end()) continue;
+    const Eigen::VectorXd values = recording.column(name);
+    if (!values.allFinite() || values.minCoeff() == values.maxCoeff()) continue;
+    if (first.empty()) first = name;
+    unused += (unused.empty() ? "" : ", ") + name;
+  }
+  if (first.empty()) return;
+  recording.notes.push_back("not looked at: " + unused + "; --signals " + first +
+                            " lets laws follow such a column");
+}
+
 }  // namespace
 
 std::vector<Case::Driver> drivers_of(const std::vector<std::string>& names,
@@ -202,6 +223,7 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   if (!study.has_torque()) study.simulator.model.inertia.reset();
   set_clock(request, all, study);
   study.drivers = drivers_of(wrist_signals(request, all), fit, holdout);
+  note_unused_columns(request, fit.front());
   loaded.holdout = study;
   for (auto& r : fit) study.logs.push_back(make_log(std::move(r), study, !request.simulator));
   for (auto& r : holdout) {

@@ -117,9 +117,10 @@ void add_findings(const Json& report, HtmlReport& page) {
         "against it: " +
         refuted + ".");
   }
-  if (report.contains("search") && !report["search"]["complete"].get<bool>()) {
+  if (remains_untried(report)) {
     page.paragraph(
-        "The search ended at its limit of computation: not every exchange of effects was tried.");
+        "The search ended at its limit of computation: what remains may have a name, or another "
+        "law, that was not tried.");
   }
   for (const Json& note : report.value("notes", Json::array())) {
     page.paragraph(note.get<std::string>());

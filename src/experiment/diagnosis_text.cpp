@@ -111,8 +111,10 @@ std::string to_text(const Diagnosis& diagnosis) {
     out << (is_doubtful(finding) ? "doubtful    " : "found       ") << finding_text(finding);
   }
   out << notes_text(report);
-  if (!report["search"]["complete"].get<bool>()) {
-    out << "search      ended at its limit: not every exchange of effects was tried\n";
+  if (remains_untried(report)) {
+    out << "search      ended at its limit of computation: what remains may have a name, or "
+           "another "
+           "law, that was not tried\n";
   }
   out << "hold-out    " << errors_text(report);
   const Json& next = report["next_motion"];

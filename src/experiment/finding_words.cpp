@@ -70,6 +70,12 @@ std::vector<std::string> alternatives_in_words(const Json& finding) {
   return words;
 }
 
+bool remains_untried(const Json& report) {
+  if (!report.contains("search") || report["search"]["complete"].get<bool>()) return false;
+  const auto verdict = report["verdict"].get<std::string>();
+  return verdict != "explained" && verdict != "consistent";
+}
+
 std::string verdict_in_words(std::string verdict) {
   std::replace(verdict.begin(), verdict.end(), '-', ' ');
   return verdict;

@@ -17,6 +17,8 @@ std::string place_in_words(const Json& finding);
 std::vector<std::string> numbers_in_words(const Json& finding);
 /// "cable with Bouc-Wen hysteresis over one coordinate (30 %)", one for each alternative.
 std::vector<std::string> alternatives_in_words(const Json& finding);
+/// Whether the search ended at its limit and something remains.
+bool remains_untried(const Json& report);
 /// "partly explained" for "partly-explained".
 std::string verdict_in_words(std::string verdict);
 /// "to tell dry friction from linear friction", of next_motion.

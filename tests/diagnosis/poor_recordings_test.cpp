@@ -154,5 +154,15 @@ TEST(PoorRecordings, AFewRowsBetweenTwoGapsStopNothing) {
   EXPECT_EQ(read.notes.back(), "15 rows in stretches shorter than 51 rows between gaps: left out");
 }
 
+TEST(PoorRecordings, TellOfColumnsThatNothingLooksAt) {
+  const test::Bench bench(test::configuration(Json::array()));
+  test::change(bench, [](Recording& log) {
+    log.table.values.conservativeResize(3000, Eigen::NoChange);
+    log.set("pressure", log.column("x"));
+  });
+  EXPECT_NE(bench.diagnose().report["notes"].dump().find("not looked at: pressure; --signals"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace dcnn
