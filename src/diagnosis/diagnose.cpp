@@ -194,6 +194,11 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
                               ": positions at rest do not tell the noise of their readings: all "
                               "that is left may be noise, or a law of what is not logged");
   }
+  if (study.axis && study.axis->sense < 0.0) {
+    report["notes"].push_back(study.axis->axis().name +
+                              ": what is measured opposes the motion and is taken for the reaction "
+                              "to the drive (\"measured\": \"reaction\" in model.json)");
+  }
   if (const auto note = note_of_zeros(search)) report["notes"].push_back(*note);
   const std::vector<std::string> without = study.without.names();
   if (!without.empty()) report["without"] = without;

@@ -411,6 +411,8 @@ TEST(DiagnoseAxes, DiscoversAnEddyCurrentBrake) {
         << (*law)["words"];
     EXPECT_NEAR(number(*law, "amplitude", "N*m"), 1.6 * sense, 0.05);
     EXPECT_NEAR(number(*law, "scale_1", "rad/s"), 0.3, 0.01);
+    const bool tells = diagnosis.report["notes"].dump().find("the reaction") != std::string::npos;
+    EXPECT_EQ(tells, sense < 0.0) << diagnosis.report["notes"].dump();
     // Its picture: over the velocity, the law leaves little of what is left without it.
     ASSERT_EQ(diagnosis.portraits.size(), 1U);
     const Portrait& picture = diagnosis.portraits[0];
