@@ -280,7 +280,7 @@ std::vector<Discovered> refitted(const Problem& problem, const std::vector<Disco
   Terms terms;
   const Data data(problem);
   for (const Discovered& found : laws) terms.push_back(sketch_of(found.law, data.signals()));
-  settle(problem, terms, 8);
+  terms = refined_together(data, terms, 8);
   auto again = accepted(problem, terms, false);
   for (Discovered& found : again) {
     for (const Discovered& before : laws) {

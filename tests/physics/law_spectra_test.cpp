@@ -22,6 +22,23 @@ Wrench force_of(const char* structure, const Json& numbers, const Motion& motion
   return applied(effect, motion, no_wrench(motion.samples()));
 }
 
+/// One that has all of them.
+law::Law law_of_all() {
+  return read_law(
+      R"({"axis": "along_velocity", "direction_presliding": true, "lagged": true, "lag_spread": true,
+          "factors": [{"shape": "linear", "of": "x", "memory": "plays"},
+                      {"shape": "linear", "of": "y", "memory": "lags"}]})",
+      {{"amplitude_n", 1.0},
+       {"vector_length_m", 0.01},
+       {"lag_s", 0.5},
+       {"lag_spread", 10.0},
+       {"memory_1_m", 0.02},
+       {"scale_1_m", 0.1},
+       {"memory_2_s", 2.0},
+       {"spread_2", 20.0},
+       {"scale_2_m", 0.1}});
+}
+
 /// Times at the middles of even intervals of a log scale.
 double mean_of_steps(double t, double tau, double spread) {
   double sum = 0.0;
@@ -151,19 +168,7 @@ TEST(LawSpectra, StandInFilesAndAreRefusedWhereTheyMeanNothing) {
       EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
     }
   }
-  const law::Law law = read_law(
-      R"({"axis": "along_velocity", "direction_presliding": true, "lagged": true, "lag_spread": true,
-          "factors": [{"shape": "linear", "of": "x", "memory": "plays"},
-                      {"shape": "linear", "of": "y", "memory": "lags"}]})",
-      {{"amplitude_n", 1.0},
-       {"vector_length_m", 0.01},
-       {"lag_s", 0.5},
-       {"lag_spread", 10.0},
-       {"memory_1_m", 0.02},
-       {"scale_1_m", 0.1},
-       {"memory_2_s", 2.0},
-       {"spread_2", 20.0},
-       {"scale_2_m", 0.1}});
+  const law::Law law = law_of_all();
   Options again(law::to_json(law), "test", Exit::kUsage);
   EXPECT_EQ(law::parse_structure(again), law.structure);
   EXPECT_EQ(law::expression(law),
@@ -173,24 +178,12 @@ TEST(LawSpectra, StandInFilesAndAreRefusedWhereTheyMeanNothing) {
 
 TEST(LawSpectra, StepWithoutAllocating) {
   if (!test::HeapCounter::works()) GTEST_SKIP() << "heap calls are not seen here";
-  law::LawRun run(read_law(
-      R"({"axis": "along_velocity", "direction_presliding": true, "lagged": true, "lag_spread": true,
-          "factors": [{"shape": "linear", "of": "x", "memory": "plays"},
-                      {"shape": "linear", "of": "x", "memory": "lags"}]})",
-      {{"amplitude_n", 1.0},
-       {"vector_length_m", 0.01},
-       {"lag_s", 0.5},
-       {"lag_spread", 10.0},
-       {"memory_1_m", 0.02},
-       {"scale_1_m", 0.1},
-       {"memory_2_s", 2.0},
-       {"spread_2", 20.0},
-       {"scale_2_m", 0.1}}));
+  law::LawRun run(law_of_all());
   law::Sample now;
   now.euler = now.v_B = now.a_B = now.w_S = now.dw_S = now.load_S = Eigen::Vector3d::Zero();
   const test::HeapCounter counter;
   for (int k = 0; k < 3000; ++k) {
-    now.p_B = {0.1 * std::sin(0.01 * k), 0.0, 0.0};
+    now.p_B = {0.1 * std::sin(0.01 * k), 0.1 * std::sin(0.013 * k), 0.0};
     now.v_B = {std::cos(0.01 * k), 0.0, 0.0};
     run.step(now, 0.001, k == 0);
   }

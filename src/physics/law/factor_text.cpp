@@ -6,12 +6,11 @@ namespace dcnn::law {
 
 std::vector<FactorText> texts_of(const Law& law, const Terms& terms) {
   const auto list = numbers_of(law.structure, terms);
-  const auto& signals = law.structure.signals;
+  const Terms here = with_signals(terms, law.structure.signals);
   std::vector<FactorText> texts;
   for (std::size_t k = 0; k < law.structure.factors.size(); ++k) {
     const Factor& factor = law.structure.factors[k];
-    FactorText text{&factor, &shapes()[factor.shape],
-                    with_signals(terms, signals).coordinates[factor.coordinate],
+    FactorText text{&factor, &shapes()[factor.shape], here.coordinates[factor.coordinate],
                     std::to_string(k + 1)};
     for (std::size_t i = 0; i < list.size(); ++i) {
       const double value = law.numbers(static_cast<Eigen::Index>(i));
