@@ -52,8 +52,9 @@ bool same_angle(const Member& a, const Member& b) {
 }
 
 /// A spring and less than a turn of cogging in one angle bend as any curved spring does, and are
-/// neither: beside the one the other needs a whole turn.
-void keep_apart(std::vector<Member>& list, const std::vector<Member>& members) {
+/// neither: beside the one, or a simulator that has it, the other needs a whole turn.
+void keep_apart(const Case& study, std::vector<Member>& list, const std::vector<Member>& members) {
+  const bool is_given = is_in_base(study, *find_effect("cable_spring"));
   const auto beside = [&](const Member& candidate, const char* effect, const auto& condition) {
     return std::any_of(members.begin(), members.end(), [&](const Member& m) {
       return m.name() == effect && same_angle(m, candidate) && condition(m);
@@ -64,7 +65,8 @@ void keep_apart(std::vector<Member>& list, const std::vector<Member>& members) {
     return cogging.shapes(0) < cogging.least_shapes(0) / kFewestTurns;
   };
   for (Member& candidate : list) {
-    if (candidate.name() != "cogging" || !beside(candidate, "cable_spring", any)) continue;
+    if (candidate.name() != "cogging") continue;
+    if (!is_given && !beside(candidate, "cable_spring", any)) continue;
     candidate.least_shapes /= kFewestTurns;
     candidate.shapes = candidate.shapes.cwiseMax(candidate.least_shapes);
   }
@@ -124,7 +126,7 @@ std::vector<Trial> Search::additions(const JointFit& fit, bool events,
     }
   };
   std::vector<Member> list = candidates(scan, left, floors_);
-  keep_apart(list, fit.members);
+  keep_apart(study_, list, fit.members);
   look_at(list);
   std::vector<Member> plain = fit.members;
   for (const auto& [place, trial] : places) plain.push_back(trial.member);

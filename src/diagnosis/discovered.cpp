@@ -5,6 +5,7 @@
 
 #include "diagnosis/candidates.h"
 #include "diagnosis/laws.h"
+#include "diagnosis/names_alone.h"
 
 namespace dcnn {
 
@@ -184,17 +185,11 @@ double unlikely(const Search& search, const Laws& laws) {
   return search.unlikely() + search.setting().price * numbers_of(laws, {});
 }
 
-/// Whether the form of each is established: an approximation leaves nothing and may yet be none.
-bool are_established(const Laws& laws) {
-  return std::all_of(laws.found.begin(), laws.found.end(),
-                     [](const Discovered& law) { return law.established; });
-}
-
 /// Laws beside the names that stand; where those leave something, or are approximations, also from
 /// the beginning: beside none, with the names that are found beside them then, and beside each name
-/// that gains most next to those before it. (Names
-/// that were found without laws may imitate one; once refuted, they are removed together with those
-/// that act.) The model of the highest penalised likelihood is kept.
+/// that gains most next to those before it. (Names that were found without laws may imitate one;
+/// once refuted, they are removed together with those that act.) The model of the highest penalised
+/// likelihood is kept.
 Laws laws_of_the_rest(Search& search) {
   constexpr int kMostNames = 5;  // a limit of computation
   Laws best = borne_out(search.setting(), search.fit());
@@ -232,21 +227,8 @@ Laws laws_of_the_rest(Search& search) {
   return best;
 }
 
-}  // namespace
-
-std::vector<Discovered> add_discovered(Search& search, const HoldOut& holdout) {
-  if (!can_hold_laws(search.study())) return {};
-  const std::vector<Member> before = search.fit().members;
-  const Eigen::VectorXd base = search.fit().base;
-  search.say("searching for a law in place of the effects found");
-  Laws laws = in_place_of_names(search, holdout);
-  if (!laws.found.empty()) {
-    search.put_beside(laws.members);
-  } else if (search.remains()) {
-    search.say("searching for a law of what no effect explains");
-    laws = laws_of_the_rest(search);
-  }
-  if (laws.found.empty()) return {};
+/// Names and laws settled beside each other.
+void settle_beside(Search& search, Laws& laws) {
   search.say("fitting effects and laws together");
   leave_needless_names(search, laws);
   name_beside(search, laws);
@@ -256,11 +238,28 @@ std::vector<Discovered> add_discovered(Search& search, const HoldOut& holdout) {
   leave_refuted_forms(search, laws);
   search.leave_untold_parts();
   search.leave_idle_names();
-  // Names may have given way to laws, and other names come beside them.
-  const Signals by_laws = holdout.prediction(search.fit().members, search.fit().base),
-                by_names = holdout.prediction(before, base);
-  if (holdout.log_support(by_laws, by_names, search.floors()) >= 0.0) return laws.found;
-  search.hold(before);
+}
+
+}  // namespace
+
+std::vector<Discovered> add_discovered(Search& search, const HoldOut& holdout) {
+  if (!can_hold_laws(search.study())) return {};
+  const NamesAlone names(search, holdout);
+  search.say("searching for a law in place of the effects found");
+  Laws laws = in_place_of_names(search, holdout);
+  if (!laws.found.empty()) {
+    search.put_beside(laws.members);
+    settle_beside(search, laws);
+    if (names.give_way_to(laws)) return laws.found;
+    names.put_back();
+  }
+  if (!search.remains()) return {};
+  search.say("searching for a law of what no effect explains");
+  laws = laws_of_the_rest(search);
+  if (laws.found.empty()) return {};
+  settle_beside(search, laws);
+  if (names.give_way_to(laws)) return laws.found;
+  names.put_back();
   return {};
 }
 

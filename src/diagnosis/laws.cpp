@@ -1,5 +1,7 @@
 #include "diagnosis/laws.h"
 
+#include <algorithm>
+
 #include "diagnosis/law_search.h"
 #include "discovery/priors.h"
 
@@ -77,6 +79,11 @@ Laws borne_out(const Setting& setting, const JointFit& names) {
 
 Laws borne_out_again(const Setting& setting, const JointFit& names, const Laws& laws) {
   return borne(setting, names, worthy(setting, laws_fitted_to(setting, names, laws.found)));
+}
+
+bool are_established(const Laws& laws) {
+  return std::all_of(laws.found.begin(), laws.found.end(),
+                     [](const Discovered& law) { return law.established; });
 }
 
 int numbers_of(const Laws& laws, const std::vector<Member>& members) {

@@ -27,6 +27,9 @@ Laws borne_out(const Setting& setting, const JointFit& names);
 /// The same of laws of known form, which are fitted again and not looked for.
 Laws borne_out_again(const Setting& setting, const JointFit& names, const Laws& laws);
 
+/// Whether the form of each is established: an approximation leaves nothing and may yet be none.
+bool are_established(const Laws& laws);
+
 int fitted_numbers(const discovery::Discovered& law);
 /// Numbers that were fitted, of laws and of names.
 int numbers_of(const Laws& laws, const std::vector<Member>& members);

@@ -77,9 +77,11 @@ std::vector<std::vector<Index>> blocks_of(const std::vector<Row>& rows) {
   return list;
 }
 
-/// Chi-square gained in folds of blocks whose numbers come from the others, along the tangent.
-double held_out_gain(const VectorXd& residual, const MatrixXd& tangent,
+/// Chi-square gained in folds of blocks whose numbers come from the others, along the tangent,
+/// curves as stiff as in a fit.
+double held_out_gain(const Data& data, const Sketch& sketch, const MatrixXd& tangent,
                      const std::vector<std::vector<Index>>& blocks) {
+  const VectorXd& residual = data.problem().residual;
   double gain = 0.0;
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
     std::vector<Index> fit, held;
@@ -88,7 +90,10 @@ double held_out_gain(const VectorXd& residual, const MatrixXd& tangent,
       part.insert(part.end(), blocks[b].begin(), blocks[b].end());
     }
     const MatrixXd A = tangent(fit, Eigen::all);
-    const VectorXd x = solve_gram(A.transpose() * A, A.transpose() * residual(fit), 1e-9);
+    MatrixXd gram = A.transpose() * A;
+    VectorXd score = A.transpose() * residual(fit);
+    add_bending(data, sketch, gram, score);
+    const VectorXd x = solve_gram(gram, score, 1e-9);
     const VectorXd there = residual(held);
     gain += there.squaredNorm() - (there - tangent(held, Eigen::all) * x).squaredNorm();
   }
@@ -151,7 +156,7 @@ Discovered judged(const Data& data, const Trial& trial) {
   // The model's error is a share of gains, which a residual that is not white inflates as well.
   const double numbers = penalty(trial.sketch, 0.0);
   found.score = (trial.score + numbers) / found.inflation - numbers;
-  found.held_out_gain = held_out_gain(residual, tangent, blocks);
+  found.held_out_gain = held_out_gain(data, trial.sketch, tangent, blocks);
   found.disagreement = disagreement_of(residual, trial.column, amplitude, blocks);
   found.deviation = deviations(found.law.structure, tangent, found.inflation);
   // Where not even its sign is known, other numbers undo the amplitude: the form is not told.

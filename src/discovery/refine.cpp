@@ -93,32 +93,6 @@ MatrixXd derivatives(const Data& data, Sketch sketch) {
   return data.projected(columns);
 }
 
-/// A curve where the motion hardly is goes on as beside: its second differences weigh a little of
-/// what the mean value of its nodes does. In a Gram matrix whose first row is the amplitude's.
-void add_bending(const Data& data, Sketch sketch, MatrixXd& gram, VectorXd& score) {
-  const auto handles = handles_of(data, sketch);
-  for (const Piece& piece : sketch.pieces) {
-    const auto count = static_cast<Index>(piece.values.size());
-    MatrixXd bends = MatrixXd::Zero(std::max<Index>(0, count - 2), gram.cols());
-    VectorXd now = VectorXd::Zero(bends.rows());
-    double weight = 0.0;
-    for (Index k = 0; k < count; ++k) {
-      const double* const value = &piece.values[static_cast<std::size_t>(k)];
-      const auto found = std::find_if(handles.begin(), handles.end(),
-                                      [&](const Handle& handle) { return handle.value == value; });
-      const Index place = found == handles.end() ? -1 : found - handles.begin() + 1;
-      if (place > 0) weight += gram(place, place) / static_cast<double>(count);
-      for (Index row = std::max<Index>(0, k - 2); row <= std::min(k, count - 3); ++row) {
-        const double share = row == k - 1 ? -2.0 : 1.0;
-        if (place > 0) bends(row, place) = share;
-        now(row) += share * *value;
-      }
-    }
-    gram += prior::kBending * weight * bends.transpose() * bends;
-    score -= prior::kBending * weight * bends.transpose() * now;
-  }
-}
-
 /// Normal equations of a step of all numbers, those of each term behind its amplitude.
 struct Normal {
   MatrixXd gram;
@@ -199,6 +173,30 @@ Sum fitted_together(const Data& data, const std::vector<Sketch>& terms, int most
 Trial trial_of(const Sum& sum) { return {sum.terms.front(), sum.gain, 0.0, sum.columns.col(0)}; }
 
 }  // namespace
+
+void add_bending(const Data& data, Sketch sketch, MatrixXd& gram, VectorXd& score) {
+  const auto handles = handles_of(data, sketch);
+  for (const Piece& piece : sketch.pieces) {
+    const auto count = static_cast<Index>(piece.values.size());
+    MatrixXd bends = MatrixXd::Zero(std::max<Index>(0, count - 2), gram.cols());
+    VectorXd now = VectorXd::Zero(bends.rows());
+    double weight = 0.0;
+    for (Index k = 0; k < count; ++k) {
+      const double* const value = &piece.values[static_cast<std::size_t>(k)];
+      const auto found = std::find_if(handles.begin(), handles.end(),
+                                      [&](const Handle& handle) { return handle.value == value; });
+      const Index place = found == handles.end() ? -1 : found - handles.begin() + 1;
+      if (place > 0) weight += gram(place, place) / static_cast<double>(count);
+      for (Index row = std::max<Index>(0, k - 2); row <= std::min(k, count - 3); ++row) {
+        const double share = row == k - 1 ? -2.0 : 1.0;
+        if (place > 0) bends(row, place) = share;
+        now(row) += share * *value;
+      }
+    }
+    gram += prior::kBending * weight * bends.transpose() * bends;
+    score -= prior::kBending * weight * bends.transpose() * now;
+  }
+}
 
 double penalty(const Sketch& sketch, double largest) {
   const auto factors = static_cast<double>(sketch.pieces.size());

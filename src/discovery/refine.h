@@ -26,6 +26,11 @@ std::vector<Sketch> refined_together(const Data& data, const std::vector<Sketch>
 /// order of the law's numbers; by the numbers themselves, not their search scales.
 Eigen::MatrixXd tangent_of(const Data& data, const Sketch& sketch);
 
+/// A curve where the motion hardly is goes on as beside: its second differences weigh a little of
+/// what the mean value of its nodes does. In the normal equations of a sketch's numbers, whose
+/// first row is the amplitude's and whose others are those of handles_of().
+void add_bending(const Data& data, Sketch sketch, Eigen::MatrixXd& gram, Eigen::VectorXd& score);
+
 /// The penalty of a sketch: by its numbers, factors and memories; `largest` is the largest gain of
 /// any sketch, of which a share per number is what an error of the motion could buy.
 double penalty(const Sketch& sketch, double largest);

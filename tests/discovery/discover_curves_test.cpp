@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "discovery/dictionary.h"
+#include "discovery/judge.h"
 #include "discovery/refine.h"
 #include "discovery/support.h"
 
@@ -137,6 +138,35 @@ TEST(DiscoverCurves, ALoopOfOneCurveForthAndAnotherBack) {
     return force;
   };
   expect_predicted(loop, 35);
+}
+
+// Ends of a table that are reached for moments: their values follow from those beside them, in the
+// folds that judge the table as in its fit.
+TEST(DiscoverCurves, ATableIsJudgedByFoldsAsStiffAsItsFit) {
+  Scene at = scene(3, 2500);
+  for (Index k = 0; k < 2500; ++k) {
+    const double t = 0.02 * static_cast<double>(k);
+    at.motion.p_B(k, 2) = 0.05 * std::sin(1.9 * t) * (0.4 + 0.012 * t);
+  }
+  const auto felt = [](double z) { return 0.05 * std::sin(60.0 * z) + 0.5 * z; };
+  MatrixXd force(2500, 3);
+  for (Index k = 0; k < 2500; ++k) {
+    force.row(k) = felt(at.motion.p_B(k, 2)) * axis_of(at.motion, k, 2);
+  }
+  const Problem problem = problem_of(at, force + white(2500, kSigma, 53), kSigma);
+  const Data data(problem);
+  Sketch sketch;
+  sketch.direction = direction_named("base_z");
+  Piece table = centred(piece("curve", coordinate_named("z"), 0.05), 0.0);
+  table.factor.nodes = law::kMostNodes;
+  table.factor.peak = law::kMostNodes - 1;
+  for (std::size_t k = 0; k < law::kMostNodes; ++k) {
+    const double u = 2.0 * static_cast<double>(k) / (law::kMostNodes - 1.0) - 1.0;
+    table.values.push_back(felt(0.05 * u) / felt(0.05));
+  }
+  sketch.pieces = {table};
+  const Discovered found = judged(data, refined(data, sketch, 10));
+  EXPECT_GT(found.held_out_gain, 0.9 * found.gain);
 }
 
 }  // namespace

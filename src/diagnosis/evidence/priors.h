@@ -52,6 +52,9 @@ constexpr double kElsewhereBesideUnknown = 0.4;
 /// but noise 154 of 179 acted in three sets of simulated machines, 90 of 118 in two new ones.
 constexpr double kElsewhereOnMachine = 0.3;
 
+/// Share of what names leave beyond noise that an approximation without a name explains at least
+/// to take the place of one: even odds, for either is then further off than noise.
+constexpr double kInPlaceOfName = 0.5;
 /// Share of a machine's recordings that a collision or a hand disturbs at most: what is far off for
 /// longer is a law that was not found.
 constexpr double kMostForeign = 0.2;
