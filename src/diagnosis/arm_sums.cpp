@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/linear_algebra.h"
-#include "diagnosis/evidence/support.h"
 
 namespace dcnn {
 namespace {
@@ -81,7 +80,18 @@ Eigen::VectorXd ArmRegression::fit(Index left_out, std::size_t from, std::size_t
       match(own) += pieces_[j][p].match / variance;
     }
   }
+  gram.diagonal().head(shared_) *= 1.0 + ridge_;
   return solve_gram(gram, match, kSharedBaseRidge);
+}
+
+void ArmRegression::shrink() {
+  constexpr double kLeast = 1e-8, kMost = 1.0, kStep = 10.0;
+  double best = 0.0, least = left_out().sum();
+  for (ridge_ = kLeast; ridge_ <= kMost; ridge_ *= kStep) {
+    const double error = left_out().sum();
+    if (error < least) least = error, best = ridge_;
+  }
+  ridge_ = best;
 }
 
 double ArmRegression::misfit(std::size_t joint, Index piece, const Eigen::VectorXd& x) const {
@@ -120,6 +130,16 @@ Eigen::MatrixXd ArmRegression::left_out() const {
   return errors;
 }
 
+void ArmRegression::compare(std::size_t joint, Index piece, const Eigen::VectorXd& x,
+                            const ArmRegression& other, const Eigen::VectorXd& others,
+                            evidence::BlockChange& change) const {
+  const double variance = variance_(static_cast<Index>(joint));
+  const Eigen::VectorXd apart = coefficients(joint, x) - other.coefficients(joint, others);
+  const Eigen::MatrixXd& gram = sums_.sums_[joint][static_cast<std::size_t>(piece)].gram;
+  change.fall += (other.misfit(joint, piece, others) - misfit(joint, piece, x)) / variance;
+  change.apart += apart.dot(gram * apart) / variance;
+}
+
 double ArmRegression::log_support_against(const ArmRegression& other) const {
   std::vector<evidence::BlockChange> blocks;
   const auto pieces = static_cast<Index>(pieces_.front().size());
@@ -128,12 +148,8 @@ double ArmRegression::log_support_against(const ArmRegression& other) const {
     evidence::BlockChange change;
     double rows = 0.0;
     for (std::size_t j = 0; j < pieces_.size(); ++j) {
-      const ArmSums::Piece& piece = sums_.sums_[j][static_cast<std::size_t>(p)];
-      const double variance = variance_(static_cast<Index>(j));
-      const Eigen::VectorXd apart = coefficients(j, own) - other.coefficients(j, others);
-      change.fall += (other.misfit(j, p, others) - misfit(j, p, own)) / variance;
-      change.apart += apart.dot(piece.gram * apart) / variance;
-      rows += piece.rows;
+      compare(j, p, own, other, others, change);
+      rows += pieces_[j][static_cast<std::size_t>(p)].rows;
     }
     if (rows > 0.0) blocks.push_back(change);
   }
@@ -179,13 +195,15 @@ Eigen::VectorXd ArmRegression::resisted() const {
   return power.cwiseQuotient(variance_);
 }
 
-Eigen::VectorXd ArmRegression::left_out_alone(std::size_t joint) const {
-  const auto pieces = static_cast<Index>(pieces_.front().size());
-  Eigen::VectorXd errors(pieces);
-  for (Index p = 0; p < pieces; ++p) {
-    errors(p) = misfit(joint, p, fit(p, joint, joint + 1)) / variance_(static_cast<Index>(joint));
+double ArmRegression::log_support_alone(std::size_t joint) const {
+  std::vector<evidence::BlockChange> blocks;
+  for (Index p = 0; p < sums_.pieces(); ++p) {
+    if (pieces_[joint][static_cast<std::size_t>(p)].rows == 0.0) continue;
+    evidence::BlockChange change;
+    compare(joint, p, fit(p, joint, joint + 1), *this, fit(p, 0, pieces_.size()), change);
+    blocks.push_back(change);
   }
-  return errors;
+  return evidence::log_support(blocks);
 }
 
 }  // namespace dcnn

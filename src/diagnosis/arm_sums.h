@@ -3,6 +3,7 @@
 #pragma once
 
 #include "diagnosis/arm_rows.h"
+#include "diagnosis/evidence/support.h"
 
 namespace dcnn {
 
@@ -41,6 +42,9 @@ class ArmRegression {
   void reweight();
   void set_variances(const Eigen::VectorXd& variances) { variance_ = variances; }
   const Eigen::VectorXd& variances() const { return variance_; }
+  /// Shrinks the shared parameters towards zero by the ridge with which pieces that were left out
+  /// are predicted best: what a motion hardly tells is not extrapolated to another.
+  void shrink();
 
   /// The shared parameters fitted to all pieces but one (-1: to all).
   Eigen::VectorXd shared(Index left_out) const;
@@ -57,13 +61,16 @@ class ArmRegression {
   /// (joints): the power that the joints' own terms take by the rate in JointRows::own, summed over
   /// rows, in units of their variances.
   Eigen::VectorXd resisted() const;
-  /// (pieces): the same of one joint with shared parameters of its own.
-  Eigen::VectorXd left_out_alone(std::size_t joint) const;
+  /// The same for one joint with a set of shared parameters of its own, against the set of all.
+  double log_support_alone(std::size_t joint) const;
 
  private:
   Eigen::VectorXd fit(Index left_out, std::size_t from, std::size_t to) const;
   std::vector<Index> places(std::size_t joint) const;
   double misfit(std::size_t joint, Index piece, const Eigen::VectorXd& x) const;
+  /// Adds what a joint's rows of a piece say for these unknowns against those of another.
+  void compare(std::size_t joint, Index piece, const Eigen::VectorXd& x, const ArmRegression& other,
+               const Eigen::VectorXd& others, evidence::BlockChange& change) const;
   /// Coefficients of all columns of a joint, fitted without a piece.
   Eigen::VectorXd coefficients(std::size_t joint, const Eigen::VectorXd& x) const {
     return maps_[joint] * x(places(joint));
@@ -75,6 +82,7 @@ class ArmRegression {
   std::vector<Index> first_;                         // unknowns of each joint begin there
   Index shared_ = 0, size_ = 0;
   Eigen::VectorXd variance_;
+  double ridge_ = 0.0;  // of each shared parameter's information
 };
 
 }  // namespace dcnn

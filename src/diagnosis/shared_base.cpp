@@ -6,6 +6,8 @@
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/arm_senses.h"
 #include "diagnosis/axis_case.h"
+#include "diagnosis/evidence/posterior.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/given_arm.h"
 
 namespace dcnn {
@@ -55,16 +57,17 @@ void fit_links(std::vector<LoadedCase>& cases) {
   const ArmModel model = with_likeliest_senses(sums, told, senses);
   ArmRegression regression(sums, model);
   regression.reweight();
+  regression.shrink();
   std::vector<Index> columns;
   for (Index k = 0; k < told.rows(); ++k) {
     if (told.row(k).any()) columns.push_back(k);
   }
   const VectorXd parameters = regression.shared(-1);
-  const VectorXd shared = regression.left_out().colwise().sum();
   for (std::size_t j = 0; j < cases.size(); ++j) {
     const auto joint = static_cast<Index>(j);
     set_sense(cases[j], model.turned(joint) * senses(joint));
-    if (shared(joint) > regression.left_out_alone(j).sum()) continue;
+    const double alone = evidence::updated(evidence::prior::kName, regression.log_support_alone(j));
+    if (alone > 0.5) continue;
     AxisPlan plan = *cases[j].fit.axis;
     plan.columns = columns;
     plan.base_is_known = true;
