@@ -214,8 +214,8 @@ bool is_listed(const Case& study, const EffectKind& kind) {
   if (!study.axis) return !kind.machines_only;
   // Of a tool's effects an axis has no body to carry, no gravity to feel and nothing to leak into;
   // and what a drive leaves in some seconds of one motion is hardly ever a hand on the machine.
-  static const std::set<std::string> kOfTools{"loose_load", "misalignment", "crosstalk",
-                                              "cable_field", "contact"};
+  static const std::set<std::string> kOfTools{"weightless_mass", "loose_load",  "misalignment",
+                                              "crosstalk",       "cable_field", "contact"};
   return kind.stage != Stage::kTool && kOfTools.count(kind.name) == 0;
 }
 

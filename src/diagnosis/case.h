@@ -43,6 +43,7 @@ struct Log {
 struct Case {
   Simulator simulator;                   ///< as given; an empty tool where somebody else's predicts
   bool own_tool = true;                  ///< mass and centre of mass mean something
+  bool has_inertia = true;  ///< what predicts knows the inertia of what moves (simulates_inertia())
   std::shared_ptr<const AxisPlan> axis;  ///< of another machine, seen as a force along x; or null
   /// Units of length and time in which shapes along the axis are looked for; 1 for a tool, and for
   /// a machine of usual size in rad or m and seconds.

@@ -8,6 +8,7 @@
 #include "data/held_rows.h"
 #include "data/known_columns.h"
 #include "data/spikes.h"
+#include "diagnosis/simulated_inertia.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {
@@ -226,6 +227,7 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   note_unused_columns(request, fit.front());
   loaded.holdout = study;
   for (auto& r : fit) study.logs.push_back(make_log(std::move(r), study, !request.simulator));
+  study.has_inertia = study.own_tool || simulates_inertia(study.logs);
   for (auto& r : holdout) {
     loaded.holdout.logs.push_back(make_log(std::move(r), loaded.holdout, !request.simulator));
     // Where every fitted recording was zeroed none of them tells the offset of another.

@@ -50,13 +50,16 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
     return because("no position is logged");
   }
   const std::string name = kind.name;
-  const bool felt_at_rest =
-      name != "inertial_terms" && name != "loose_load" && (name != "com" || study.has_torque());
+  const bool felt_at_rest = name != "inertial_terms" && name != "weightless_mass" &&
+                            name != "loose_load" && (name != "com" || study.has_torque());
   if (!study.is_static() && !felt_at_rest && !has_acceleration(study)) {
     return because("no position or acceleration is logged");
   }
   if (kind.stage == Stage::kTool && !study.own_tool && name != "mass") {
     return because("the simulator's own tool is not known");
+  }
+  if (name == "weightless_mass" && study.has_inertia) {
+    return because("what is simulated has its inertia");
   }
   if (name == "time_delay" && study.axis && study.axis->system.axes.size() > 1) {
     return because("the axes share one clock: none of them alone is late");

@@ -107,6 +107,8 @@ std::string effect_in_words(const Member& member, const Estimates& n) {
     return "the robot's base is tilted by " + milli(length_of(n, "tilt", "_rad"), "mrad");
   if (id == "inertial_terms")
     return "the simulation leaves out inertial terms that the recordings show";
+  if (id == "weightless_mass")
+    return "the inertia of " + mass(value_of(n, "mass_kg")) + " whose weight is compensated";
   if (id == "coulomb_friction") return "dry friction of " + number("fc_n") + " N" + where;
   if (id == "viscous_friction") return "viscous friction of " + number("c_nspm") + " N·s/m" + where;
   if (id == "stribeck_friction")

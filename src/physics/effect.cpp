@@ -184,7 +184,8 @@ Json to_json(const std::vector<EffectSpec>& effects) {
 
 bool has_lever(const EffectKind& kind) {
   const bool along_a_line = kind.axis == AxisRule::kLine || kind.axis == AxisRule::kAngle;
-  return kind.stage == Stage::kForce && (along_a_line || kind.example_law != nullptr);
+  return kind.stage == Stage::kForce &&
+         (along_a_line || kind.at_a_point || kind.example_law != nullptr);
 }
 
 EffectStream stream_of(const EffectSpec& effect, const std::string& where, Exit exit) {

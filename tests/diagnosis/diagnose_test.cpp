@@ -95,17 +95,7 @@ TEST(Diagnose, WorksOnSomebodyElsesSimulator) {
   const Bench bench(configuration({{{"effect", "coulomb_friction"},
                                     {"axis", "base_y"},
                                     {"parameters", {{"fc_n", 0.08}, {"v0_mps", 0.01}}}}}));
-  for (const char* name : {"fit.csv", "hold.csv"}) {
-    Recording log = read_recording(bench / name, ReadOptions(), System());
-    const Recording simulated =
-        predict_motion(read_simulator(bench / "sim.json"), log, DerivativeSpec());
-    for (const std::string axis : {"fx", "fy", "fz"})
-      log.set(axis + "_sim", simulated.column(axis));
-    write_csv(bench / name, log.table);
-  }
-  DiagnosisRequest request = bench.request();
-  request.simulator.reset();
-  const Json report = diagnose(request, nullptr).report;
+  const Json report = bench.diagnose_columns().report;
   EXPECT_EQ(names(report), std::vector<std::string>{"coulomb_friction"})
       << report["findings"].dump(1);
   EXPECT_TRUE(report["fit"]["holdout_rmse_parameters"].is_null());

@@ -74,6 +74,22 @@ class Bench {
   Diagnosis diagnose(bool holdout = true) const {
     return dcnn::diagnose(request(holdout), nullptr);
   }
+  /// The same where the forces of the simulator are columns of the recordings, and no more is known
+  /// of it.
+  Diagnosis diagnose_columns() const {
+    const Simulator simulator = read_simulator(folder_ / "sim.json");
+    for (const char* name : {"fit.csv", "hold.csv"}) {
+      Recording log = read_recording(folder_ / name, ReadOptions(), System());
+      const Recording simulated = predict_motion(simulator, log, DerivativeSpec());
+      for (const std::string axis : {"fx", "fy", "fz"}) {
+        log.set(axis + "_sim", simulated.column(axis));
+      }
+      write_csv(folder_ / name, log.table);
+    }
+    DiagnosisRequest by_columns = request();
+    by_columns.simulator.reset();
+    return dcnn::diagnose(by_columns, nullptr);
+  }
   std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
 
  private:

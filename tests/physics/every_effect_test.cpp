@@ -203,8 +203,8 @@ TEST(Catalogue, HoldsEveryPublishedName) {
   const auto kinds = effect_kinds();
   const auto more = std::count_if(kinds.begin(), kinds.end(),
                                   [](const EffectKind* kind) { return kind->machines_only; });
-  // and cable_field, of the embedded data, and discovered
-  EXPECT_EQ(names.size(), published.size() + 2 + static_cast<std::size_t>(more));
+  // and cable_field, of the embedded data, weightless_mass and discovered
+  EXPECT_EQ(names.size(), published.size() + 3 + static_cast<std::size_t>(more));
 }
 
 TEST(Catalogue, IsListedInTheOrderInWhichItActs) {

@@ -152,6 +152,8 @@ struct EffectKind {
   bool common = false;
   /// Its state at the first sample of a recording is one that nobody knows: fitted beside it.
   bool begins_anywhere = false;
+  /// Its force acts at a point of the tool, as along a line (has_lever()).
+  bool at_a_point = false;
   /// A constant: no error of a law or of the motion comes with it, however large it is.
   bool is_constant = false;
   /// The parameter that the force is proportional to, the others held: it may follow a logged
