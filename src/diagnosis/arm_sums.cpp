@@ -1,6 +1,7 @@
 #include "diagnosis/arm_sums.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/linear_algebra.h"
 
@@ -116,6 +117,14 @@ void ArmRegression::reweight() {
 
 Eigen::VectorXd ArmRegression::shared(Index left_out) const {
   return fit(left_out, 0, pieces_.size()).head(shared_);
+}
+
+Eigen::MatrixXd ArmRegression::deviations() const {
+  const Index pieces = sums_.pieces();
+  Eigen::MatrixXd without(shared_, pieces);
+  for (Index p = 0; p < pieces; ++p) without.col(p) = shared(p);
+  const auto n = static_cast<double>(pieces);
+  return std::sqrt((n - 1.0) / n) * (without.colwise() - without.rowwise().mean());
 }
 
 Eigen::MatrixXd ArmRegression::left_out() const {

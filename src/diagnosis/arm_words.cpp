@@ -4,37 +4,11 @@
 #include <map>
 
 #include "dcnn/diagnosis/diagnose.h"
+#include "dcnn/physics/effect_words.h"
 #include "diagnosis/plain_findings.h"
 
 namespace dcnn {
 namespace {
-
-/// What an effect is called where its numbers are not given.
-std::string noun_of(const std::string& effect) {
-  static const std::map<std::string, std::string> kNouns{
-      {"coulomb_friction", "dry friction"},
-      {"lugre_friction", "presliding friction"},
-      {"cable_spring", "a spring"},
-      {"bias", "an offset"},
-      {"gain", "a scale error"},
-      {"lowpass", "a lag"},
-      {"contact", "a force from outside"},
-      {"quantisation", "coarse steps"},
-      {"step_bias", "an offset that jumps"},
-      {"time_delay", "a delay"},
-      {"quadratic_drag", "drag"},
-      {"cogging", "a torque periodic in the position"},
-      {"thermal_drift", "an offset that settles"},
-      {"linear_drift", "a drift"},
-      {"flexible_resonance", "a resonance"},
-      {"hum", "a hum"},
-      {"discovered", "a law without a name"}};
-  const auto found = kNouns.find(effect);
-  if (found != kNouns.end()) return found->second;
-  std::string noun = effect;
-  std::replace(noun.begin(), noun.end(), '_', ' ');
-  return noun;
-}
 
 /// "dry and viscous friction": nouns in a row, an ending that neighbours share said once.
 std::string joined(const std::vector<std::string>& nouns) {
@@ -126,7 +100,8 @@ Json arm_json(const Json& report, const System& system) {
     told.push_back(where);
     std::vector<std::string> nouns;
     for (const std::string& other : effects) {
-      if (joints[other] == where) nouns.push_back(noun_of(other));
+      if (joints[other] == where)
+        nouns.push_back(words_of_effect(other, system.axes[where.front()].name));
     }
     add(joined(nouns) + " on " + listed(where, system));
   }

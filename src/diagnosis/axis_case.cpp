@@ -8,6 +8,7 @@
 #include "dcnn/data/filter.h"
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/axis_sense.h"
+#include "diagnosis/axis_units.h"
 #include "diagnosis/motion_band.h"
 #include "diagnosis/noise_floor.h"
 #include "diagnosis/periodograms.h"
@@ -166,27 +167,6 @@ Case axis_case(std::shared_ptr<const AxisPlan> plan, double motion_hz) {
   return study;
 }
 
-/// By how much an amplitude leaves what machines of usual size move by, or how fast: 0.05 to 5 rad
-/// or m, and as much in a second. Laws of friction have their scales in these units; a machine far
-/// from that size, or logged in another unit, has its own.
-double beyond_usual(double amplitude) { return amplitude / std::clamp(amplitude, 0.05, 5.0); }
-
-/// From amplitudes of position and rate, as those of sines of the same deviation. Without a
-/// position the length is what is passed in a second.
-void set_axis_units(Case& study) {
-  double position = 0.0, rate = 0.0, rows = 0.0;
-  for (const Log& log : study.logs) {
-    const Eigen::VectorXd q = log.motion.euler.col(0);
-    position += (q.array() - q.mean()).square().sum();
-    if (log.motion.v_B.rows() > 0) rate += log.motion.v_B.col(0).squaredNorm();
-    rows += static_cast<double>(q.size());
-  }
-  const double length = std::sqrt(2.0 * position / rows), speed = std::sqrt(2.0 * rate / rows);
-  if (!study.axis_moves || !(speed > 0.0)) return;
-  study.axis_length = beyond_usual(length > 0.0 ? length : speed);
-  study.axis_seconds = study.axis_length / beyond_usual(speed);
-}
-
 }  // namespace
 
 void set_axis_motion(Case& study) {
@@ -198,8 +178,9 @@ void set_axis_motion(Case& study) {
         base_columns(log.recording, plan.system, plan.index, study.derivative);
     log.base = {Eigen::MatrixXd::Zero(log.motion.samples(), 3), Eigen::MatrixXd(0, 3)};
     if (plan.base_is_known) {
-      log.base.force.col(0) =
-          -plan.sense * (columns(Eigen::all, plan.columns) * study.base_coefficients);
+      const Eigen::MatrixXd used = columns(Eigen::all, plan.columns);
+      log.base.force.col(0) = -plan.sense * used * study.base_coefficients;
+      if (plan.base_deviations.size() > 0) log.base_errors = used * plan.base_deviations;
     }
     for (const Index k : plan.columns) {
       if (!plan.base_is_known) log.regressors.emplace_back(-plan.sense * columns.col(k));

@@ -7,6 +7,7 @@
 #include "core/elementary.h"
 #include "dcnn/diagnosis/diagnose.h"
 #include "dcnn/physics/effect.h"
+#include "dcnn/physics/effect_words.h"
 #include "diagnosis/plain_findings.h"
 #include "diagnosis/words.h"
 
@@ -151,7 +152,7 @@ std::string axis_words(const Json& finding, const Axis& axis, const std::string&
   if (is_constant(finding)) return constant_words(finding) + " on " + axis.name;
   const auto sentence = sentences().find(id);
   const std::string what = sentence == sentences().end()
-                               ? find_effect(id)->meaning
+                               ? words_of_effect(id, axis.name)
                                : sentence->second(Numbers(finding["parameters"], axis));
   return what + " on " + axis.name;
 }

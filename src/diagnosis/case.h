@@ -22,7 +22,8 @@ struct AxisPlan {
   std::vector<Index> columns;  ///< of its base simulator that are fitted
   /// 1 where what is measured drives the axis, -1 where it is the reaction to that.
   double sense = 1.0;
-  bool base_is_known = false;  ///< its coefficients are those of the whole arm, and not fitted
+  bool base_is_known = false;       ///< its coefficients are those of the whole arm, and not fitted
+  Eigen::MatrixXd base_deviations;  ///< then: how they may be off (ArmRegression::deviations())
   Eigen::VectorXd given;  ///< of an arm whose links are described: their parameters (10·joints)
   std::optional<BodyVector> payload = std::nullopt;  ///< found at an arm's flange
   const Axis& axis() const { return system.axes[index]; }
@@ -38,11 +39,13 @@ struct Log {
   Wrench base;                 ///< of somebody else's simulator, added to ours; no rows without one
   /// Columns of a linear simulator whose coefficients are fitted, (T, channels) each.
   std::vector<Eigen::MatrixXd> regressors;
+  /// What errors of a known base make of the channel, a standard deviation each, (T, errors).
+  Eigen::MatrixXd base_errors;
 };
 
 struct Case {
-  Simulator simulator;                   ///< as given; an empty tool where somebody else's predicts
-  bool own_tool = true;                  ///< mass and centre of mass mean something
+  Simulator simulator;      ///< as given; an empty tool where somebody else's predicts
+  bool own_tool = true;     ///< mass and centre of mass mean something
   bool has_inertia = true;  ///< what predicts knows the inertia of what moves (simulates_inertia())
   std::shared_ptr<const AxisPlan> axis;  ///< of another machine, seen as a force along x; or null
   /// Units of length and time in which shapes along the axis are looked for; 1 for a tool, and for

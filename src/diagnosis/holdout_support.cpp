@@ -3,14 +3,40 @@
 #include <map>
 #include <numeric>
 
+#include "core/linear_algebra.h"
+#include "diagnosis/base_errors.h"
 #include "diagnosis/holdout.h"
 
 namespace dcnn {
 namespace {
 
-constexpr double kErrorBlock = 1.0;  // s, over which errors count as one
+constexpr double kErrorBlock = 1.0;   // s, over which errors count as one
+constexpr double kErrorRidge = 1e-9;  // of a column's information
 
 }  // namespace
+
+Signals HoldOut::of_base_errors(const Signals& prediction) const {
+  const std::vector<Signals> errors = base_errors(study_);
+  if (errors.empty()) return {};
+  const auto count = static_cast<Index>(errors.size());
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(count, count);
+  Eigen::VectorXd match = Eigen::VectorXd::Zero(count);
+  std::vector<Eigen::MatrixXd> columns;
+  for (std::size_t k = 0; k < prediction.size(); ++k) {
+    columns.emplace_back(prediction[k].rows(), count);
+    for (Index c = 0; c < count; ++c) columns[k].col(c) = errors[static_cast<std::size_t>(c)][k];
+    for (Index i = 0; i < prediction[k].rows(); ++i) {
+      if (!held_[k][static_cast<std::size_t>(i)]) continue;
+      const auto row = columns[k].row(i);
+      gram += row.transpose() * row;
+      match += row.transpose() * (study_.logs[k].measured(i, 0) - prediction[k](i, 0));
+    }
+  }
+  const Eigen::VectorXd sizes = solve_gram(gram, match, kErrorRidge);
+  Signals signals;
+  for (const Eigen::MatrixXd& each : columns) signals.emplace_back(each * sizes);
+  return signals;
+}
 
 std::vector<double> HoldOut::support_by_channel(const Signals& a, const Signals& b,
                                                 const std::vector<Floor>& floors,
@@ -36,6 +62,8 @@ std::vector<evidence::BlockChange> HoldOut::changes(const std::vector<Index>& ch
                                                     const std::vector<double>& noisier) const {
   std::vector<double> deviation;
   for (const Floor& floor : floors) deviation.push_back(floor.whole_deviation());
+  // An error of the base is no reason for either.
+  const Signals with_base = of_base_errors(a), without_base = of_base_errors(b);
   std::map<std::pair<std::size_t, std::int64_t>, evidence::BlockChange> blocks;
   for (std::size_t k = 0; k < a.size(); ++k) {
     const Log& log = study_.logs[k];
@@ -48,8 +76,10 @@ std::vector<evidence::BlockChange> HoldOut::changes(const std::vector<Index>& ch
       evidence::BlockChange& block = blocks[{k, number}];
       for (const Index j : channels) {
         const double s = deviation[static_cast<std::size_t>(j)];
-        const double with_it = (log.measured(i, j) - a[k](i, j)) / s,
-                     without_it = (log.measured(i, j) - b[k](i, j)) / s;
+        double with_it = log.measured(i, j) - a[k](i, j),
+               without_it = log.measured(i, j) - b[k](i, j);
+        if (!with_base.empty()) with_it -= with_base[k](i, j), without_it -= without_base[k](i, j);
+        with_it /= s, without_it /= s;
         const double more = noisier.empty() ? 0.0 : noisier[static_cast<std::size_t>(j)] / (s * s);
         block.fall += without_it * without_it - with_it * with_it + more;
         block.apart += (without_it - with_it) * (without_it - with_it);

@@ -4,6 +4,7 @@
 
 #include "dcnn/data/filter.h"
 #include "diagnosis/axis_case.h"
+#include "diagnosis/base_errors.h"
 #include "diagnosis/search.h"
 #include "physics/effect_law.h"
 
@@ -98,6 +99,9 @@ Surroundings Search::surroundings(const std::vector<Member>& members) const {
     setting.nuisance = appended(setting.nuisance, setting.whitened(column));
   }
   for (const Signals& column : own_offsets(study_)) {
+    setting.nuisance = appended(setting.nuisance, setting.whitened(column));
+  }
+  for (const Signals& column : base_errors(study_)) {
     setting.nuisance = appended(setting.nuisance, setting.whitened(column));
   }
   if (study_.is_static() || study_.without.smoothing) return made;

@@ -63,6 +63,7 @@ void fit_links(std::vector<LoadedCase>& cases) {
     if (told.row(k).any()) columns.push_back(k);
   }
   const VectorXd parameters = regression.shared(-1);
+  const MatrixXd deviations = regression.deviations();
   for (std::size_t j = 0; j < cases.size(); ++j) {
     const auto joint = static_cast<Index>(j);
     set_sense(cases[j], model.turned(joint) * senses(joint));
@@ -71,6 +72,7 @@ void fit_links(std::vector<LoadedCase>& cases) {
     AxisPlan plan = *cases[j].fit.axis;
     plan.columns = columns;
     plan.base_is_known = true;
+    plan.base_deviations = deviations;
     give_plan(cases[j], plan, parameters);
   }
 }

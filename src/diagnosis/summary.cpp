@@ -93,8 +93,9 @@ std::string with_equals(const Json& finding) {
     return words;
   }
   std::vector<std::pair<double, std::string>> others;
+  const std::string axis = finding["axis"].is_string() ? finding["axis"].get<std::string>() : "";
   for (const auto& [name, share] : shared.items()) {
-    others.emplace_back(share.get<double>(), words_of_effect(name));
+    others.emplace_back(share.get<double>(), words_of_effect(name, axis));
   }
   std::sort(others.rbegin(), others.rend());
   const auto percent = [](double share) { return " (" + brief(100.0 * share) + " %)"; };

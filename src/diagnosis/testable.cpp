@@ -95,6 +95,8 @@ bool is_in_base(const Case& study, const EffectKind& kind) {
 
 std::vector<Member> own_parameters(const Case& study) {
   std::vector<Member> members;
+  // An arm's links are fitted to these recordings: their scale is no number of its own.
+  if (study.axis && study.axis->base_deviations.size() > 0) return members;
   for (const char* name : {"mass", "com", "gravity_tilt", "bias", "gain"}) {
     const EffectKind& kind = *find_effect(name);
     // Of another machine's simulator its scale is all that is known; a fitted base is fitted.

@@ -100,16 +100,16 @@ void add_findings(const Json& report, HtmlReport& page) {
   std::vector<std::vector<std::string>> rows;
   for (const Json& f : in_lines(report["findings"])) {
     const auto alternatives = alternatives_in_words(f);
-    rows.push_back({words_of_effect(plain_text(f["effect"])), place_in_words(f),
-                    joined(numbers_in_words(f), "; "), share_text(f["confidence"]),
-                    share_text(f["holdout_gain"]),
+    rows.push_back({words_of_effect(plain_text(f["effect"]), plain_text(f["axis"])),
+                    place_in_words(f), joined(numbers_in_words(f), "; "),
+                    share_text(f["confidence"]), share_text(f["holdout_gain"]),
                     alternatives.empty() ? "nothing else" : joined(alternatives, ", ")});
   }
   std::string refuted;
   for (const Json& name : report.value("refuted", Json::array())) {
-    const std::string axis = words_of_axis(plain_text(name["axis"]));
-    refuted += (refuted.empty() ? "" : ", ") + words_of_effect(plain_text(name["effect"])) +
-               (axis.empty() ? "" : " (" + axis + ")");
+    const std::string axis = plain_text(name["axis"]);
+    refuted += (refuted.empty() ? "" : ", ") + words_of_effect(plain_text(name["effect"]), axis) +
+               (axis.empty() ? "" : " (" + words_of_axis(axis) + ")");
   }
   if (!refuted.empty()) {
     page.paragraph(

@@ -34,7 +34,7 @@ std::string in_columns(const std::vector<std::string>& parts) {
 
 std::string finding_text(const Json& finding) {
   const std::string place = place_in_words(finding), indent(kTextIndent, ' ');
-  std::string text = words_of_effect(plain_text(finding["effect"]));
+  std::string text = words_of_effect(plain_text(finding["effect"]), plain_text(finding["axis"]));
   if (!place.empty()) text += ", " + place;
   if (!finding["confidence"].is_null()) {
     text += "; confidence " + percent(finding["confidence"].get<double>());

@@ -64,7 +64,7 @@ std::vector<std::string> alternatives_in_words(const Json& finding) {
   for (const Json& other : finding["alternatives"]) {
     const std::string id = plain_text(other.is_object() ? other["effect"] : other);
     const bool share = shared.contains(id) && !shared[id].is_null();
-    words.push_back(words_of_effect(id) +
+    words.push_back(words_of_effect(id, plain_text(finding["axis"])) +
                     (share ? " (" + percent(shared[id].get<double>()) + ")" : ""));
   }
   return words;

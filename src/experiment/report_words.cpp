@@ -19,7 +19,7 @@ const std::map<std::string, std::string>& stem_words() {
   static const std::map<std::string, std::string> kWords{
       {"delta_mass", "mass too much or too little"},
       {"delta_com", "centre of mass off by"},
-      {"mass", "mass"},
+      {"mass", "mass that moves"},
       {"delta_bias", "offset"},
       {"delta_inertia", "inertia off by"},
       {"tilt", "tilt of the base about"},

@@ -217,7 +217,8 @@ class Proposer {
       const auto has = [&](const char* name) {
         return rule.channel.find(name) != std::string::npos;
       };
-      const bool ur = has("TCP_force"), franka = has("F_ext_hat"), in_base = ur || has("O_F_ext");
+      const bool ur = has("TCP_force") || has("tcpf_"), franka = has("F_ext_hat"),
+                 in_base = ur || has("O_F_ext");
       if (rule.to != "fx" || (!ur && !franka)) continue;
       const bool oriented = !recipe().orientation.kind.empty();
       std::string words = shown(rule.channel) + (ur ? " of a UR" : " of a Franka") + " is in the " +

@@ -121,6 +121,10 @@ std::string by_words(const LogStream& stream, const std::string& name, const Wor
     return with_axis(index < 3 ? "f" : "t", index % 3);
   }
   const int elements = index >= 0 ? elements_beside(stream, name) : 0;
+  if (elements == 6 && words.size() == 2 && index < 6) {  // of a UR's RTDE, as ur_rtde shortens it
+    if (words[0] == "tcp") return with_axis(index < 3 ? "" : "rv", index % 3);
+    if (words[0] == "tcpf") return with_axis(index < 3 ? "f" : "t", index % 3);
+  }
   const bool external =
       has_word(words, {"ext"}) && has_word(words, {"f"});  // libfranka's F_ext_hat
   if (elements == 6 && (external || has_word(words, {"ft", "fts", "wrench"})) && index < 6) {

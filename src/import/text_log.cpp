@@ -5,6 +5,7 @@
 #include "data/line_reader.h"
 #include "data/text.h"
 #include "dcnn/core/error.h"
+#include "import/list_cells.h"
 #include "import/text_cells.h"
 #include "import/text_layout.h"
 #include "import/units.h"
@@ -25,6 +26,44 @@ void check_text(std::string_view* line, bool first, const std::string& place) {
   require(line->find('\0') == std::string_view::npos, Exit::kData, place,
           ": contains a NUL byte: is neither text nor a known format of logs");
 }
+
+/// Lines of a text, those joined over which a list goes on.
+class ListLines {
+ public:
+  explicit ListLines(LineReader& reader) : reader_(reader) {}
+
+  /// Valid until the next call; false at the end.
+  bool next(std::string_view* line) {
+    if (!take(line)) return false;
+    number_ = reader_.number();
+    if (line->find('[') == std::string_view::npos || !ListCells::is_open(*line)) return true;
+    joined_ = *line;
+    while (ListCells::is_open(joined_)) {
+      std::string_view more;
+      require(joined_.size() < kLongestList && take(&more), Exit::kData, reader_.place(number_),
+              ": a list that begins here has no end");
+      joined_ += '\n';
+      joined_ += more;
+    }
+    *line = joined_;
+    return true;
+  }
+  /// Of the line last given, where it begins.
+  Index number() const { return number_; }
+
+ private:
+  static constexpr std::size_t kLongestList = std::size_t{1} << 20;  // bytes
+
+  bool take(std::string_view* line) {
+    if (!reader_.next(line)) return false;
+    check_text(line, reader_.number() == 1, reader_.place());
+    return true;
+  }
+
+  LineReader& reader_;
+  std::string joined_;
+  Index number_ = 0;
+};
 
 /// Reads rows after the layout is known.
 class TextRows {
@@ -99,27 +138,34 @@ class TextRows {
 void read_text_log(const std::filesystem::path& path, const std::string& name,
                    LogBuilder& builder) {
   LineReader reader(path);
+  ListLines lines(reader);
   std::vector<std::string> sample;
+  std::vector<Index> numbers;
   std::string_view line;
   std::size_t bytes = 0;
-  while (sample.size() < kSampleLines && bytes < kSampleBytes && reader.next(&line)) {
-    check_text(&line, sample.empty(), reader.place());
+  while (sample.size() < kSampleLines && bytes < kSampleBytes && lines.next(&line)) {
     bytes += line.size();
     sample.emplace_back(line);
+    numbers.push_back(lines.number());
   }
   require(!sample.empty(), Exit::kData, reader.name(), ": is empty");
-  const TextLayout layout =
+  const ListCells lists(sample);
+  if (lists.found()) {
+    for (std::string& early : sample) early = lists.spread(early);
+  }
+  TextLayout layout =
       find_layout(sample, builder.options().text, reader.name(),
                   [&](std::size_t count) { return builder.next_columns(count); });
+  layout.first_row = numbers[static_cast<std::size_t>(layout.first_row - 1)];
   ForeignLog& log = builder.log();
   log.format = layout.words();
   log.notes.insert(log.notes.end(), layout.notes.begin(), layout.notes.end());
   TextRows rows(layout, builder, name);
-  Index number = 0;
-  for (const std::string& early : sample) rows.add(early, reader, ++number);
-  while (reader.next(&line)) {
-    check_text(&line, false, reader.place());
-    rows.add(line, reader, ++number);
+  for (std::size_t k = 0; k < sample.size(); ++k) rows.add(sample[k], reader, numbers[k]);
+  std::string spread;
+  while (lines.next(&line)) {
+    if (lists.found()) line = spread = lists.spread(line);
+    rows.add(line, reader, lines.number());
   }
   rows.finish(reader.name());
 }

@@ -6,8 +6,10 @@
 
 namespace dcnn {
 
-std::string words_of_effect(const std::string& name) {
+std::string words_of_effect(const std::string& name, const std::string& axis) {
   const EffectKind* kind = find_effect(name);
+  const bool on_machine = !axis.empty() && words_of_axis(axis) == axis;
+  if (kind && on_machine && kind->on_machine) return kind->on_machine;
   if (kind && kind->meaning) return kind->meaning;
   std::string words = name;
   std::replace(words.begin(), words.end(), '_', ' ');
@@ -40,7 +42,8 @@ std::string words_of_structure(const std::string& names) {
   }
   const auto space = names.find(' ');
   if (space == names.npos) return words_of_effect(names);
-  return words_of_effect(names.substr(0, space)) + " " + words_of_axis(names.substr(space + 1));
+  const std::string axis = names.substr(space + 1);
+  return words_of_effect(names.substr(0, space), axis) + " " + words_of_axis(axis);
 }
 
 }  // namespace dcnn

@@ -90,5 +90,71 @@ TEST(ArmStructure, NoiseHoldsNothing) {
   EXPECT_LE(found, 2);  // of 20, where one in 25 is a name's prior
 }
 
+/// A regression of two shared columns, told well and hardly, over `joints`.
+ArmModel two_shared(const std::vector<JointRows>& joints) {
+  Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(joints.front().arm.cols(), 2);
+  shared(10, 0) = shared(11, 1) = 1.0;
+  return {shared, std::vector<std::vector<Index>>(joints.size(), std::vector<Index>{0}),
+          Eigen::VectorXd::Ones(static_cast<Index>(joints.size()))};
+}
+
+// Of a regression in white noise the jackknife of blocks has the covariance of least squares, which
+// the estimates show over seeds.
+TEST(ArmRegressionOf, DeviationsAreThoseOfTheEstimates) {
+  constexpr int kSeeds = 60;
+  Eigen::MatrixXd stated = Eigen::MatrixXd::Zero(2, 2), seen = stated;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    std::vector<JointRows> joints = arm_noise(static_cast<std::uint64_t>(seed));
+    for (JointRows& rows : joints) rows.arm.col(11) = 0.9 * rows.arm.col(10) + rows.arm.col(12);
+    const ArmSums sums(joints);
+    const ArmRegression regression(sums, two_shared(joints));
+    const Eigen::MatrixXd deviations = regression.deviations();
+    const Eigen::VectorXd estimate = regression.shared(-1);
+    stated += deviations * deviations.transpose() / kSeeds;
+    seen += estimate * estimate.transpose() / kSeeds;
+  }
+  for (Index k = 0; k < 2; ++k) EXPECT_NEAR(stated(k, k) / seen(k, k), 1.0, 0.5) << k;
+  EXPECT_LT(stated(0, 1), 0.0);
+  EXPECT_LT(seen(0, 1), 0.0);
+}
+
+// Forty numbers of noise are shrunk, what the rows tell stays.
+TEST(ArmRegressionOf, ShrinksWhatIsNotTold) {
+  constexpr Index kShared = 40;
+  for (const double size : {0.0, 2.0}) {
+    double raw = 0.0, shrunk = 0.0;
+    for (const std::uint64_t seed : {1, 2, 3, 4}) {
+      std::vector<JointRows> joints = arm_noise(seed);
+      Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(joints.front().arm.cols(), kShared);
+      shared.middleRows(10, kShared).setIdentity();
+      for (JointRows& rows : joints) {
+        rows.target += size * rows.arm.middleCols(10, kShared).rowwise().sum();
+      }
+      const ArmSums sums(joints);
+      ArmModel model = two_shared(joints);
+      model.shared = shared;
+      ArmRegression regression(sums, model);
+      raw += regression.shared(-1).norm();
+      regression.shrink();
+      shrunk += regression.shared(-1).norm();
+    }
+    EXPECT_LT(shrunk, (size > 0.0 ? 1.0 : 0.6) * raw) << size;
+    EXPECT_GT(shrunk, (size > 0.0 ? 0.99 : 0.0) * raw) << size;
+  }
+}
+
+// Parameters of its own predict a joint better where its scale is another, and not where all share
+// theirs.
+TEST(ArmRegressionOf, AJointOfAnotherScaleIsLikelierAlone) {
+  std::vector<JointRows> joints = arm_noise(9);
+  for (JointRows& rows : joints) rows.target += 2.0 * rows.arm.col(10) - rows.arm.col(11);
+  joints[3].target *= 1.5;
+  const ArmSums sums(joints);
+  ArmRegression regression(sums, two_shared(joints));
+  regression.reweight();
+  EXPECT_GT(regression.log_support_alone(3), 10.0);
+  EXPECT_LT(regression.log_support_alone(1), 3.0);
+}
+
 }  // namespace
 }  // namespace dcnn

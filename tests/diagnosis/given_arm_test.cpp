@@ -170,7 +170,7 @@ TEST(ArmWords, NameJointsTogether) {
   }
   report["findings"].push_back(finding_of("hum", "d", ""));
   EXPECT_EQ(arm_json(report, four_axes())["words"],
-            "payload of 2.6 kg, centre 4 cm off; dry and viscous friction on a to d; a hum on d; "
+            "payload of 2.6 kg, centre 4 cm off; dry and viscous friction on a to d; hum on d; "
             "nothing else");
   report["findings"].back()["confidence"] = 0.3;
   EXPECT_EQ(arm_json(report, four_axes())["words"],

@@ -94,6 +94,12 @@ INSTANTIATE_TEST_SUITE_P(
         Dialect{"nan_in_a_column_that_nobody_uses",
                 "t,fx,fy,fz,spare\n0,1.5,-0.25,1000,nan\n0.01,2.5,-0.25,1000,\n"
                 "0.02,3.5,-0.25,1000,#N/A\n"},
+        Dialect{"lists_over_several_lines",
+                "stamp,force\n0,\"[ 1.5\n -0.25 1.e+03]\"\n0.01,\"[ 2.5 -0.25 1000.]\"\n"
+                "0.02,\"[ 3.5 -0.25\n 1000.]\"\n"},
+        Dialect{"lists_with_commas",
+                ",time,force\n0,0,[1.5, -0.25, 1000]\n1,0.01,[2.5, -0.25, 1000]\n"
+                "2,0.02,[3.5, -0.25, 1000]\n"},
         Dialect{"cut_off",
                 "t,fx,fy,fz\n0,1.5,-0.25,1000\n0.01,2.5,-0.25,1000\n"
                 "0.02,3.5,-0.25,1000\n0.03,4."}),
@@ -131,6 +137,40 @@ TEST(TextImport, FaultsNameTheirPlace) {
   data_error([] { import_text(""); });
   data_error([] { import_text("\n\n\n"); });
   data_error([] { import_text("only words\nand more\n"); });
+}
+
+TEST(TextImport, FaultsOfListsNameTheLineOnWhichTheRowBegins) {
+  const std::string rows = "t,force\n0,\"[1 2\n 3]\"\n0.01,\"[1 2 3]\"\n";
+  EXPECT_NE(data_error([&] {
+              import_text(rows + "0.02,\"[1\n 2]\"\n0.03,\"[1 2 3]\"\n");
+            }).find("log.txt:5: 3 cells where there are 4"),
+            std::string::npos);
+  EXPECT_NE(data_error([&] {
+              import_text(rows + "0.02,\"[1 2\n");
+            }).find("log.txt:5: a list that begins here has no end"),
+            std::string::npos);
+  EXPECT_NE(data_error([&] {
+              import_text(rows + "0.02,\"[1 2\n4]\"\n0.03,\"[1 x 3]\"\n0.04,\"[1 2 3]\"\n");
+            }).find("log.txt:7"),
+            std::string::npos);
+}
+
+TEST(TextImport, ARobotsShortNamesArePoseAndWrench) {
+  std::string text =
+      "time,tcp_0,tcp_1,tcp_2,tcp_3,tcp_4,tcp_5,tcpf_0,tcpf_1,tcpf_2,tcpf_3,tcpf_4,"
+      "tcpf_5\n";
+  for (const char* row : {"0", "0.008", "0.016"}) {
+    text += row + std::string(",0.1,0.2,0.3,0,0,1.5707963267948966,1,2,3,0.4,0.5,0.6\n");
+  }
+  ImportWishes wishes;
+  wishes.wrench.frame = "auto";
+  const Imported imported = import_text(text, wishes);
+  EXPECT_EQ(cell(imported, "z", 1), 0.3);
+  EXPECT_NEAR(cell(imported, "qz", 1), std::sqrt(0.5), 1e-12);
+  // A UR's are in the base frame: turned into the sensor's.
+  EXPECT_NEAR(cell(imported, "fx", 1), 2.0, 1e-12);
+  EXPECT_NEAR(cell(imported, "fy", 1), -1.0, 1e-12);
+  EXPECT_NEAR(cell(imported, "tz", 1), 0.6, 1e-12);
 }
 
 TEST(TextImport, WhatOnlySizeTellsIsAsked) {

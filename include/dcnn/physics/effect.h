@@ -133,9 +133,10 @@ enum class TimeNeed { kNone, kClock, kMotion };
 struct EffectKind {
   const char* name = nullptr;
   Stage stage = Stage::kForce;
-  const char* kind = nullptr;      ///< parameter, structural, sensor or external
-  const char* meaning = nullptr;   ///< in words
-  const char* equation = nullptr;  ///< as published
+  const char* kind = nullptr;        ///< parameter, structural, sensor or external
+  const char* meaning = nullptr;     ///< in words
+  const char* on_machine = nullptr;  ///< in words, on an axis of a machine; null: its meaning
+  const char* equation = nullptr;    ///< as published
   /// The parameter names with the values used by examples and tests, JSON.
   const char* example = "{}";
   /// Of an effect whose form stands beside its parameters under the key `law`: one, JSON.

@@ -20,14 +20,17 @@ namespace {
 
 constexpr std::size_t kMostFields = 4, kTriedAgain = 30;
 
-/// Precisions of the priors of a fit's linear columns: free parameters, the base simulator's
-/// and the offsets of zeroed recordings are flat.
+/// Precisions of the priors of a fit's linear columns: free parameters, those of a base simulator
+/// that is fitted and the offsets of zeroed recordings are flat.
 Eigen::VectorXd precisions(const Setting& setting, const JointFit& fit) {
   Eigen::VectorXd precision = Eigen::VectorXd::Zero(fit.tangent.cols());
   const Index first = fit.free_parameters() + setting.flat_columns();
-  const Index smoothing = setting.nuisance.cols() - setting.flat_columns();
-  precision.segment(first, smoothing).setConstant(1.0 / (prior::kFiltering * prior::kFiltering));
-  Index column = first + smoothing;
+  const Index errors = setting.study.logs.front().base_errors.cols();
+  const Index smoothing = setting.nuisance.cols() - setting.flat_columns() - errors;
+  precision.segment(first, errors).setOnes();
+  precision.segment(first + errors, smoothing)
+      .setConstant(1.0 / (prior::kFiltering * prior::kFiltering));
+  Index column = first + errors + smoothing;
   const auto logs = static_cast<Index>(setting.study.logs.size());
   for (const Member& member : fit.members) {
     if (!begins_anywhere(setting.study, member) || column + logs > precision.size()) continue;

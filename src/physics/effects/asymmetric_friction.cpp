@@ -18,6 +18,7 @@ const EffectKind effect{
     .stage = Stage::kForce,
     .kind = "structural",
     .meaning = "friction that grows more with speed in one direction, half the difference",
+    .on_machine = "friction that differs between the directions",
     .equation = "-delta_c abs(v) n",
     .example = R"({"delta_c_nspm": 0.5})",
     .axis = AxisRule::kLine,

@@ -23,6 +23,7 @@ const EffectKind effect{
     .stage = Stage::kOffset,
     .kind = "sensor",
     .meaning = "constant offset",
+    .on_machine = "constant offset",
     .equation = "+ b",
     .example = R"({"delta_bias_x_n": 0.3, "delta_bias_y_n": -0.2, "delta_bias_z_n": 0.1})",
     .is_constant = true,

@@ -15,6 +15,7 @@ const EffectKind effect{
     .stage = Stage::kForce,
     .kind = "structural",
     .meaning = "cable or hose as a spring over one coordinate",
+    .on_machine = "spring over the position",
     .equation = "-k (q - rest) n",
     .example = R"({"k_nprad": 0.5, "rest_rad": 0.1})",
     .axis = AxisRule::kAngle,

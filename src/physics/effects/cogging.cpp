@@ -19,6 +19,7 @@ const EffectKind effect{
     .stage = Stage::kForce,
     .kind = "structural",
     .meaning = "force periodic in one coordinate",
+    .on_machine = "force periodic in the position",
     .equation = "amp sin(order q + phase) n",
     .example = R"({"amp_n": 0.1, "order": 12.0, "phase_rad": 0.5})",
     .axis = AxisRule::kAngle,

@@ -15,6 +15,7 @@ const EffectKind effect{
     .stage = Stage::kForce,
     .kind = "structural",
     .meaning = "spring that stiffens (or softens) with the cube of a position q",
+    .on_machine = "cubic spring",
     .equation = "-k3 q^3 n",
     .example = R"({"k3_nprad3": 0.4})",
     .axis = AxisRule::kAngle,

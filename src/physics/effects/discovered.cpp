@@ -59,6 +59,7 @@ const EffectKind effect{
     .stage = Stage::kForce,
     .kind = "structural",
     .meaning = "a law found in recordings that no other effect explains",
+    .on_machine = "law without a name",
     .equation = "amplitude f1(q1) f2(q2) … n",
     .example = R"({"amplitude_n": -0.4, "scale_1_mps": 0.1, "power_1": 1.5, "memory_2_s": 0.3,
                    "centre_2_rad": 0.1, "scale_2_rad": 0.7, "gain_2": 0.5})",

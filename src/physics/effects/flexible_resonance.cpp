@@ -2,8 +2,8 @@
 #include <complex>
 #include <numbers>
 
-#include "physics/effect_law.h"
 #include "dcnn/physics/first_order.h"
+#include "physics/effect_law.h"
 
 namespace dcnn::effects::flexible_resonance {
 namespace {
@@ -50,6 +50,7 @@ const EffectKind effect{
     .stage = Stage::kResonance,
     .kind = "structural",
     .meaning = "tool rings along an axis",
+    .on_machine = "resonance",
     .equation = "F_n -> F_n + fraction (H-1) F_n, H = w0^2/(s^2+2 zeta w0 s+w0^2)",
     .example = R"({"freq_hz": 12.0, "zeta": 0.05, "fraction": 0.5})",
     .axis = AxisRule::kSensor,

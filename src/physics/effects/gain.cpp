@@ -36,6 +36,7 @@ const EffectKind effect{
     .stage = Stage::kSensor,
     .kind = "sensor",
     .meaning = "scale error per axis",
+    .on_machine = "scale error",
     .equation = "F_i -> (1+k_i) F_i",
     .example = R"({"gain_x": 0.02, "gain_y": -0.03, "gain_z": 0.01})",
     .apply = apply,

@@ -46,6 +46,7 @@ const EffectKind effect{
     .stage = Stage::kForce,
     .kind = "structural",
     .meaning = "dry friction that varies with the position q, as that of gears",
+    .on_machine = "dry friction that varies with the position",
     .equation = "-fc (1 + a sin(order q + phase)) tanh(v/v0) n",
     .example = R"({"fc_n": 0.4, "a": 0.3, "order": 8.0, "phase_rad": 0.5, "v0_mps": 0.01})",
     .axis = AxisRule::kAngle,

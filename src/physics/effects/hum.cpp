@@ -22,6 +22,7 @@ const EffectKind effect{
     .stage = Stage::kOffset,
     .kind = "sensor",
     .meaning = "one fixed frequency in time, as it appears at the sample rate",
+    .on_machine = "hum",
     .equation = "s sin(2 pi f t) + c cos(2 pi f t)",
     .example =
         R"({"freq_hz": 50.0, "sin_x_n": 0.1, "sin_y_n": 0.0, "sin_z_n": -0.05, "cos_x_n": 0.02, "cos_y_n": 0.08, "cos_z_n": 0.0})",

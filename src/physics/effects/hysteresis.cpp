@@ -109,6 +109,7 @@ const EffectKind effect{
     .stage = Stage::kForce,
     .kind = "structural",
     .meaning = "cable with Bouc-Wen hysteresis over one coordinate",
+    .on_machine = "Bouc-Wen hysteresis over the position",
     .equation =
         "dz = (dq/w)(1 - beta sign(dq) abs(z)^(m-1) z - gamma abs(z)^m); -force z n; "
         "beta = 1 - asym, gamma = asym, m = 1 where asym is given",

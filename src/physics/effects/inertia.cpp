@@ -32,6 +32,7 @@ const EffectKind effect{
     .stage = Stage::kForce,
     .kind = "parameter",
     .meaning = "more (or less) inertia than simulated",
+    .on_machine = "inertia error",
     .equation = "-delta_inertia dv/dt n",
     .example = R"({"delta_inertia_kg": 0.2})",
     .axis = AxisRule::kLine,

@@ -15,6 +15,7 @@ const EffectKind effect{
     .stage = Stage::kOffset,
     .kind = "sensor",
     .meaning = "offset that grows steadily",
+    .on_machine = "drift",
     .equation = "rate t",
     .example = R"({"rate_x_nps": 0.001, "rate_y_nps": -0.002, "rate_z_nps": 0.003})",
     .needs_time = TimeNeed::kClock,

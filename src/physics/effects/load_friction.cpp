@@ -48,6 +48,7 @@ const EffectKind effect{
     .meaning =
         "dry friction that grows with the load: across the path of a tool, transmitted by "
         "the drive of an axis",
+    .on_machine = "dry friction that grows with the transmitted load",
     .equation = "-mu abs(F_load) tanh(v/v0) n",
     .example = R"({"mu": 0.1, "v0_mps": 0.01})",
     .axis = AxisRule::kLine,

@@ -1,5 +1,5 @@
-#include "physics/effect_law.h"
 #include "dcnn/physics/first_order.h"
+#include "physics/effect_law.h"
 
 namespace dcnn::effects::lowpass {
 namespace {
@@ -53,6 +53,7 @@ const EffectKind effect{
     .stage = Stage::kDynamics,
     .kind = "sensor",
     .meaning = "first-order lag in the sensor",
+    .on_machine = "first-order lag",
     .equation = "tau dF'/dt + F' = F",
     .example = R"({"tau_s": 0.01})",
     .needs_time = TimeNeed::kMotion,

@@ -62,6 +62,7 @@ const EffectKind effect{
     .stage = Stage::kForce,
     .kind = "structural",
     .meaning = "friction with elastic presliding",
+    .on_machine = "presliding friction",
     .equation = "dz/dt = v - abs(v) z sigma0/fc; -(sigma0 z + sigma1 dz/dt) n",
     .example = R"({"fc_n": 0.4, "sigma0_npm": 2000.0, "sigma1_nspm": 2.0})",
     .axis = AxisRule::kLine,

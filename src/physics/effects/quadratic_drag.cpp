@@ -17,6 +17,7 @@ const EffectKind effect{
     .stage = Stage::kForce,
     .kind = "structural",
     .meaning = "drag with the square of speed",
+    .on_machine = "quadratic drag",
     .equation = "-c2 v abs(v) n",
     .example = R"({"c2_ns2pm2": 5.0})",
     .axis = AxisRule::kLine,

@@ -16,6 +16,7 @@ const EffectKind effect{
     .stage = Stage::kForce,
     .kind = "structural",
     .meaning = "spring that pulls one way with the square of a position q",
+    .on_machine = "quadratic spring",
     .equation = "-k2 (q - rest)^2 n",
     .example = R"({"k2_nprad2": 0.5, "rest_rad": 0.1})",
     .axis = AxisRule::kAngle,

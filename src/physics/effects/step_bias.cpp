@@ -15,6 +15,7 @@ const EffectKind effect{
     .stage = Stage::kOffset,
     .kind = "sensor",
     .meaning = "offset jumps once (bumped sensor) and stays",
+    .on_machine = "offset that jumps once and stays",
     .equation = "+ s from t >= a",
     .example = R"({"step_x_n": 0.4, "step_y_n": -0.3, "step_z_n": 0.2})",
     .interval = IntervalRule::kOnset,

@@ -22,6 +22,7 @@ const EffectKind effect{
     .stage = Stage::kForce,
     .kind = "structural",
     .meaning = "friction falls with speed",
+    .on_machine = "Stribeck friction",
     .equation = "-(fc + (fs-fc) exp(-(v/vs)^2)) tanh(v/v0) n",
     .example = R"({"fc_n": 0.3, "fs_n": 0.6, "vs_mps": 0.03, "v0_mps": 0.005})",
     .axis = AxisRule::kLine,

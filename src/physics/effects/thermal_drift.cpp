@@ -39,6 +39,7 @@ const EffectKind effect{
     .stage = Stage::kOffset,
     .kind = "sensor",
     .meaning = "offset that settles, or follows the logged temperature",
+    .on_machine = "offset that settles",
     .equation = "a (1 - exp(-t/tau)), or k (T - t_ref)",
     .example = R"({"a_x_n": 0.3, "a_y_n": -0.2, "a_z_n": 0.5, "tau_s": 60.0})",
     .needs_time = TimeNeed::kClock,

@@ -59,6 +59,7 @@ const EffectKind effect{
     .stage = Stage::kDynamics,
     .kind = "sensor",
     .meaning = "force lags the pose by a pure delay; negative: it leads",
+    .on_machine = "delay behind the position (negative: lead)",
     .equation = "F(t) -> F(t - d)",
     .example = R"({"delay_s": 0.013})",
     .needs_time = TimeNeed::kMotion,

@@ -15,6 +15,7 @@ const EffectKind effect{
     .stage = Stage::kForce,
     .kind = "structural",
     .meaning = "linear friction",
+    .on_machine = "viscous friction",
     .equation = "-c v n",
     .example = R"({"c_nspm": 2.0})",
     .axis = AxisRule::kLine,
