@@ -100,6 +100,7 @@ Json budget(const Setting& setting, const Signals& left, const std::vector<Membe
   const double energy = y.squaredNorm(), noise = static_cast<double>(y.size());
   const JointFit given = joint_fit(setting, {});
   const Scan scan(setting, given);
+  if (!(energy > 0.0)) return list;  // what is simulated is what was measured
   double room = std::max(0.0, 1.0 - noise / energy);
   const auto add_part = [&](const char* part, const Vector& gain) {
     const double n = static_cast<double>(gain.size()), mean = gain.size() > 0 ? gain.mean() : 0.0;

@@ -18,6 +18,7 @@
 #include "diagnosis/heard.h"
 #include "diagnosis/holdout.h"
 #include "diagnosis/locate.h"
+#include "diagnosis/online.h"
 #include "diagnosis/own_numbers.h"
 #include "diagnosis/own_zeros.h"
 #include "diagnosis/plain_findings.h"
@@ -242,6 +243,13 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   report["fit"]["holdout_noise_floor"] = holdout.empty() ? Json() : deviations(heldout_floors);
   report["fit"]["noise_floor_source"] = sources;
   report["fit"]["oracle"] = nullptr;
+  const std::optional<DerivativeSpec> online = best_online(search);
+  report["fit"]["online"] = nullptr;
+  if (online && !holdout.empty()) {
+    const HoldOut streamed(by_derivative(study, *online), loaded.holdout);
+    report["fit"]["online"] = {{"derivative", to_json(*online)},
+                               {"holdout_rmse", streamed.rmse(fit.members, fit.base)}};
+  }
   if (study.lowpass_hz > 0.0) {
     report["fit"]["unfiltered"] =
         errors_json(search, first.unfiltered(), holdout.unfiltered(), given);
@@ -251,6 +259,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   report["smoother_hz"] = study.is_static() ? Json() : Json(study.derivative.cutoff_hz);
   diagnosis.corrected = study.simulator;
   if (!study.is_static()) diagnosis.corrected.derivative = study.derivative;
+  diagnosis.corrected.online_derivative = online;
   for (EffectSpec effect : specs_of(fit.members)) {
     if (refuted && effect.law.is_object()) effect.law["established"] = false;
     diagnosis.corrected.effects.push_back(std::move(effect));

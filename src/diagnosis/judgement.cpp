@@ -42,13 +42,18 @@ std::pair<Index, Index> tangent_columns(const JointFit& fit, std::size_t member)
   return {first, own.fixed ? 0 : own.coordinates()};
 }
 
-std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& residual) {
+std::vector<BandTest> bands_of(const Case& study) {
   std::vector<BandTest> bands{
       {0.0, 0.5, 0, 0}, {0.5, 2, 0, 0}, {2, 5, 0, 0}, {5, 12, 0, 0}, {12, 25.5, 0, 0}};
   for (BandTest& band : bands) {
-    band.from_hz *= setting.study.motion_hz / 20.0;
-    band.to_hz *= setting.study.motion_hz / 20.0;
+    band.from_hz *= study.motion_hz / 20.0;
+    band.to_hz *= study.motion_hz / 20.0;
   }
+  return bands;
+}
+
+std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& residual) {
+  std::vector<BandTest> bands = bands_of(setting.study);
   std::vector<double> sum(bands.size(), 0.0);
   const auto& info = setting.whitener.row_info();
   const double dt = setting.whitener.block_seconds();

@@ -20,6 +20,8 @@ struct BandTest {
   /// Power over what the floor makes.
   double loudness() const { return excess > 0.0 ? 1.0 + 2.0 * z * z / excess : 1.0; }
 };
+/// The bands that are tested, by how fast the motion is.
+std::vector<BandTest> bands_of(const Case& study);
 /// The floor comes from another band, so nothing has to be simulated for it.
 std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& residual);
 

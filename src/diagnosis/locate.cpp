@@ -5,6 +5,7 @@
 #include <map>
 
 #include "dcnn/data/fourier.h"
+#include "diagnosis/judgement.h"
 
 namespace dcnn {
 namespace {
@@ -71,10 +72,10 @@ Json segments(const Case& study, const Signals& left, const std::vector<Floor>& 
   const double spread = (sorted[sorted.size() * 3 / 4] - sorted[sorted.size() / 4]) / 1.349;
   double noise = 0.0;
   for (Index j = 0; j < study.channel_count(); ++j) noise += floor_power(floors, j);
-  const double high = std::max(middle + kOutstanding * spread, middle + 0.25 * noise);
+  const double high = std::max({0.0, middle + kOutstanding * spread, middle + 0.25 * noise});
   std::vector<Window> found;
   for (const Window& w : windows) {
-    if (w.excess < high) continue;
+    if (w.excess <= high) continue;
     if (!found.empty() && found.back().log == w.log && w.begin - found.back().end < 0.6) {
       found.back().end = w.end;
       found.back().excess += w.excess;
@@ -188,8 +189,9 @@ Json regimes(const Case& study, const Signals& left, const std::vector<Floor>& f
 Json bands(const Case& study, const Signals& left, const std::vector<Floor>& floors) {
   if (study.is_static()) return Json::array();
   const double top = 0.5 / study.dt();
-  std::vector<std::pair<double, double>> edges{{0.0, 0.5},  {0.5, 2.0},   {2.0, 5.0},
-                                               {5.0, 12.0}, {12.0, 25.0}, {25.0, top}};
+  std::vector<std::pair<double, double>> edges;  // those of band_tests(), and what is above them
+  for (const BandTest& band : bands_of(study)) edges.emplace_back(band.from_hz, band.to_hz);
+  edges.emplace_back(edges.back().second, std::max(top, edges.back().second));
   std::vector<double> excess(edges.size(), 0.0);
   double total = 0.0;
   for (std::size_t k = 0; k < left.size(); ++k) {

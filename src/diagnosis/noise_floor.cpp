@@ -13,16 +13,25 @@ namespace {
 constexpr double kLeastOfDifferences = 1e-6;
 constexpr Index kFewestBins = 12;  // below this the quiet band says nothing
 
-/// Variance of white noise with these second differences.
-double variance_of_differences(const Signals& signals, Index channel) {
+/// Variance of white noise with these second differences; where no three rows follow each other,
+/// of all that is there.
+double variance_of_differences(const Case& study, const Signals& signals, Index channel) {
   double sum = 0.0, count = 0.0;
-  for (const auto& x : signals) {
-    for (Index i = 2; i < x.rows(); ++i, ++count) {
-      const double d = x(i, channel) - 2.0 * x(i - 1, channel) + x(i - 2, channel);
-      sum += d * d / 6.0;
+  for (std::size_t k = 0; k < signals.size(); ++k) {
+    const auto x = signals[k].col(channel);
+    for (const Segment& s : study.logs[k].motion.segments) {
+      for (Index i = s.begin + 2; i < s.end; ++i, ++count) {
+        const double d = x(i) - 2.0 * x(i - 1) + x(i - 2);
+        sum += d * d / 6.0;
+      }
     }
   }
-  return count > 0.0 ? sum / count : 0.0;
+  if (count > 0.0) return sum / count;
+  for (const auto& x : signals) {
+    sum += x.col(channel).squaredNorm();
+    count += static_cast<double>(x.rows());
+  }
+  return sum / count;
 }
 
 /// Lines replaced by the level beside them.
@@ -98,7 +107,7 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const
                      std::to_string(static_cast<int>(std::lround(from))) + " Hz";
     }
     // Without a quiet band, or where most windows hold one value that is read again and again.
-    const double differences = variance_of_differences(even, channel);
+    const double differences = variance_of_differences(study, even, channel);
     if (floor.white + floor.coloured + floor.filtered + floor.flicker <
         kLeastOfDifferences * differences) {
       floor = Floor{.white = differences, .source = "second differences of the residual"};

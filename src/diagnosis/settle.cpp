@@ -74,9 +74,12 @@ Surroundings Search::surroundings(const std::vector<Member>& members) const {
   Whitener whitener(study_, floors, levels, noise_correlation(study_, raw, levels));
   const Index blocks = whitener.rows() / study_.channel_count();
   // The ends of a short stretch, a tenth of it each, are left out.
-  const double needed = static_cast<double>(kFewestBlocks) * whitener.block_seconds() / 0.8;
+  const double fewest = static_cast<double>(kFewestBlocks), seconds = longest_seconds(study_);
+  const double needed =
+      std::max(fewest * whitener.block_seconds() / 0.8,
+               seconds * fewest / static_cast<double>(std::max<Index>(1, blocks)));
   require(blocks >= kFewestBlocks, Exit::kData, study_.logs.front().recording.name,
-          ": too short to tell noise from missing physics: ", brief(longest_seconds(study_)),
+          ": too short to tell noise from missing physics: ", brief(seconds),
           " s; record at least ", brief(needed), " s without gaps");
   std::vector<Span> masked = masked_;
   masked.insert(masked.end(), impacts_.spans.begin(), impacts_.spans.end());

@@ -95,14 +95,17 @@ std::optional<double> level_beside(const Eigen::VectorXd& power, Index k, Index 
 /// Of how many independent periodograms those of all channels are the sum. Noise that channels
 /// share makes them fewer: the squares of two Fourier coefficients of correlation r have
 /// correlation r^2, and r is that of the second differences, which hold little else than noise.
-double independent_channels(const Signals& left) {
+double independent_channels(const Case& study, const Signals& left) {
   const Index channels = left.front().cols();
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(channels, channels);
-  for (const Eigen::MatrixXd& x : left) {
-    const Index n = x.rows() - 2;
-    if (n < 1) continue;
-    const Eigen::MatrixXd d = x.topRows(n) - 2.0 * x.middleRows(1, n) + x.bottomRows(n);
-    gram += d.transpose() * d;
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    for (const Segment& s : study.logs[k].motion.segments) {
+      const Index n = s.size() - 2;
+      if (n < 1) continue;
+      const Eigen::MatrixXd x = left[k].middleRows(s.begin, s.size());
+      const Eigen::MatrixXd d = x.topRows(n) - 2.0 * x.middleRows(1, n) + x.bottomRows(n);
+      gram += d.transpose() * d;
+    }
   }
   double sum = 0.0;
   for (Index i = 0; i < channels; ++i) {
@@ -176,7 +179,8 @@ std::vector<CommonLine> common_lines(const Case& study, const Signals& left,
   const Index length = length_of(channels.front());
   const double bin_hz = 1.0 / (static_cast<double>(length) * study.dt());
   const auto around = std::max(kFewestBeside, static_cast<Index>(kBesideHz / bin_hz));
-  const double terms = independent_channels(left) * static_cast<double>(channels.front().size());
+  const double terms =
+      independent_channels(study, left) * static_cast<double>(channels.front().size());
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(length / 2 + 1);
   for (std::size_t j = 0; j < channels.size(); ++j) {
     const Eigen::VectorXd density = densities(floors[j], sum.size(), bin_hz);

@@ -81,6 +81,15 @@ std::string errors_text(const Json& report) {
          mean(heldout_noise(fit)) + of_what(report);
 }
 
+/// Sample by sample the derivative of the pose lags or is noisy.
+std::string online_text(const Json& report) {
+  const Json online = report["fit"].value("online", Json());
+  if (online.is_null()) return "";
+  return "online      RMSE " + brief(mean_of(report, online["holdout_rmse"])) +
+         " of the same sample by sample (dcnn-run), by a causal derivative over " +
+         brief(1e3 * online["derivative"]["window_s"].get<double>()) + " ms\n";
+}
+
 /// Stretches that were left out, and what reading made of the recordings.
 std::string notes_text(const Json& report) {
   std::string text;
@@ -116,7 +125,7 @@ std::string to_text(const Diagnosis& diagnosis) {
            "another "
            "law, that was not tried\n";
   }
-  out << "hold-out    " << errors_text(report);
+  out << "hold-out    " << errors_text(report) << online_text(report);
   const Json& next = report["next_motion"];
   if (!next.is_null()) {
     out << "next        " << question_in_words(next) << ": " << plain_text(next["words"]) << "\n";

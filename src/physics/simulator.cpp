@@ -40,6 +40,12 @@ Simulator parse_simulator(const Json& json, const std::string& where, Exit exit)
   simulator.effects = parse_effects(options.raw("effects"), where, exit);
   if (options.has("derivative"))
     simulator.derivative = parse_derivative(options.child("derivative"));
+  if (options.has("online_derivative")) {
+    const DerivativeSpec online = parse_derivative(options.child("online_derivative"));
+    require(online.kind == DerivativeSpec::Kind::kCausalSavitzkyGolay, exit, where,
+            ": 'online_derivative' must be causal: \"kind\": \"sg_causal\"");
+    simulator.online_derivative = online;
+  }
   options.finish();
   return simulator;
 }
@@ -52,6 +58,9 @@ Json to_json(const Simulator& simulator) {
   Json json = to_json(simulator.model);
   if (!simulator.effects.empty()) json["effects"] = to_json(simulator.effects);
   if (simulator.derivative) json["derivative"] = to_json(*simulator.derivative);
+  if (simulator.online_derivative) {
+    json["online_derivative"] = to_json(*simulator.online_derivative);
+  }
   return json;
 }
 

@@ -50,6 +50,7 @@ OnlineCompensator::OnlineCompensator(const Identifier* network, const Simulator*
     require(physics, Exit::kUsage, "neither a model nor a simulator is given");
     dt_ = 1.0 / physics->model.sample_rate_hz;
     if (physics->derivative && is_causal(*physics->derivative)) derivative = *physics->derivative;
+    if (physics->online_derivative) derivative = *physics->online_derivative;
   }
   if (physics) {
     physics_ = std::make_unique<StreamingSimulator>(*physics, derivative, dt_, where, Exit::kData);

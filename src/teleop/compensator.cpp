@@ -74,7 +74,8 @@ std::unique_ptr<Compensator> compensate_with(const Identifier& identifier,
 }
 
 std::unique_ptr<Compensator> compensate_with(const Simulator& simulator, const std::string& where) {
-  return std::make_unique<SimulatorCompensator>(simulator, causal_derivative(), where, Exit::kData);
+  return std::make_unique<SimulatorCompensator>(
+      simulator, simulator.online_derivative.value_or(causal_derivative()), where, Exit::kData);
 }
 
 }  // namespace dcnn

@@ -54,6 +54,31 @@ void round_columns(Eigen::MatrixXd& values, Eigen::Index column, double step) {
   }
 }
 
+/// The log without these columns.
+check::Report report_without(const std::vector<std::string>& names) {
+  Table table = moving_tool::log(), rest;
+  std::vector<Eigen::Index> kept;
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    if (std::find(names.begin(), names.end(), table.columns[k]) != names.end()) continue;
+    kept.push_back(static_cast<Eigen::Index>(k));
+    rest.columns.push_back(table.columns[k]);
+  }
+  rest.values = table.values(Eigen::all, kept);
+  return moving_tool::report_of(std::move(rest));
+}
+
+TEST(RowFaults, WhatIsMissingOfAWristIsSaid) {
+  expect_first(report_without({"fz"}), "missing", "fz");
+  expect_first(report_without({"fx", "fy", "fz"}), "missing", "fx");
+  expect_first(report_without({"beta"}), "missing", "beta");
+  expect_first(report_without({"alpha", "beta", "gamma"}), "missing", "alpha");
+  // A slide is no wrist.
+  Table slide;
+  slide.columns = {"t", "x", "force"};
+  slide.values = moving_tool::log().values.leftCols(3);
+  expect_none(moving_tool::report_of(std::move(slide)), "missing");
+}
+
 TEST(RowFaults, NothingIsWrongWithTheLogItself) {
   const check::Report report = moving_tool::report_of(moving_tool::log());
   EXPECT_TRUE(report.faults.empty()) << check::to_text(report);

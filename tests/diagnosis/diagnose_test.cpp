@@ -101,6 +101,30 @@ TEST(Diagnose, WorksOnSomebodyElsesSimulator) {
   EXPECT_TRUE(report["fit"]["holdout_rmse_parameters"].is_null());
 }
 
+// Sample by sample a parabola over 0.1 s lags: the model names the window with which it errs least.
+TEST(Diagnose, AModelKnowsHowItRunsSampleBySample) {
+  const Bench bench(
+      configuration(Json::array({hidden("viscous_friction", "base_y", {{"c_nspm", 2.0}})})));
+  const Diagnosis diagnosis = bench.diagnose();
+  const Json& fit = diagnosis.report["fit"];
+  Simulator model = parse_simulator(diagnosis.model, "model.json", Exit::kModel);
+  ASSERT_TRUE(model.online_derivative);
+  const auto streamed = fit["online"]["holdout_rmse"].get<std::vector<double>>(),
+             offline = fit["holdout_rmse_after"].get<std::vector<double>>();
+  const Recording hold = read_recording(bench / "hold.csv", ReadOptions(), System());
+  model.derivative = causal_derivative();
+  const Recording parabola = predict_motion(model, hold, DerivativeSpec());
+  const std::vector<std::string> axes{"fx", "fy", "fz"};
+  for (std::size_t j = 0; j < axes.size(); ++j) {
+    const Eigen::VectorXd left = hold.column(axes[j]) - parabola.column(axes[j]);
+    EXPECT_LT(streamed[j], 1.6 * offline[j]) << axes[j];
+    EXPECT_LT(streamed[j], std::sqrt(left.squaredNorm() / static_cast<double>(left.size())));
+  }
+  Json noncausal = diagnosis.model;
+  noncausal["online_derivative"]["kind"] = "spectral";
+  EXPECT_THROW(parse_simulator(noncausal, "model.json", Exit::kModel), Error);
+}
+
 // On a lattice as coarse as the noise the largest reading repeats as every other one does.
 TEST(Diagnose, CoarseReadingsAreNotHeldAtALimit) {
   const Json coarse{

@@ -20,9 +20,11 @@ struct Simulator {
   std::vector<EffectSpec> effects;
   /// How it was fitted to poses; else the caller's choice.
   std::optional<DerivativeSpec> derivative = std::nullopt;
+  /// Causal: how it errs least sample by sample; else causal_derivative().
+  std::optional<DerivativeSpec> online_derivative = std::nullopt;
 };
 
-/// sim.json with an optional list `effects` and an optional `derivative`.
+/// sim.json with an optional list `effects`, an optional `derivative` and `online_derivative`.
 Simulator parse_simulator(const Json& json, const std::string& where, Exit exit);
 Simulator read_simulator(const std::filesystem::path& path);  ///< Error(kData)
 Json to_json(const Simulator& simulator);
