@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <set>
 
 #include "core/elementary.h"
-#include "core/linear_algebra.h"
 #include "diagnosis/gear_order.h"
 #include "diagnosis/position_bins.h"
 #include "diagnosis/spectral_lines.h"

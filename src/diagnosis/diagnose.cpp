@@ -13,7 +13,6 @@
 #include "diagnosis/dead_channels.h"
 #include "diagnosis/discovered.h"
 #include "diagnosis/evidence/posterior_json.h"
-#include "diagnosis/faint.h"
 #include "diagnosis/findings.h"
 #include "diagnosis/heard.h"
 #include "diagnosis/holdout.h"
@@ -24,6 +23,7 @@
 #include "diagnosis/plain_findings.h"
 #include "diagnosis/portrait.h"
 #include "diagnosis/rest.h"
+#include "diagnosis/weak_effects.h"
 #include "diagnosis/words.h"
 
 namespace dcnn {
@@ -149,7 +149,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   for (const Json& name : leave_refuted(search, holdout)) refuted_names.push_back(name);
   look_beyond_refuted(search, holdout, refuted_names);
   for (const Json& name : take_own_numbers(search, holdout)) refuted_names.push_back(name);
-  add_faint(search, holdout);
+  add_weak_effects(search, holdout);
   const std::vector<BandTest> bands = search.bands();
   const std::vector<Member> names = search.names();
   auto laws = add_discovered(search, holdout);

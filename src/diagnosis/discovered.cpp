@@ -181,8 +181,8 @@ Laws in_place_of_names(Search& search, const HoldOut& holdout) {
 }
 
 /// -2 ln of the likelihood, and the price of all numbers.
-double unlikely(const Search& search, const Laws& laws) {
-  return search.unlikely() + search.setting().price * numbers_of(laws, {});
+double penalised_deviance(const Search& search, const Laws& laws) {
+  return search.penalised_deviance() + search.setting().price * numbers_of(laws, {});
 }
 
 /// Laws beside the names that stand; where those leave something, or are approximations, also from
@@ -195,7 +195,7 @@ Laws laws_of_the_rest(Search& search) {
   Laws best = borne_out(search.setting(), search.fit());
   search.put_beside(best.members);
   std::vector<Member> members = search.fit().members;
-  double least = unlikely(search, best);
+  double least = penalised_deviance(search, best);
   const bool alarming = search.is_alarming_now();
   if (!alarming && are_established(best)) return best;
   search.begin_anew();
@@ -207,8 +207,8 @@ Laws laws_of_the_rest(Search& search) {
       if (names == 0) name_beside(search, laws);  // names that only a law lets be seen
       // One approximation is as good as another, where neither leaves anything.
       const bool better = alarming || are_established(laws);
-      if (better && unlikely(search, laws) < least) {
-        least = unlikely(search, laws);
+      if (better && penalised_deviance(search, laws) < least) {
+        least = penalised_deviance(search, laws);
         members = search.fit().members;
         best = std::move(laws);
       }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/linear_algebra.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/search.h"
 

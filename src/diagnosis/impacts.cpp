@@ -5,7 +5,6 @@
 #include <map>
 
 #include "core/elementary.h"
-#include "core/linear_algebra.h"
 #include "data/median.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/noise_floor.h"

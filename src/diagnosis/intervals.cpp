@@ -107,11 +107,11 @@ Eigen::MatrixXd fixed_covariance(const Member& member) {
   return sd.cwiseAbs2().asDiagonal();
 }
 
-/// A resonance that nothing drives at its own frequency has many hollows of nearly the same depth,
-/// and the curvature of one tells nothing of the others: the intervals hold all that the recordings
-/// cannot tell from the best (7.81: chi-square of frequency, damping and share at 95 %).
-void widen_over_hollows(const Setting& setting, const JointFit& fit, std::size_t m,
-                        std::vector<Estimate>& numbers) {
+/// A resonance that nothing drives at its own frequency has many local minima of nearly the same
+/// depth, and the curvature of one tells nothing of the others: the intervals hold all that the
+/// recordings cannot tell from the best (7.81: chi-square of frequency, damping and share at 95 %).
+void widen_over_local_minima(const Setting& setting, const JointFit& fit, std::size_t m,
+                             std::vector<Estimate>& numbers) {
   constexpr double kWithin = 7.81 * kSelection * kSelection;
   std::vector<Member> others = fit.members;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
@@ -188,7 +188,7 @@ std::vector<std::vector<Estimate>> estimates(const Setting& setting, const Joint
     widen_held(member, names, all.back());
     const bool is_mode = member.name() == "flexible_resonance";
     if (is_mode && !setting.study.without.refinement) {
-      widen_over_hollows(setting, fit, m, all.back());
+      widen_over_local_minima(setting, fit, m, all.back());
     }
   }
   return all;

@@ -47,10 +47,10 @@ namespace {
 
 Laws worthy(const Setting& setting, std::vector<Discovered> list) {
   Laws laws{std::move(list), {}};
-  const double dearer = setting.price / kNumberPrice;
+  const double price_ratio = setting.price / kNumberPrice;
   std::erase_if(laws.found, [&](const Discovered& law) {
-    const double paid = dearer * discovery::prior::kNumber * fitted_numbers(law);
-    return law.gain < least_gain_of_law(setting) + paid || (dearer > 1.0 && !law.established);
+    const double paid = price_ratio * discovery::prior::kNumber * fitted_numbers(law);
+    return law.gain < least_gain_of_law(setting) + paid || (price_ratio > 1.0 && !law.established);
   });
   for (const Discovered& found : laws.found) {
     laws.members.push_back(member_of(setting.study, found.law, law_json(found)));

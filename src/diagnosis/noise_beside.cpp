@@ -18,7 +18,7 @@ bool Search::depends_on_motion() const { return most_of_a_term(*setting_, fit_) 
 /// Nothing is left, in no band and of no product of what moves.
 bool Search::is_independent() { return !is_alarming_now() && !depends_on_motion(); }
 
-double Search::unlikely() const {
+double Search::penalised_deviance() const {
   double numbers = 0.0;
   for (const Member& m : fit_.members) numbers += m.fixed ? 0.0 : m.parameters();
   for (const SlowPart& part : slow_) numbers += part.numbers();
@@ -49,9 +49,9 @@ bool Search::admit_colour() {
   const std::vector<Member> members = fit_.members;
   noise_ = noise_of_all(study_, raw, noise_level(study_, raw), floors_);
   if (noise_) {
-    const double with_term = unlikely() - most_of_a_term(*setting_, fit_) + kNumberPrice;
+    const double with_term = penalised_deviance() - most_of_a_term(*setting_, fit_) + kNumberPrice;
     settle(members);
-    if (unlikely() < with_term && noise_suffices()) return true;
+    if (penalised_deviance() < with_term && noise_suffices()) return true;
     noise_.reset();
     settle(members);
     is_alarming_now();
@@ -65,9 +65,9 @@ void Search::put_events_beside_noise(const std::vector<Member>& found) {
   for (const Member& event : found) {
     if (!event.interval_s) continue;
     const std::vector<Member> before = fit_.members;
-    const double alone = unlikely();
+    const double alone = penalised_deviance();
     settle(with_member(before, event));
-    if (unlikely() > alone) settle(before);
+    if (penalised_deviance() > alone) settle(before);
   }
 }
 
@@ -91,7 +91,7 @@ bool Search::admit_slow_noise() {
   const double before = passes();
   while (grow()) {
   }
-  const double plain = unlikely();
+  const double plain = penalised_deviance();
   const std::vector<Member> without_noise = fit_.members;
   const double with_term = plain - most_of_a_term(*setting_, fit_) + kNumberPrice;
   in_slow_noise_ = true;
@@ -99,7 +99,8 @@ bool Search::admit_slow_noise() {
   settle(to_begin_with());
   explore();
   put_events_beside_noise(without_noise);
-  if (unlikely() < std::min(plain, with_term) && are_constant() && !is_alarming_now()) return true;
+  if (penalised_deviance() < std::min(plain, with_term) && are_constant() && !is_alarming_now())
+    return true;
   const std::vector<Member> found = fit_.members;
   begun_ += passes() - before;  // an attempt that failed is not what the search may take
   in_slow_noise_ = false;
@@ -107,7 +108,7 @@ bool Search::admit_slow_noise() {
   study_ = study, smoothed_ = smoothed, other_filter_ = other_filter;
   tuned_ = tuned, ringing_ = ringing;
   settle(found);
-  if (unlikely() < plain) return true;
+  if (penalised_deviance() < plain) return true;
   settle(members);
   is_alarming_now();
   return false;

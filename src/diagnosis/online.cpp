@@ -3,7 +3,7 @@
 namespace dcnn {
 namespace {
 
-constexpr double kLongest = 0.12, kShorter = 0.75;  // s; each window of the one before
+constexpr double kLongestWindow = 0.12, kShorter = 0.75;  // s; each window of the one before
 
 /// Mean square of what a model leaves, each channel in units of its noise.
 double squared_error(const Case& study, const std::vector<Member>& members,
@@ -33,7 +33,8 @@ std::optional<DerivativeSpec> best_online(const Search& search) {
     DerivativeSpec spec = causal_derivative();
     spec.order = order;
     int before = 0;
-    for (spec.window_s = kLongest; spec.window(study.dt()) != before; spec.window_s *= kShorter) {
+    for (spec.window_s = kLongestWindow; spec.window(study.dt()) != before;
+         spec.window_s *= kShorter) {
       before = spec.window(study.dt());
       const double error =
           squared_error(by_derivative(study, spec), search.fit().members, search.floors());

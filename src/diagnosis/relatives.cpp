@@ -83,7 +83,7 @@ std::vector<double> Search::doubts(double little) {
 }
 
 /// Takes back the member that is least the law it is named after.
-bool Search::take_back_relatives() {
+bool Search::remove_near_laws() {
   const std::vector<double> far = doubts(kLeastDoubt);
   const auto worst = std::max_element(far.begin(), far.end());
   if (worst == far.end() || *worst <= 1.0) return false;
@@ -104,7 +104,7 @@ bool Search::take_back_relatives() {
 /// hide them: keeps those that it leaves alone, that act along another direction and are too strong
 /// to be a mere correction of it. False where there is none, and where only drifts and steps are
 /// refuted: an offset that wanders hides nothing that moves.
-bool Search::keep_bystanders() {
+bool Search::keep_unaffected() {
   constexpr double kCorrection = 0.2;  // of what the refuted ones gain
   const std::vector<double> far = doubts(kLeastDoubtBeside);
   const auto direction = [](const Member& m) { return m.axis.substr(m.axis.find(':') + 1); };

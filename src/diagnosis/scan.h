@@ -17,7 +17,7 @@ struct Trial {
   Eigen::VectorXd deviation;    ///< of each amplitude, from the noise alone
   double price = kNumberPrice;  ///< Setting::price
 
-  /// What counts: 10 per fitted number (an exact law explains far more, a coincidence less).
+  /// Less the price of each fitted number (an exact law explains far more, a coincidence less).
   double net_gain() const { return gain - price * member.parameters(); }
 };
 
@@ -68,7 +68,7 @@ class Scan {
   Trial combed(const Trial& start) const;
   Trial lagged(const Trial& start) const;
   Trial tuned(const Trial& start, Detail detail) const;
-  std::vector<Trial> hollows(const Member& mode, Detail detail, std::size_t most) const;
+  std::vector<Trial> local_minima(const Member& mode, Detail detail, std::size_t most) const;
   Trial improved(const Trial& start, Detail detail, int evaluations,
                  std::vector<Trial>* seen = nullptr) const;
 

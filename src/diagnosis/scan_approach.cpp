@@ -26,9 +26,9 @@ Trial Scan::tuned(const Trial& start, Detail detail) const {
   return best;
 }
 
-/// A mode that nothing drives at its own frequency has hollows at many: the best damping at the
-/// frequencies where a comb has its peaks, highest first.
-std::vector<Trial> Scan::hollows(const Member& mode, Detail detail, std::size_t most) const {
+/// A mode that nothing drives at its own frequency has local minima at many: the best damping at
+/// the frequencies where a comb has its peaks, highest first.
+std::vector<Trial> Scan::local_minima(const Member& mode, Detail detail, std::size_t most) const {
   std::vector<Trial> comb;
   Member member = mode;
   for (double hz = 1.5; hz <= mode.most_shapes(0); hz *= 1.15) {
@@ -53,7 +53,7 @@ std::vector<Trial> Scan::hollows(const Member& mode, Detail detail, std::size_t 
 
 std::vector<Member> Scan::as_likely(const Member& mode, double within) const {
   std::vector<Trial> seen{evaluate(mode, Detail::kCoarse)};
-  for (const Trial& start : hollows(mode, Detail::kCoarse, 12)) {
+  for (const Trial& start : local_minima(mode, Detail::kCoarse, 12)) {
     improved(start, Detail::kCoarse, 40, &seen);
   }
   double most = 0.0;
@@ -113,7 +113,7 @@ Trial Scan::approach(const Trial& seed) const {
 
 Trial Scan::best_mode(const Member& mode) const {
   Trial best;
-  for (const Trial& start : hollows(mode, Detail::kCoarse, 4)) {
+  for (const Trial& start : local_minima(mode, Detail::kCoarse, 4)) {
     const Trial trial = refine(start, Detail::kCoarse, kApproach);
     if (trial.gain > best.gain) best = trial;
   }

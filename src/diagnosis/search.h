@@ -59,7 +59,6 @@ class Search {
   const Setting& setting() const { return *setting_; }
   const std::vector<Floor>& floors() const { return floors_; }
   const Signals& left() const { return left_; }  ///< measured - predicted, at the log's rate
-  /// Something is left that no effect of the catalogue explains.
   /// Whether something acts that no name explains; a law without a name is such.
   bool remains() const { return remains_ || names().size() < fit_.members.size(); }
   const std::optional<Member>& rounding() const { return rounding_; }
@@ -100,7 +99,7 @@ class Search {
   /// Whether a band holds more than noise and the error of the laws that were found leave.
   bool is_alarming_now();
   /// -2 ln of the likelihood, and the price of all numbers of the names.
-  double unlikely() const;
+  double penalised_deviance() const;
   /// Fits laws without a name beside the names, in place of those that were there.
   void put_beside(const std::vector<Member>& laws);
   /// Looks for names beside the laws: whether there are more than before.
@@ -212,8 +211,8 @@ class Search {
   void keep_what_is_confirmed();
   double rest_loudness() const;
   std::vector<double> doubts(double little);
-  bool take_back_relatives();
-  bool keep_bystanders();
+  bool remove_near_laws();
+  bool keep_unaffected();
   /// Evidence of the members, of subsets of them, and of none, with and without an unknown: the
   /// place of the most probable among them.
   std::size_t weigh_once();

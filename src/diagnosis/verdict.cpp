@@ -161,12 +161,12 @@ void Search::judge() {
     remains_ = is_alarming_now();
   }
   if (remains_ && (admit_own_zeros() || admit_colour())) remains_ = false;
-  if (keep_bystanders()) {
+  if (keep_unaffected()) {
     remains_ = true;
     bands_ = band_tests(*setting_, fit_.residual);
     return;
   }
-  if (!remains_ && !take_back_relatives()) return;
+  if (!remains_ && !remove_near_laws()) return;
   remains_ = true;
   say("a residual remains: testing the found effects again");
   if (events_allowed_) {
@@ -190,7 +190,7 @@ void Search::judge() {
     bands_ = band_tests(*setting_, fit_.residual);
     return;
   }
-  while (take_back_relatives()) {
+  while (remove_near_laws()) {
   }
   drop_coincidences();
   if (study_.is_static()) return;

@@ -139,14 +139,14 @@ void Search::begin_anew() {
 
 void Search::leave_idle_names() {
   for (;;) {
-    std::optional<std::size_t> idlest;
+    std::optional<std::size_t> least_useful;
     double least = 0.0;
     for (std::size_t m = 0; m < fit_.members.size(); ++m) {
       if (stays(fit_.members[m]) || net_gain(m) >= least) continue;
-      least = net_gain(m), idlest = m;
+      least = net_gain(m), least_useful = m;
     }
-    if (!idlest) return;
-    hold(members_without(*idlest));
+    if (!least_useful) return;
+    hold(members_without(*least_useful));
     weigh_once();
   }
 }

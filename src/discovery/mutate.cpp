@@ -4,7 +4,6 @@
 #include <set>
 #include <tuple>
 
-#include "core/linear_algebra.h"
 #include "dcnn/core/parallel.h"
 #include "discovery/own_directions.h"
 #include "discovery/priors.h"

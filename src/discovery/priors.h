@@ -3,7 +3,7 @@
 
 namespace dcnn::discovery::prior {
 
-/// Of each fitted number: log of the rows' number and of the dictionary's, per number.
+/// Of each fitted number: ln of some thousand rows that tell it (Schwarz 1978).
 constexpr double kNumber = 7.0;
 /// Of each fitted number, as a share of the largest gain: relative error of the motion, which must
 /// not buy factors where a law is strong.

@@ -180,8 +180,8 @@ std::vector<Trial> own_gains(const Data& data, const Sketch& direction, const We
   return list;
 }
 
-/// At most two of one direction and set of coordinates.
-class Crowd {
+/// Admits two of one direction and set of coordinates.
+class PerKeyLimit {
  public:
   bool admits(const Sketch& sketch) {
     std::multiset<std::size_t> key{1000 + 2 * sketch.direction + sketch.oblique};
@@ -218,9 +218,9 @@ std::vector<Trial> lagged(const Data& data, const std::vector<Trial>& trials) {
 
 /// Adds the first `count` of a list that are not alike.
 void add_best(const std::vector<Trial>& from, std::size_t count, std::vector<Trial>& list) {
-  Crowd crowd;
+  PerKeyLimit per_key;
   for (const Trial& trial : from) {
-    if (count > 0 && crowd.admits(trial.sketch)) list.push_back(trial), --count;
+    if (count > 0 && per_key.admits(trial.sketch)) list.push_back(trial), --count;
   }
 }
 
@@ -246,11 +246,11 @@ std::vector<Trial> scan(const Data& data, std::size_t count) {
   std::vector<Trial> all;
   for (const auto& list : found) all.insert(all.end(), list.begin(), list.end());
   rank(all);
-  Crowd crowd;
+  PerKeyLimit per_key;
   std::vector<Trial> exact, best;
   for (const Trial& candidate : all) {
     if (exact.size() >= kExact) break;
-    if (crowd.admits(candidate.sketch)) exact.push_back(candidate);
+    if (per_key.admits(candidate.sketch)) exact.push_back(candidate);
   }
   weigh(data, exact);
   rank(exact);

@@ -64,7 +64,7 @@ BodyVector body_in_frame(const BodyVector& body, const Eigen::Matrix3d& R,
 /// (10, 10): parameters of a body in the flange's frame to those in the last link's.
 Eigen::MatrixXd flange_to_link(const JointChain& chain);
 
-/// Columns that span the others to one part in `tolerance` of their length, each as much by itself
+/// Columns that leave of the others less than `tolerance` of their length, each as much by itself
 /// as possible (QR with pivots on columns of unit length): the base parameters of a motion.
 std::vector<Eigen::Index> independent_columns(const Eigen::MatrixXd& columns, double tolerance);
 

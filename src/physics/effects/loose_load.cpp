@@ -7,7 +7,7 @@ namespace dcnn::effects::loose_load {
 namespace {
 
 /// A slug that slides without friction between two stops, relative to the tool. Stops are plastic
-/// (no rebound): a knock ends the motion, and the slug stays until the field turns.
+/// (no rebound): an impact ends the motion, and the slug stays until the field turns.
 class Slug {
  public:
   Slug(double half_gap, double field) : half_gap_(half_gap), s_(std::copysign(half_gap, field)) {}
@@ -35,7 +35,7 @@ class Slug {
 };
 
 /// The force of a sample is the mean of -slug·s'' from half a step before to half a step after it,
-/// so that a knock, shorter than any step, hands over its whole momentum.
+/// so that an impact, shorter than any step, hands over its whole momentum.
 void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel& model,
            Options& parameters) {
   const double slug = parameter(parameters, "slug_kg", 0.0);

@@ -10,6 +10,6 @@ namespace dcnn {
 /// is likeliest by evidence of the fitted rows and support of the held-out ones together, if it is
 /// likelier than none. (A recording in motion has rows enough: what it does not show by itself was
 /// a false name where noise grew with the speed.)
-void add_faint(Search& search, const HoldOut& holdout);
+void add_weak_effects(Search& search, const HoldOut& holdout);
 
 }  // namespace dcnn

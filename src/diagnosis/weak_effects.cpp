@@ -1,4 +1,4 @@
-#include "diagnosis/faint.h"
+#include "diagnosis/weak_effects.h"
 
 #include <algorithm>
 
@@ -32,7 +32,7 @@ std::optional<std::vector<Member>> likeliest(const Search& search, const HoldOut
 
 }  // namespace
 
-void add_faint(Search& search, const HoldOut& holdout) {
+void add_weak_effects(Search& search, const HoldOut& holdout) {
   if (!search.study().is_static() || holdout.empty()) return;
   if (search.remains() || !search.fit().members.empty()) return;
   if (const auto members = likeliest(search, holdout)) search.adopt(*members);
