@@ -69,7 +69,7 @@ TEST_F(ForwardPrograms, ALogBecomesASimulatorThatMovesLikeIt) {
   const auto diagnosed = run("diagnose", {"-q", "--system", at("system.json"), "--fit",
                                           at("fit.csv"), "--out", at("report")});
   ASSERT_EQ(diagnosed.exit_code, 0) << diagnosed.err;
-  ASSERT_TRUE(contains(diagnosed.out, "\nfound       spring that stiffens")) << diagnosed.out;
+  ASSERT_TRUE(contains(diagnosed.out, "\nfound       cubic spring, mass")) << diagnosed.out;
   const auto refined = run("forward", {"-q", "--json", at("report/model.json"), "--fit",
                                        at("fit.csv"), "--save", at("refined.json")});
   ASSERT_EQ(refined.exit_code, 0) << refined.err;
