@@ -132,7 +132,12 @@ int main(int argc, char** argv) {
     if (priority > 0) become_realtime(priority);
     if (lines) {
       const Json report = serve_lines(compensator, STDIN_FILENO, STDOUT_FILENO, serve.plot);
-      if (tool.common().json) tool.note(report.dump());
+      const std::string idle = warmup_text(report);
+      if (tool.common().json) {
+        tool.note(report.dump());
+      } else if (!idle.empty()) {
+        tool.note(idle);
+      }
       return Exit::kDone;
     }
     Json report;

@@ -179,9 +179,11 @@ int main(int argc, char** argv) {
               "recordings for validation (default: the last 15 % of each training recording)")
       .holds({FileKind::kRecording});
   tool.option("--config", flags.file, "configuration (JSON)").holds({FileKind::kTraining});
-  tool.option("--preset", flags.preset, "fills what the configuration leaves out").one_of(kPresets);
+  tool.option("--preset", flags.preset,
+              "fills what the configuration leaves out (default: standard)")
+      .one_of(kPresets);
   tool.option("--model", flags.model,
-              "which identifier:" + list +
+              "which identifier (default: dcnn):" + list +
                   "\n  auto: the best of rigid, mlp, dcnn and physics (the tool identified, then "
                   "corrected by "
                   "a diagnosis) on rows that none was fitted to");

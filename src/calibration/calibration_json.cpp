@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/lists.h"
 #include "data/limits.h"
 #include "dcnn/calibration/calibration.h"
 #include "dcnn/core/options.h"
@@ -15,15 +16,13 @@ Json rows_of(const Eigen::Matrix3d& M) {
   return rows;
 }
 
-Json list_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
-
 }  // namespace
 
 Json to_json(const Calibration& c) {
   const Eigen::Vector3d sd = c.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
   Json json = {{"rotation_es", rows_of(c.R_ES)},          {"gain", c.gain},
-               {"offset_n", list_of(c.offset)},           {"residual_rms_n", c.residual_rms},
-               {"rotation_sd_rad", list_of(sd)},          {"pairs", c.pairs},
+               {"offset_n", json_list(c.offset)},         {"residual_rms_n", c.residual_rms},
+               {"rotation_sd_rad", json_list(sd)},        {"pairs", c.pairs},
                {"covariance_rad2", rows_of(c.covariance)}};
   json["mass_kg"] = c.mass_kg ? Json(*c.mass_kg) : Json();
   json["nominal_angle_rad"] = c.nominal_angle ? Json(*c.nominal_angle) : Json();

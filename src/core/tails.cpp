@@ -88,4 +88,19 @@ double binomial_tail(double count, double trials, double probability) {
   return std::max(0.0, 1.0 - fewer);
 }
 
+double normal_tail(double z) {
+  constexpr double kFar = 2.5;  // from there on Laplace's continued fraction, before it the series
+  constexpr int kTerms = 150;   // of the fraction: error below e^-80
+  if (z < 0.0) return 1.0 - normal_tail(-z);
+  const double density = elementary::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi);
+  if (z < kFar) {  // Marsaglia 2004: z + z^3/3 + z^5/(3 5) + ...
+    double term = z, sum = z;
+    for (double k = 3.0; term > kNegligible * sum; k += 2.0) sum += term *= z * z / k;
+    return 0.5 - density * sum;
+  }
+  double fraction = z;
+  for (int k = kTerms; k > 0; --k) fraction = z + k / fraction;
+  return density / fraction;
+}
+
 }  // namespace dcnn

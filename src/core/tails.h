@@ -1,6 +1,6 @@
-// Upper tails of counts. Terms are those of Loader (2000), "Fast and accurate computation of
-// binomial probabilities": deviances instead of differences of large logarithms; relative error
-// below 1e-12 up to some hundred events, 1e-14 per event beyond.
+// Upper tails of counts and of the normal distribution. Terms of counts are those of Loader (2000),
+// "Fast and accurate computation of binomial probabilities": deviances instead of differences of
+// large logarithms; relative error below 1e-12 up to some hundred events, 1e-14 per event beyond.
 #pragma once
 
 namespace dcnn {
@@ -11,5 +11,8 @@ double poisson_tail(double count, double mean);
 
 /// Probability of `count` successes or more among `trials`, each of this probability (binomial).
 double binomial_tail(double count, double trials, double probability);
+
+/// Probability of more than `z` for a standard normal variable; relative error below 1e-13.
+double normal_tail(double z);
 
 }  // namespace dcnn

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "core/lists.h"
 #include "data/feature_blocks.h"
 #include "data/limits.h"
 #include "data/rows.h"
@@ -18,12 +19,6 @@ constexpr double kRateTolerance = 0.01;
 constexpr double kSingular = 0.05;  // |cos beta| below which Euler angles mean nothing
 
 const std::vector<std::string> kSets = {"pose", "body", "axes"};  // in enum order
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ",") + word;
-  return out;
-}
 
 Eigen::Vector3d vector_of(Options& options, const std::string& key) {
   const auto numbers = options.get<std::vector<double>>(key, {0.0, 0.0, 0.0});
@@ -45,12 +40,10 @@ Eigen::VectorXd parse_pose_deviation(Options& options) {
   return deviation;
 }
 
-Json list_of(const Eigen::Vector3d& v) { return Json::array({v[0], v[1], v[2]}); }
-
 Json to_json(const FeatureSpec& spec) {
   return {{"set", kSets[static_cast<std::size_t>(spec.set)]},
           {"derivative", to_json(spec.derivative)},
-          {"sensor_rotation_rpy", list_of(spec.sensor_rotation_rpy)}};
+          {"sensor_rotation_rpy", json_list(spec.sensor_rotation_rpy)}};
 }
 
 void check_rate(const Recording& recording, double dt) {
@@ -64,7 +57,7 @@ void add_block(FeatureLayout& layout, const Block& block, const std::vector<Reco
       training.begin(), training.end(),
       [&](const Recording& recording) { return !is_available(block, recording, layout.system); });
   if (lacks != training.end()) {
-    layout.notes.push_back("features " + joined(block.names) + " left out: " + lacks->name +
+    layout.notes.push_back("features " + joined(block.names, ",") + " left out: " + lacks->name +
                            " does not log what they need");
     return;
   }
@@ -93,7 +86,7 @@ std::vector<Block> used_blocks(const FeatureLayout& layout, const std::string& w
     names.insert(names.end(), block.names.begin(), block.names.end());
   }
   require(!names.empty() && names == layout.names, exit, where, ": the feature names ",
-          joined(layout.names), " do not belong to the set '",
+          joined(layout.names, ","), " do not belong to the set '",
           kSets[static_cast<std::size_t>(layout.spec.set)], "'");
   return used;
 }
@@ -119,7 +112,7 @@ Json to_json(const FeatureLayout& layout) {
                {"names", layout.names},
                {"units", layout.units},
                {"dt_s", layout.dt},
-               {"circular_mean", list_of(layout.circular_mean)},
+               {"circular_mean", json_list(layout.circular_mean)},
                {"notes", layout.notes}};
   const Eigen::VectorXd& d = layout.pose_deviation;
   if (d.size() > 0) json["pose_deviation"] = std::vector<double>(d.data(), d.data() + d.size());
@@ -180,7 +173,7 @@ Features make_features(const Recording& recording, const FeatureLayout& layout) 
   const auto blocks = used_blocks(layout, recording.name, Exit::kData);
   for (const Block& block : blocks) {
     require(is_available(block, recording, layout.system), Exit::kData, recording.name,
-            ": does not log what the features ", joined(block.names),
+            ": does not log what the features ", joined(block.names, ","),
             " need; add the columns the training recordings have");
   }
   Features features;

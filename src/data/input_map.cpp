@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/lists.h"
+
 namespace dcnn {
 namespace {
 
@@ -20,8 +22,6 @@ inline void write_row(double x, double mean, double inverse_scale, const Write& 
   write(3, std::abs(x));
   write(4, x * x);
 }
-
-Json list_of(const Eigen::VectorXd& v) { return std::vector<double>(v.begin(), v.end()); }
 
 Eigen::VectorXd vector_of(Options& options, const std::string& key, Index size) {
   const auto numbers = options.get<std::vector<double>>(key);
@@ -115,9 +115,9 @@ template void InputMap::write<double>(const double*, double*) const;
 Json InputMap::to_json() const {
   return {{"variance", spec_.variance},       {"zerocenter", spec_.zerocenter},
           {"sigma_floor", spec_.sigma_floor}, {"clip", spec_.clip},
-          {"mean", list_of(mean_)},           {"deviation", list_of(deviation_)},
-          {"scale", list_of(scale_)},         {"mean_square", list_of(mean_square_)},
-          {"centre", list_of(centre_)}};
+          {"mean", json_list(mean_)},         {"deviation", json_list(deviation_)},
+          {"scale", json_list(scale_)},       {"mean_square", json_list(mean_square_)},
+          {"centre", json_list(centre_)}};
 }
 
 InputMap InputMap::parse(const Json& json, const std::string& where, Exit exit) {

@@ -42,8 +42,9 @@ void refuse_near_names(const std::vector<std::string>& columns, const System& sy
     if (std::find(known.begin(), known.end(), column) != known.end()) continue;
     for (const std::string& name : known) {
       if (name.empty() || is_there(name) || !is_near(column, name)) continue;
-      fail(Exit::kData, file, ":1: column ", shown(column), ": did you mean ", name,
-           "? rename it, or read the log with dcnn-import");
+      fail(
+          Exit::kData, file, ":1: column ", shown(column), ": did you mean ", name,
+          "? read the log with dcnn-import, which turns units; or rename it, if it is in SI units");
     }
   }
 }

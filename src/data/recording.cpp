@@ -34,7 +34,7 @@ bool has_whole(const Recording& recording, const Names& columns, const std::stri
   if (!has_any(recording, columns)) return false;
   for (const std::string& name : columns) {
     require(recording.has(name), Exit::kData, file, ":1: column '", name,
-            "' is missing beside its sisters; log all of them or none");
+            "' is missing, and others of the vector are there; log all of them or none");
   }
   return true;
 }

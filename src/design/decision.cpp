@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "core/elementary.h"
+#include "core/tails.h"
 #include "dcnn/diagnosis/decision.h"
 
 namespace dcnn::design {
 namespace {
 
-double normal_below(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+double normal_below(double z) { return normal_tail(-z); }
 
 /// Normal deviates for means over quantiles, and their weights.
 struct Quantiles {

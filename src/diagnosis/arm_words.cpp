@@ -11,7 +11,7 @@ namespace dcnn {
 namespace {
 
 /// "dry and viscous friction": nouns in a row, an ending that neighbours share said once.
-std::string joined(const std::vector<std::string>& nouns) {
+std::string in_a_row(const std::vector<std::string>& nouns) {
   const std::string shared = " friction";
   std::string text;
   for (std::size_t k = 0; k < nouns.size(); ++k) {
@@ -38,7 +38,7 @@ std::string listed(const std::vector<std::size_t>& joints, const System& system)
     }
     k = last + 1;
   }
-  return joined(parts);
+  return in_a_row(parts);
 }
 
 /// The effect by which a finding is called: bristles whose stiffness is not told are dry friction.
@@ -103,7 +103,7 @@ Json arm_json(const Json& report, const System& system) {
       if (joints[other] == where)
         nouns.push_back(words_of_effect(other, system.axes[where.front()].name));
     }
-    add(joined(nouns) + " on " + listed(where, system));
+    add(in_a_row(nouns) + " on " + listed(where, system));
   }
   std::vector<std::size_t> unnamed;
   for (const Json& joint : report["joints"]) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/elementary.h"
+#include "core/tails.h"
 #include "data/median.h"
 #include "dcnn/diagnosis/decision.h"
 #include "diagnosis/evidence/priors.h"
@@ -73,9 +74,9 @@ std::vector<Span> outlying(const Setting& setting, const Signals& left,
   std::size_t foreign = 0;
   for (const HalfSecond& s : all) {
     const double energy = elementary::exp(s.size);
-    const double tail = 0.5 * std::erfc((s.size - middle) / (deviation * std::sqrt(2.0)));
+    const double tail = deviation > 0.0 ? normal_tail((s.size - middle) / deviation) : 1.0;
     whole += energy;
-    if (deviation == 0.0 || tail * static_cast<double>(all.size()) >= kByChance) continue;
+    if (tail * static_cast<double>(all.size()) >= kByChance) continue;
     const Eigen::VectorXd& t = setting.study.logs[s.log].motion.t;
     const double begin = std::max(s.begin - seconds, double(t(0))),
                  end = std::min(s.begin + 2.0 * seconds, double(t(t.size() - 1)));

@@ -88,10 +88,4 @@ std::string question_in_words(const Json& next_motion) {
   return "to tell " + words_of_structure(one) + " from " + words_of_structure(other);
 }
 
-std::string joined(const std::vector<std::string>& parts, const std::string& between) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : between) + part;
-  return text;
-}
-
 }  // namespace dcnn

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/lists.h"
 #include "dcnn/core/json.h"
 
 namespace dcnn {
@@ -23,8 +24,5 @@ bool remains_untried(const Json& report);
 std::string verdict_in_words(std::string verdict);
 /// "to tell dry friction from linear friction", of next_motion.
 std::string question_in_words(const Json& next_motion);
-
-/// With `between` between them.
-std::string joined(const std::vector<std::string>& parts, const std::string& between);
 
 }  // namespace dcnn

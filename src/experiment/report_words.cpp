@@ -234,12 +234,21 @@ std::string with_unit(double value, const std::string& unit) {
 }
 
 std::string with_interval(double value, double low, double high, const std::string& unit) {
-  const auto [factor, name] =
-      readable(std::max({std::abs(value), std::abs(low), std::abs(high)}), unit);
-  const std::string text =
-      three_digits(factor * value) + (name.empty() || name == "1" ? "" : " " + name);
-  const std::string from = three_digits(factor * low), to = three_digits(factor * high);
-  return from == to ? text : text + " (" + from + " to " + to + ")";
+  const auto scaled = readable(std::max({std::abs(value), std::abs(low), std::abs(high)}), unit);
+  const double factor = scaled.first;
+  const std::string name = scaled.second;
+  const auto told = [&](const auto& digits) {
+    const std::string from = digits(factor * low), to = digits(factor * high);
+    return from == to ? std::string()
+                      : digits(factor * value) + (name.empty() || name == "1" ? "" : " " + name) +
+                            " (" + from + " to " + to + ")";
+  };
+  // As many digits as tell its ends apart.
+  std::string text = told(three_digits);
+  for (int more = 4; text.empty() && more <= 6; ++more) {
+    text = told([&](double x) { return significant(x, more); });
+  }
+  return text.empty() ? with_unit(value, unit) : text;
 }
 
 }  // namespace dcnn

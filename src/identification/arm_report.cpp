@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/lists.h"
 #include "dcnn/core/number.h"
 #include "dcnn/identification/arm.h"
 
@@ -96,12 +97,6 @@ Json estimate_list(const std::vector<IdentifiedNumber>& estimates) {
   return all;
 }
 
-Json list_of(const BodyVector& values) {
-  Json list = Json::array();
-  for (const double v : values) list.push_back(v);
-  return list;
-}
-
 }  // namespace
 
 Json to_json(const ArmIdentification& id) {
@@ -122,8 +117,8 @@ Json to_json(const ArmIdentification& id) {
     for (const bool s : link.shown) shown.push_back(s);
     links.push_back(Json{{"axis", link.name},
                          {"order", kLinkParameters},
-                         {"value", list_of(link.body)},
-                         {"deviation", list_of(link.deviation)},
+                         {"value", json_list(link.body)},
+                         {"deviation", json_list(link.deviation)},
                          {"shown", shown}});
   }
   return {{"recordings", id.recordings},

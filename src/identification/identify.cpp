@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "dcnn/core/number.h"
 #include "dcnn/data/rotation.h"
 #include "identification/estimates.h"
 #include "identification/upright.h"
@@ -127,6 +128,25 @@ std::vector<std::string> assumed(const ToolIdentification& identification) {
   return keys;
 }
 
+/// A motion within the band B tells two independent readings of each channel per cycle of it.
+void require_enough(const std::vector<WristLog>& logs, const WristFit& fit) {
+  constexpr double kFewest = 5.0;  // readings for each number: intervals hold for many
+  double seconds = 0.0, readings = 0.0, band = 0.0;
+  for (const WristLog& log : logs) {
+    if (log.at_rest) return;  // each pose is one, of a noise that the others tell
+    const double lasting = static_cast<double>(log.kept.size()) / std::max(1e-9, log.rate_hz());
+    seconds += lasting;
+    readings += 2.0 * log.cutoff_hz * lasting;
+    band = std::max(band, log.cutoff_hz);
+  }
+  const double wanted =
+      kFewest * static_cast<double>(fit.layout.size()) / static_cast<double>(fit.layout.channels());
+  require(band == 0.0 || readings >= wanted, Exit::kData, logs.front().recording.name,
+          ": too short for ", fit.layout.size(), " numbers: ", brief(seconds),
+          " s of a motion within ", brief(band), " Hz, without its ends; record at least ",
+          brief(wanted / (2.0 * band)), " s");
+}
+
 ToolIdentification identify_tool(const IdentifyRequest& request) {
   std::vector<WristLog> logs = identification::read_wrist_logs(request.logs, request.read);
   identification::FitOptions options;
@@ -138,6 +158,7 @@ ToolIdentification identify_tool(const IdentifyRequest& request) {
     if (turn) identification::turn_base(*turn, log);
   }
   const WristFit fit = identification::fit_wrist(logs, options);
+  require_enough(logs, fit);
   Rng rng({0x6964656e74696679ULL});
   const auto draws = identification::draw_states(fit, kDraws, rng);
   require(!draws.states.empty() && fit.state.mass > 0.0, Exit::kData, logs.front().recording.name,

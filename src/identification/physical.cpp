@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/linear_algebra.h"
+#include "core/tails.h"
 
 namespace dcnn::identification {
 namespace {
@@ -63,7 +64,7 @@ VectorXd inside_of(const VectorXd& body) {
 
 /// A standard normal variable restricted to [low, high], by inversion of its distribution.
 double truncated_normal(double low, double high, Rng& rng) {
-  const auto lower = [](double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); };
+  const auto lower = [](double x) { return normal_tail(-x); };
   if (low > 0.0) return -truncated_normal(-high, -low, rng);  // tails are exact on the left
   const double a = lower(low), b = lower(high);
   if (!(b > a)) return std::abs(low) < std::abs(high) ? low : high;

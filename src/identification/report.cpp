@@ -1,17 +1,12 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/lists.h"
 #include "dcnn/core/number.h"
 #include "dcnn/identification/identify.h"
 
 namespace dcnn {
 namespace {
-
-Json numbers_of(const Eigen::VectorXd& values) {
-  Json list = Json::array();
-  for (const double v : values) list.push_back(v);
-  return list;
-}
 
 Json estimates_json(const std::vector<IdentifiedNumber>& estimates) {
   Json all = Json::object();
@@ -52,12 +47,6 @@ std::string line_of(const IdentifiedNumber& e) {
   return line;
 }
 
-std::string join(const std::vector<std::string>& words) {
-  std::string all;
-  for (const auto& word : words) all += (all.empty() ? "" : ", ") + word;
-  return all;
-}
-
 /// One line for each motion: which numbers it would show.
 std::string missing_text(const std::vector<IdentifiedNumber>& estimates) {
   std::vector<std::pair<std::string, std::vector<std::string>>> motions;
@@ -70,7 +59,7 @@ std::string missing_text(const std::vector<IdentifiedNumber>& estimates) {
   }
   std::string text;
   for (const auto& [motion, names] : motions) {
-    text += "  " + join(names) + ": " + motion + "\n";
+    text += "  " + joined(names) + ": " + motion + "\n";
   }
   return text;
 }
@@ -83,9 +72,9 @@ Json to_json(const ToolIdentification& id) {
             {"parameters", estimates_json(id.parameters)},
             {"targets", id.targets},
             {"units", id.units},
-            {"residual_rms", numbers_of(id.residual_rms)},
-            {"measured_rms", numbers_of(id.measured_rms)},
-            {"cutoff_hz", numbers_of(id.cutoff_hz)},
+            {"residual_rms", json_list(id.residual_rms)},
+            {"measured_rms", json_list(id.measured_rms)},
+            {"cutoff_hz", json_list(id.cutoff_hz)},
             {"constrained", id.constrained},
             {"possible_share", id.possible_share},
             {"notes", id.notes}};
@@ -107,7 +96,7 @@ Json to_json(const ToolIdentification& id) {
 
 std::string to_text(const ToolIdentification& id) {
   std::string text =
-      "The tool in the sensor's frame, from " + join(id.recordings) + " (95 % intervals):\n";
+      "The tool in the sensor's frame, from " + joined(id.recordings) + " (95 % intervals):\n";
   for (const IdentifiedNumber& e : id.parameters) text += line_of(e);
   char line[160];
   const auto rms = [](const auto& channels) { return channels.norm() / std::sqrt(3.0); };

@@ -148,8 +148,9 @@ class Proposer {
     const auto& columns = recipe().columns;
     if (columns.empty() || std::any_of(columns.begin(), columns.end(), is_effort)) return;
     proposal_.notes.push_back(
-        "no force is known by its name: the recording has a motion alone; say --map fx=CHANNEL "
-        "(fy and fz follow where they are called alike)");
+        "no force is known by its name (fx, fy and fz, all three): the recording has a motion "
+        "alone; "
+        "say --map fx=CHANNEL (fy and fz follow where they are called alike)");
   }
 
   /// rx, ry, rz: what they are must be said.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/lists.h"
 #include "dcnn/core/options.h"
 #include "dcnn/data/rotation.h"
 #include "dcnn/physics/chain.h"
@@ -24,19 +25,13 @@ Eigen::VectorXd parse_numbers(Options& options, const std::string& key, std::siz
   return Eigen::VectorXd::Map(list.data(), static_cast<Eigen::Index>(count));
 }
 
-Json list_of(const Eigen::VectorXd& values) {
-  Json list = Json::array();
-  for (const double v : values) list.push_back(v);
-  return list;
-}
-
 /// As in a URDF: Rz(yaw)·Ry(pitch)·Rx(roll).
 Matrix3d parse_turn(Options& options) {
   const Vector3d rpy = parse_numbers(options, "rpy_rad", 3, {0.0, 0.0, 0.0});
   return rotation_from_euler(rpy.reverse());
 }
 
-Json turn_json(const Matrix3d& R) { return list_of(euler_from_rotation(R).reverse()); }
+Json turn_json(const Matrix3d& R) { return json_list(euler_from_rotation(R).reverse()); }
 
 ChainJoint parse_joint(const Json& json, const std::string& where, Exit exit) {
   Options options(json, where, exit);
@@ -120,16 +115,17 @@ Json to_json(const JointChain& chain) {
   Json joints = Json::array();
   for (const ChainJoint& joint : chain.joints) {
     Json one{{"name", joint.name},
-             {"xyz_m", list_of(joint.p)},
+             {"xyz_m", json_list(joint.p)},
              {"rpy_rad", turn_json(joint.R)},
-             {"axis", list_of(joint.axis)},
+             {"axis", json_list(joint.axis)},
              {"moves", joint.slides ? "slides" : "turns"}};
     if (joint.body) one["body"] = body_json(*joint.body);
     joints.push_back(one);
   }
-  return {{"joints", joints},
-          {"flange", {{"xyz_m", list_of(chain.flange_p)}, {"rpy_rad", turn_json(chain.flange_R)}}},
-          {"gravity_mps2", list_of(chain.gravity)}};
+  return {
+      {"joints", joints},
+      {"flange", {{"xyz_m", json_list(chain.flange_p)}, {"rpy_rad", turn_json(chain.flange_R)}}},
+      {"gravity_mps2", json_list(chain.gravity)}};
 }
 
 BodyVector parse_body(const Json& json, const std::string& where, Exit exit) {
@@ -143,8 +139,8 @@ BodyVector parse_body(const Json& json, const std::string& where, Exit exit) {
 
 Json body_json(const BodyVector& body) {
   return {{"mass_kg", body[0]},
-          {"moment_kgm", list_of(body.segment<3>(1))},
-          {"inertia_kgm2", list_of(body.tail<6>())}};
+          {"moment_kgm", json_list(body.segment<3>(1))},
+          {"inertia_kgm2", json_list(body.tail<6>())}};
 }
 
 }  // namespace dcnn

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/lists.h"
 #include "dcnn/physics/law.h"
 #include "physics/driven.h"
 #include "physics/effect_law.h"
@@ -11,12 +12,6 @@ namespace {
 
 const std::vector<std::string> kMovingAxes{"tool_z", "base_x", "base_y", "base_z"};
 const std::vector<std::string> kSensorAxes{"sensor_x", "sensor_y", "sensor_z"};
-
-std::string join(const std::vector<std::string>& words) {
-  std::string list;
-  for (const auto& word : words) list += (list.empty() ? "" : ", ") + word;
-  return list;
-}
 
 const EffectKind& kind_of(const EffectSpec& spec) {
   const EffectKind* kind = find_effect(spec.effect);
@@ -33,7 +28,7 @@ std::string read_axis(Options& entry, const EffectKind& kind) {
   const auto admitted = admitted_axes(kind.axis);
   const std::string axis = given.is_string() ? given.get<std::string>() : "";
   if (std::find(admitted.begin(), admitted.end(), axis) == admitted.end()) {
-    entry.reject("axis", "of ", kind.name, " must be one of ", join(admitted), ", not ",
+    entry.reject("axis", "of ", kind.name, " must be one of ", joined(admitted), ", not ",
                  given.dump());
   }
   return axis;
@@ -91,8 +86,9 @@ EffectSpec parse_effect(Options entry) {
     std::vector<std::string> names;
     for (const auto* known : effect_kinds()) names.push_back(known->name);
     const auto near = nearest_word(spec.effect, names);
-    entry.reject("effect", "'", spec.effect, "' is unknown",
-                 near.empty() ? "; vocabulary: " + join(names) : "; did you mean '" + near + "'?");
+    entry.reject(
+        "effect", "'", spec.effect, "' is unknown",
+        near.empty() ? "; vocabulary: " + joined(names) : "; did you mean '" + near + "'?");
   }
   spec.axis = read_axis(entry, *kind);
   spec.interval_s = read_interval(entry, *kind);

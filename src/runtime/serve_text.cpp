@@ -30,6 +30,18 @@ std::string times_text(const Json& times) {
   return text;
 }
 
+std::string warmup_text(const Json& report) {
+  std::uint64_t warming = 0, others = 0;
+  for (const auto& [state, count] : report["states"].items()) {
+    (state == "WARMUP" ? warming : others) += count.get<std::uint64_t>();
+  }
+  if (warming == 0 || others > 0) return "";
+  return "nothing was compensated: all " + std::to_string(warming) + " cycles in WARMUP (" +
+         counts_text(report["reasons"]) +
+         "); envelope: poses beyond those of the training, or not in m, rad and N; model: fewer "
+         "rows than the derivative's window";
+}
+
 std::string cycles_text(const Json& report) {
   std::string text = "cycles      " + counts_text(report["states"]) + "\n";
   if (!report["reasons"].empty()) text += "reasons     " + counts_text(report["reasons"]) + "\n";

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace dcnn {
 namespace {
@@ -57,6 +58,16 @@ TEST(Tails, OfTheBinomialAreTheSumOfItsTerms) {
   }
   EXPECT_NEAR(binomial_tail(20.0, 20.0, 0.25) / std::pow(0.25, 20), 1.0, 1e-12);
   EXPECT_EQ(binomial_tail(13.0, 12.0, 0.4), 0.0);
+}
+
+TEST(Tails, OfTheNormalDistribution) {
+  for (double z = -6.0; z < 37.0; z += 0.0625) {
+    const double exact = 0.5 * std::erfc(z / std::sqrt(2.0));
+    EXPECT_NEAR(normal_tail(z) / exact, 1.0, 1e-13 * (1.0 + z * z)) << z;
+  }
+  EXPECT_EQ(normal_tail(0.0), 0.5);
+  EXPECT_EQ(normal_tail(std::numeric_limits<double>::infinity()), 0.0);
+  EXPECT_EQ(normal_tail(-std::numeric_limits<double>::infinity()), 1.0);
 }
 
 }  // namespace

@@ -73,9 +73,9 @@ TEST(Recording, NamesAColumnThatIsKnownUnderAnotherSpelling) {
   const std::string rows = text.substr(header.size());
   const auto refused = [&](const std::string& columns, const std::string& found,
                            const std::string& meant) {
-    expect_error(
-        columns + "\n" + rows,
-        {":1: column '" + found + "': did you mean " + meant + "? rename it", "dcnn-import"});
+    expect_error(columns + "\n" + rows, {":1: column '" + found + "': did you mean " + meant +
+                                             "? read the log with dcnn-import",
+                                         "rename it, if it is in SI units"});
   };
   refused("time,x,y,z,alpha,beta,gamma,fx,fy,fz", "time", "t");
   refused("Timestamp [s],x,y,z,alpha,beta,gamma,fx,fy,fz", "Timestamp [s]", "t");

@@ -176,7 +176,8 @@ TEST(ReportWords, SayUnitsAndNamesPeopleUse) {
   EXPECT_EQ(with_unit(2.5, "N*s^2/m^2"), "2.5 N·s²/m²");
   EXPECT_EQ(with_unit(3830.0, "N/m^3"), "3830 N/m³");
   EXPECT_EQ(with_interval(0.402, 0.398, 0.406, "N"), "0.402 N (0.398 to 0.406)");
-  EXPECT_EQ(with_interval(0.5, 0.49999, 0.50001, "m"), "500 mm");
+  EXPECT_EQ(with_interval(0.5, 0.49999, 0.50001, "m"), "500 mm (499.99 to 500.01)");
+  EXPECT_EQ(with_interval(1.0, 1.0, 1.0, ""), "1");
   EXPECT_EQ(with_unit(0.0012, unit_in_words("gain", "gain_x", "")), "0.12 %");
   EXPECT_EQ(words_of_axis("tool_z"), "along the tool");
   EXPECT_EQ(words_of_axis("gamma:sensor_y"), "along the sensor's y axis, by the angle gamma");

@@ -232,6 +232,23 @@ TEST(Identify, TheReactionIsOneLineWithItsRemedy) {
   }
 }
 
+// In a fifth of a second a motion tells fewer readings than the tool has numbers, whose intervals
+// would say nothing.
+TEST(Identify, AMotionTooShortForSoManyNumbersIsOneLineWithItsRemedy) {
+  Setting setting;
+  setting.samples = 120;
+  try {
+    identified(setting);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.exit(), Exit::kData);
+    EXPECT_TRUE(contains(error.what(), "too short")) << error.what();
+    EXPECT_TRUE(contains(error.what(), "record at least")) << error.what();
+  }
+  setting.samples = 1500;
+  EXPECT_GT(identified(setting).model.mass, 0.0);
+}
+
 // Every second such force is a little nearer to left-handed axes, by chance.
 TEST(Identify, AForceThatHoldsNoWeightIsNeitherMirroredNorATool) {
   Setting setting;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "dcnn/runtime/serve.h"
 #include "runtime/support.h"
 
 namespace dcnn {
@@ -189,6 +190,17 @@ TEST(Checks, TheSelfTestLeavesNoTrace) {
   const auto checked = checked_predictor(recursive, "m");
   const Eigen::VectorXd x = recursive.model->map().mean() + recursive.model->map().deviation();
   EXPECT_EQ(checked->push(x), fresh->push(x));
+}
+
+/// Degrees in the place of radians leave the envelope at once: zeros that nobody explains.
+TEST(Checks, ALoopThatNeverWarmedUpSaysWhy) {
+  const Json idle{{"states", {{"WARMUP", 7999}, {"NETWORK", 0}}},
+                  {"reasons", {{"envelope", 7999}}}};
+  EXPECT_NE(warmup_text(idle).find("7999 cycles in WARMUP (7999 envelope)"), std::string::npos)
+      << warmup_text(idle);
+  const Json done{{"states", {{"WARMUP", 51}, {"NETWORK", 3}}}, {"reasons", {{"envelope", 51}}}};
+  EXPECT_EQ(warmup_text(done), "");
+  EXPECT_EQ(warmup_text({{"states", {{"WARMUP", 0}}}, {"reasons", Json::object()}}), "");
 }
 
 }  // namespace

@@ -52,6 +52,8 @@ Json rehearse(OnlineCompensator& compensator, const Recording& recording, std::u
 
 /// What serve_udp(), serve_lines() or rehearse() report, in words.
 std::string cycles_text(const Json& report);
+/// Of a loop that never got beyond its warm-up, why, and what to look at; else "".
+std::string warmup_text(const Json& report);
 /// "34000 NETWORK, 51 WARMUP", without what never was; "none" where all is zero.
 std::string counts_text(const Json& counts);
 /// "p50 15 µs, p99 23 µs, p99.9 31 µs, most 110 µs", of CycleTimes.

@@ -2,6 +2,7 @@
 
 #include "check/priors.h"
 #include "check/rows.h"
+#include "core/tails.h"
 
 namespace dcnn::check {
 namespace {
@@ -12,7 +13,7 @@ constexpr double kLeastTurn = 0.05;  // rad; gravity then changes by 5 % of the 
 /// error of the fit's deviation.
 double mass_is_untold(const Adopted& a) {
   if (a.fit.mass <= 0.0) return 1.0;
-  return std::erfc(kMassTold * a.fit.mass / (std::sqrt(2.0) * fit_deviations(a)[0]));
+  return 2.0 * normal_tail(kMassTold * a.fit.mass / fit_deviations(a)[0]);
 }
 
 std::vector<Fault> find_no_motion(const Evidence& e) {
