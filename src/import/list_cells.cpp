@@ -1,15 +1,24 @@
 #include "import/list_cells.h"
 
 #include <algorithm>
+#include <array>
 
 #include "import/text_cells.h"
 
 namespace dcnn {
 namespace {
 
-/// Characters between the brackets of a list of numbers, of nested ones too.
+constexpr std::string_view kOfList = "0123456789+-.eE, \tnaNif[]\n";  // nested ones too
+
+constexpr std::array<bool, 256> characters_of_lists() {
+  std::array<bool, 256> table{};
+  for (const char c : kOfList) table[static_cast<unsigned char>(c)] = true;
+  return table;
+}
+
 bool is_of_list(char c) {
-  return std::string_view("0123456789+-.eE, \tnaNif[]\n").find(c) != std::string_view::npos;
+  static constexpr std::array<bool, 256> kTable = characters_of_lists();
+  return kTable[static_cast<unsigned char>(c)];
 }
 
 bool begins_cell(std::string_view line, std::size_t at) {
@@ -17,17 +26,18 @@ bool begins_cell(std::string_view line, std::size_t at) {
   return at == 0 || std::string_view(",;\t").find(line[at - 1]) != std::string_view::npos;
 }
 
-/// Where the list that begins at `begin` ends, behind its bracket; the line's size where it goes on
-/// in the next; `begin` where it is none.
+/// Where the list that begins at `begin` ends, behind its bracket; beyond the line's size where it
+/// goes on in the next; `begin` where it is none, or longer than any that is read.
 std::size_t list_end(std::string_view line, std::size_t begin) {
   if (begin >= line.size() || line[begin] != '[' || !begins_cell(line, begin)) return begin;
+  const std::size_t last = std::min(line.size(), begin + ListCells::kLongest);
   int depth = 0;
-  for (std::size_t k = begin; k < line.size(); ++k) {
+  for (std::size_t k = begin; k < last; ++k) {
     if (!is_of_list(line[k])) return begin;
     depth += line[k] == '[' ? 1 : line[k] == ']' ? -1 : 0;
     if (depth == 0) return k + 1;
   }
-  return line.size() + 1;
+  return last == line.size() ? last + 1 : begin;
 }
 
 std::vector<std::string> elements(std::string_view list) {
@@ -73,13 +83,13 @@ std::vector<Cell> cells_of(std::string_view line, char separator) {
 
 }  // namespace
 
-bool ListCells::is_open(std::string_view line) {
-  for (std::size_t k = 0; k < line.size(); ++k) {
+std::size_t ListCells::open_from(std::string_view line, std::size_t from) {
+  for (std::size_t k = from; k < line.size(); ++k) {
     const std::size_t end = list_end(line, k);
-    if (end > line.size()) return true;
+    if (end > line.size()) return k;
     if (end > k) k = end - 1;
   }
-  return false;
+  return std::string_view::npos;
 }
 
 ListCells::ListCells(const std::vector<std::string>& lines) {

@@ -11,8 +11,10 @@ namespace dcnn {
 
 class ListCells {
  public:
-  /// Whether a list that begins in this line does not end in it: it goes on in the next one.
-  static bool is_open(std::string_view line);
+  static constexpr std::size_t kLongest = std::size_t{1} << 14;  ///< bytes of one list
+  /// Where the first list at `from` or behind it begins that does not end in this line, but goes on
+  /// in the next one; npos without one.
+  static std::size_t open_from(std::string_view line, std::size_t from = 0);
 
   /// From the first lines of a text; without a list in them it does nothing.
   explicit ListCells(const std::vector<std::string>& lines);

@@ -36,14 +36,20 @@ class ListLines {
   bool next(std::string_view* line) {
     if (!take(line)) return false;
     number_ = reader_.number();
-    if (line->find('[') == std::string_view::npos || !ListCells::is_open(*line)) return true;
+    if (line->find('[') == std::string_view::npos) return true;
+    std::size_t open = ListCells::open_from(*line);
+    if (open == std::string_view::npos) return true;
     joined_ = *line;
-    while (ListCells::is_open(joined_)) {
+    while (open != std::string_view::npos) {
       std::string_view more;
-      require(joined_.size() < kLongestList && take(&more), Exit::kData, reader_.place(number_),
+      require(joined_.size() < kLongestRow && take(&more), Exit::kData, reader_.place(number_),
               ": a list that begins here has no end");
       joined_ += '\n';
       joined_ += more;
+      // Without a bracket it goes on; what is before it has been read.
+      const bool is_short = joined_.size() - open < ListCells::kLongest;
+      if (is_short && more.find(']') == std::string_view::npos) continue;
+      open = ListCells::open_from(joined_, open);
     }
     *line = joined_;
     return true;
@@ -52,7 +58,7 @@ class ListLines {
   Index number() const { return number_; }
 
  private:
-  static constexpr std::size_t kLongestList = std::size_t{1} << 20;  // bytes
+  static constexpr std::size_t kLongestRow = std::size_t{1} << 20;  // bytes
 
   bool take(std::string_view* line) {
     if (!reader_.next(line)) return false;
@@ -153,9 +159,8 @@ void read_text_log(const std::filesystem::path& path, const std::string& name,
   if (lists.found()) {
     for (std::string& early : sample) early = lists.spread(early);
   }
-  TextLayout layout =
-      find_layout(sample, builder.options().text, reader.name(),
-                  [&](std::size_t count) { return builder.next_columns(count); });
+  TextLayout layout = find_layout(sample, builder.options().text, reader.name(),
+                                  [&](std::size_t count) { return builder.next_columns(count); });
   layout.first_row = numbers[static_cast<std::size_t>(layout.first_row - 1)];
   ForeignLog& log = builder.log();
   log.format = layout.words();

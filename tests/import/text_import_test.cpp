@@ -155,6 +155,16 @@ TEST(TextImport, FaultsOfListsNameTheLineOnWhichTheRowBegins) {
             std::string::npos);
 }
 
+// Each line that is added is looked at once, and no list is longer than 16 KiB: no file takes long.
+TEST(TextImport, ListsWithoutAnEndAreRefusedAtOnce) {
+  std::string open = "t,force\n0,\"[1 2 3]\"\n0.01,\"[";
+  for (int k = 0; k < 100000; ++k) open += "1\n";
+  data_error([&] { import_text(open); });
+  std::string nested = "t,force\n0,\"[1 2 3]\"\n0.01,x";
+  for (int k = 0; k < 50000; ++k) nested += ",[1";
+  data_error([&] { import_text(nested + ",x\n0.02,\"[1 2 3]\"\n"); });
+}
+
 TEST(TextImport, ARobotsShortNamesArePoseAndWrench) {
   std::string text =
       "time,tcp_0,tcp_1,tcp_2,tcp_3,tcp_4,tcp_5,tcpf_0,tcpf_1,tcpf_2,tcpf_3,tcpf_4,"
