@@ -72,9 +72,9 @@ class HoldOut {
                                              const Signals& with, const Signals& without,
                                              const std::vector<Floor>& floors,
                                              const std::vector<double>& noisier) const;
-  /// What errors of a known base explain of what a prediction leaves of the rows held out, (T, 1)
-  /// each; none of another case.
-  Signals of_base_errors(const Signals& prediction) const;
+  /// What errors of a known base explain of what each of two predictions leaves of the rows held
+  /// out, (T, 1) each; none of another case.
+  std::pair<Signals, Signals> of_base_errors(const Signals& a, const Signals& b) const;
   /// RMS of what the model leaves of the rows that it was fitted to.
   double left_where_fitted(const Search& search, Eigen::Index channel) const;
   /// Of recordings of their own.

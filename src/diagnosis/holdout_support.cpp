@@ -15,26 +15,31 @@ constexpr double kErrorRidge = 1e-9;  // of a column's information
 
 }  // namespace
 
-Signals HoldOut::of_base_errors(const Signals& prediction) const {
+std::pair<Signals, Signals> HoldOut::of_base_errors(const Signals& a, const Signals& b) const {
   const std::vector<Signals> errors = base_errors(study_);
   if (errors.empty()) return {};
   const auto count = static_cast<Index>(errors.size());
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(count, count);
-  Eigen::VectorXd match = Eigen::VectorXd::Zero(count);
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(count, count),
+                  match = Eigen::MatrixXd::Zero(count, 2);
   std::vector<Eigen::MatrixXd> columns;
-  for (std::size_t k = 0; k < prediction.size(); ++k) {
-    columns.emplace_back(prediction[k].rows(), count);
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    columns.emplace_back(a[k].rows(), count);
     for (Index c = 0; c < count; ++c) columns[k].col(c) = errors[static_cast<std::size_t>(c)][k];
-    for (Index i = 0; i < prediction[k].rows(); ++i) {
+    for (Index i = 0; i < a[k].rows(); ++i) {
       if (!held_[k][static_cast<std::size_t>(i)]) continue;
       const auto row = columns[k].row(i);
+      const double measured = study_.logs[k].measured(i, 0);
       gram += row.transpose() * row;
-      match += row.transpose() * (study_.logs[k].measured(i, 0) - prediction[k](i, 0));
+      match.col(0) += row.transpose() * (measured - a[k](i, 0));
+      match.col(1) += row.transpose() * (measured - b[k](i, 0));
     }
   }
-  const Eigen::VectorXd sizes = solve_gram(gram, match, kErrorRidge);
-  Signals signals;
-  for (const Eigen::MatrixXd& each : columns) signals.emplace_back(each * sizes);
+  const Eigen::MatrixXd sizes = solve_gram(gram, match, kErrorRidge);
+  std::pair<Signals, Signals> signals;
+  for (const Eigen::MatrixXd& each : columns) {
+    signals.first.emplace_back(each * sizes.col(0));
+    signals.second.emplace_back(each * sizes.col(1));
+  }
   return signals;
 }
 
@@ -63,7 +68,7 @@ std::vector<evidence::BlockChange> HoldOut::changes(const std::vector<Index>& ch
   std::vector<double> deviation;
   for (const Floor& floor : floors) deviation.push_back(floor.whole_deviation());
   // An error of the base is no reason for either.
-  const Signals with_base = of_base_errors(a), without_base = of_base_errors(b);
+  const auto [with_base, without_base] = of_base_errors(a, b);
   std::map<std::pair<std::size_t, std::int64_t>, evidence::BlockChange> blocks;
   for (std::size_t k = 0; k < a.size(); ++k) {
     const Log& log = study_.logs[k];

@@ -17,9 +17,8 @@ struct Setting {
   Whitener coarse_whitener;  ///< with the same rows
   Signals measured;
   /// Whitened columns that are always fitted beside the members: of the case's regressors, of the
-  /// own offsets of recordings (flat_columns() in all), then base_errors()
-  /// (base_errors.h), then of other filters
-  /// of the pose.
+  /// own offsets of recordings (flat_columns() in all), then of the errors of a known base
+  /// (base_errors.h), then of other filters of the pose.
   Eigen::MatrixXd nuisance;
   Eigen::VectorXd mask;         ///< 0 for rows that an impact disturbs, else 1
   double price = kNumberPrice;  ///< of chi-square, per fitted number, that an effect must gain
