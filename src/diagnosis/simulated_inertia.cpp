@@ -6,7 +6,7 @@ namespace dcnn {
 namespace {
 
 constexpr Index kQuiet = 6;             // columns: a constant in the base and one in the sensor
-constexpr double kColumnRidge = 1e-12;        // of a column's information
+constexpr double kColumnRidge = 1e-12;  // of a column's information
 constexpr double kNothingLeft = 1e-12;  // of the square of all: rounding
 
 using Columns = Eigen::Matrix<double, 3, kQuiet + 1>;
@@ -14,7 +14,8 @@ using Columns = Eigen::Matrix<double, 3, kQuiet + 1>;
 /// Square of what the first `count` columns leave.
 double left_by(const Eigen::MatrixXd& gram, const Eigen::VectorXd& match, double square,
                Index count) {
-  const Eigen::VectorXd x = solve_gram(gram.topLeftCorner(count, count), match.head(count), kColumnRidge);
+  const Eigen::VectorXd x =
+      solve_gram(gram.topLeftCorner(count, count), match.head(count), kColumnRidge);
   return square - x.dot(match.head(count));
 }
 

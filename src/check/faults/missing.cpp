@@ -1,15 +1,10 @@
 #include "check/kind.h"
+#include "core/lists.h"
 
 namespace dcnn::check {
 namespace {
 
 using Names = std::vector<std::string>;
-
-std::string listed(const Names& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 
 /// Those of a vector that are not there, where most are: x alone may be a slide.
 Names lacking(const Log& log, const Names& vector) {
@@ -32,7 +27,7 @@ std::vector<Fault> find_missing(const Evidence& e) {
         Names{"alpha", "beta", "gamma"}, Names{"qw", "qx", "qy", "qz"}}) {
     const Names list = lacking(log, vector);
     if (!list.empty()) {
-      add(list.front(), "of " + listed(vector) + " the log has no " + listed(list));
+      add(list.front(), "of " + joined(vector) + " the log has no " + joined(list));
     }
   }
   const bool felt = log.has_all({"fx", "fy", "fz"});
