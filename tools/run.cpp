@@ -98,6 +98,8 @@ int main(int argc, char** argv) {
                              .holds({FileKind::kRecording});
   std::optional<std::filesystem::path> recipe;
   add_recipe_option(tool, recipe).needs(rehearse_option);
+  UnitFlags units(tool);  // packets are in SI units
+  units.exclude(listen);
   tool.option("--hours", hours, "simulated hours of the rehearsal")
       .positive(10000)
       .needs(rehearse_option)
@@ -130,8 +132,9 @@ int main(int argc, char** argv) {
     std::optional<PlotStream> stream;  // before real time: its thread keeps the usual priority
     if (!plot.empty()) serve.plot = &stream.emplace(plot, compensator.has_torque());
     if (priority > 0) become_realtime(priority);
+    const ReadOptions read = units.options();
     if (lines) {
-      const Json report = serve_lines(compensator, STDIN_FILENO, STDOUT_FILENO, serve.plot);
+      const Json report = serve_lines(compensator, STDIN_FILENO, STDOUT_FILENO, read, serve.plot);
       const std::string idle = warmup_text(report);
       if (tool.common().json) {
         tool.note(report.dump());
@@ -153,7 +156,7 @@ int main(int argc, char** argv) {
       report = serve_udp(compensator, serve);
     } else {
       report =
-          rehearse(compensator, read_recording(rehearsal, {}, System()),
+          rehearse(compensator, read_recording(rehearsal, read, System()),
                    static_cast<std::uint64_t>(std::llround(hours * 3600.0 / compensator.dt())));
     }
     if (tool.common().json) {

@@ -120,7 +120,7 @@ class LineWriter {
 /// The header: which column is what.
 class Columns {
  public:
-  explicit Columns(std::string_view header, bool torque) {
+  Columns(std::string_view header, bool torque, const ReadOptions& read) : read_(read) {
     slots_.fill(-1);
     std::array<bool, kSlots> found{};
     std::string_view rest = trimmed(header);
@@ -166,13 +166,13 @@ class Columns {
     if (column + 1 != count_) values.fill(kNan);
     OnlineSample sample;
     sample.t = values[kTime];
-    sample.position = Eigen::Map<const Eigen::Vector3d>(&values[kPosition]);
+    sample.position = read_.position_unit * Eigen::Map<const Eigen::Vector3d>(&values[kPosition]);
     if (quaternion_) {
       sample.quaternion = Eigen::Map<const Eigen::Vector4d>(&values[kQuaternion]);
     } else {
-      sample.euler = Eigen::Map<const Eigen::Vector3d>(&values[kEuler]);
+      sample.euler = read_.angle_unit * Eigen::Map<const Eigen::Vector3d>(&values[kEuler]);
     }
-    sample.wrench = Eigen::Map<const Vector6d>(&values[kWrench]);
+    sample.wrench = read_.force_sign * Eigen::Map<const Vector6d>(&values[kWrench]);
     sample.rearm = values[kRearm] > 0.5;
     return sample;
   }
@@ -187,6 +187,7 @@ class Columns {
   std::array<int, kMostColumns> slots_;
   std::size_t count_ = 0;
   bool quaternion_ = false;
+  const ReadOptions& read_;
 };
 
 void write_row(const OnlineResult& result, int targets, LineWriter& out) {
@@ -204,7 +205,8 @@ void write_row(const OnlineResult& result, int targets, LineWriter& out) {
 
 }  // namespace
 
-Json serve_lines(OnlineCompensator& compensator, int in, int out, PlotStream* plot) {
+Json serve_lines(OnlineCompensator& compensator, int in, int out, const ReadOptions& read,
+                 PlotStream* plot) {
   LineReader lines(in);
   LineWriter answers(out);
   const auto header = lines.next();
@@ -215,7 +217,7 @@ Json serve_lines(OnlineCompensator& compensator, int in, int out, PlotStream* pl
   if (!header) require_end();
   require(header.has_value(), Exit::kData, "standard input: is empty; give a header and rows");
   const bool torque = compensator.has_torque();
-  const Columns columns(*header, torque);
+  const Columns columns(*header, torque, read);
   answers.put(torque ? "t,fx_ext,fy_ext,fz_ext,tx_ext,ty_ext,tz_ext,state,reason,contact\n"
                      : "t,fx_ext,fy_ext,fz_ext,state,reason,contact\n");
   Tally tally;

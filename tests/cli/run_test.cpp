@@ -3,7 +3,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 #include "cli/run_bench.h"
@@ -45,6 +47,37 @@ TEST(RunTool, LinesInLinesOut) {
   EXPECT_NEAR(t, 2999 * 0.002, 1e-9);
   for (const double force : f) EXPECT_LT(std::abs(force), 0.3) << lines[3000];
   EXPECT_TRUE(lines[3000].ends_with(",NETWORK,none,0")) << lines[3000];
+}
+
+/// The same log in millimetres and degrees, of the reaction, is answered alike.
+TEST(RunTool, LinesMayBeInOtherUnits) {
+  Table table = read_csv(bench().log);
+  for (std::size_t j = 0; j < table.columns.size(); ++j) {
+    const std::string& name = table.columns[j];
+    auto column = table.values.col(static_cast<Index>(j));
+    if (name == "x" || name == "y" || name == "z") column *= 1e3;
+    if (name == "alpha" || name == "beta" || name == "gamma") column *= 180.0 / std::numbers::pi;
+    if (name == "fx" || name == "fy" || name == "fz") column *= -1.0;
+  }
+  const auto input = (bench().folder / "units.csv").string();
+  write_csv(input, table);
+  const std::vector<std::string> plain{"--model", bench().simulator, "--stdin"};
+  auto other = plain;
+  for (const char* word : {"--position-unit", "mm", "--angle-unit", "deg", "--force-sign", "-1"}) {
+    other.emplace_back(word);
+  }
+  const auto wanted = lines_of(run("run", plain, {.input = bench().log}).out);
+  const auto told = lines_of(run("run", other, {.input = input}).out);
+  ASSERT_EQ(told.size(), wanted.size());
+  for (std::size_t k = 1000; k < wanted.size(); k += 1000) {
+    double a[4], b[4];
+    for (const auto& [line, numbers] : {std::pair{wanted[k], a}, std::pair{told[k], b}}) {
+      ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf", numbers, numbers + 1, numbers + 2,
+                            numbers + 3),
+                4);
+    }
+    for (int i = 0; i < 4; ++i) EXPECT_NEAR(a[i], b[i], 1e-9) << wanted[k] << " " << told[k];
+  }
 }
 
 TEST(RunTool, ALineThatIsNoSampleIsABadCycleAndNotTheEnd) {

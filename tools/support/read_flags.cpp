@@ -7,20 +7,51 @@
 
 namespace dcnn {
 
-ReadFlags::ReadFlags(Tool& tool) {
-  constexpr const char* kReading = "Reading recordings";
-  tool.option("--position-unit", position_unit_, "unit of positions in the recordings")
-      .one_of({"m", "mm"})
-      .with_default()
-      .group(kReading);
-  tool.option("--angle-unit", angle_unit_, "unit of angles in the recordings")
-      .one_of({"rad", "deg"})
-      .with_default()
-      .group(kReading);
-  tool.option("--force-sign", force_sign_, "-1 where the log holds the reaction")
-      .one_of({1.0, -1.0})
-      .with_default()
-      .group(kReading);
+namespace {
+
+constexpr const char* kReading = "Reading recordings";
+
+void add(std::vector<std::string>& words, const char* option, const std::string& value) {
+  words.insert(words.end(), {option, value});
+}
+
+}  // namespace
+
+UnitFlags::UnitFlags(Tool& tool)
+    : options_{tool.option("--position-unit", position_unit_, "unit of positions in the recordings")
+                   .one_of({"m", "mm"})
+                   .with_default()
+                   .group(kReading),
+               tool.option("--angle-unit", angle_unit_, "unit of angles in the recordings")
+                   .one_of({"rad", "deg"})
+                   .with_default()
+                   .group(kReading),
+               tool.option("--force-sign", force_sign_, "-1 where the log holds the reaction")
+                   .one_of({1.0, -1.0})
+                   .with_default()
+                   .group(kReading)} {}
+
+void UnitFlags::exclude(const Option& other) {
+  for (const Option& option : options_) option.excludes(other);
+}
+
+ReadOptions UnitFlags::options() const {
+  ReadOptions options;
+  if (position_unit_ == "mm") options.position_unit = 1e-3;
+  if (angle_unit_ == "deg") options.angle_unit = std::numbers::pi / 180.0;
+  options.force_sign = force_sign_;
+  return options;
+}
+
+std::vector<std::string> UnitFlags::words() const {
+  std::vector<std::string> words;
+  if (position_unit_ != "m") add(words, "--position-unit", position_unit_);
+  if (angle_unit_ != "rad") add(words, "--angle-unit", angle_unit_);
+  if (force_sign_ < 0.0) add(words, "--force-sign", "-1");
+  return words;
+}
+
+ReadFlags::ReadFlags(Tool& tool) : units_(tool) {
   tool.option("--payload", payload_,
               "KG [X Y Z]: mass and centre [m] of a body whose weight the robot's controller has "
               "subtracted from the force; it is added back")
@@ -61,11 +92,8 @@ Payload payload_of(const std::vector<double>& numbers) {
 }
 
 ReadOptions ReadFlags::options() const {
-  ReadOptions options;
   if (recipe_) read_by_recipe(*recipe_);
-  if (position_unit_ == "mm") options.position_unit = 1e-3;
-  if (angle_unit_ == "deg") options.angle_unit = std::numbers::pi / 180.0;
-  options.force_sign = force_sign_;
+  ReadOptions options = units_.options();
   options.payload = payload_of(payload_);
   options.resample = resample_->given();
   options.resample_hz = resample_hz_;
@@ -73,18 +101,12 @@ ReadOptions ReadFlags::options() const {
 }
 
 std::vector<std::string> ReadFlags::words() const {
-  std::vector<std::string> words;
-  const auto add = [&](const char* option, const std::string& value) {
-    words.insert(words.end(), {option, value});
-  };
-  if (position_unit_ != "m") add("--position-unit", position_unit_);
-  if (angle_unit_ != "rad") add("--angle-unit", angle_unit_);
-  if (force_sign_ < 0.0) add("--force-sign", "-1");
+  std::vector<std::string> words = units_.words();
   for (std::size_t k = 0; k < payload_.size(); ++k) {
     if (k == 0) words.emplace_back("--payload");
     words.push_back(Json(payload_[k]).dump());
   }
-  if (resample_->given()) add("--resample", Json(resample_hz_).dump());
+  if (resample_->given()) add(words, "--resample", Json(resample_hz_).dump());
   return words;
 }
 

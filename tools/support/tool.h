@@ -97,7 +97,23 @@ class SeedFlag {
 /// KG, or KG X Y Z, of --payload.
 Payload payload_of(const std::vector<double>& numbers);
 
-/// --position-unit, --angle-unit, --force-sign, --payload, --resample and --recipe.
+/// --position-unit, --angle-unit and --force-sign.
+class UnitFlags {
+ public:
+  explicit UnitFlags(Tool& tool);
+  ReadOptions options() const;
+  /// The same for the command line of another tool.
+  std::vector<std::string> words() const;
+  /// None of them beside that option.
+  void exclude(const Option& other);
+
+ private:
+  std::string position_unit_ = "m", angle_unit_ = "rad";
+  double force_sign_ = 1.0;
+  std::vector<Option> options_;
+};
+
+/// UnitFlags, --payload, --resample and --recipe.
 class ReadFlags {
  public:
   explicit ReadFlags(Tool& tool);
@@ -107,8 +123,8 @@ class ReadFlags {
   const std::optional<std::filesystem::path>& recipe() const { return recipe_; }
 
  private:
-  std::string position_unit_ = "m", angle_unit_ = "rad";
-  double force_sign_ = 1.0, resample_hz_ = 0.0;
+  UnitFlags units_;
+  double resample_hz_ = 0.0;
   std::vector<double> payload_;
   std::optional<std::filesystem::path> recipe_;
   std::optional<Option> resample_;

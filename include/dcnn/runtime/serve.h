@@ -42,9 +42,11 @@ struct ServeOptions {
 Json serve_udp(OnlineCompensator& compensator, const ServeOptions& options);
 
 /// Reads a header and rows as in a recording from one file descriptor, answers each row on the
-/// other one: t, targets with _ext, state, reason, contact. A row that is no sample is a bad cycle,
-/// not an end. Error(kData) for a header without a pose or force.
-Json serve_lines(OnlineCompensator& compensator, int in, int out, PlotStream* plot = nullptr);
+/// other one: t, targets with _ext, state, reason, contact. `read` has the units of position and
+/// angle and the sign of the force. A row that is no sample is a bad cycle, not an end.
+/// Error(kData) for a header without a pose or force.
+Json serve_lines(OnlineCompensator& compensator, int in, int out, const ReadOptions& read = {},
+                 PlotStream* plot = nullptr);
 
 /// Plays a recording forwards and backwards through packets on a loopback pair of sockets, as fast
 /// as it goes, for so many cycles: what serve_udp() costs and whether memory grows.
