@@ -7,6 +7,7 @@
 #include "dcnn/core/error.h"
 #include "dcnn/core/excerpt.h"
 #include "import/clocks.h"
+#include "import/column_units.h"
 #include "import/roles.h"
 #include "import/units.h"
 
@@ -40,10 +41,18 @@ std::string clock_words(const LogStream& stream, const ClockRule& rule, const st
   if (rule.kind == "none") return "no clock (static poses, or say --rate or --clock)";
   const ClockFigures f = clock_figures(clock_times(stream, rule, file));
   std::ostringstream words;
-  words << std::setprecision(4) << 1.0 / f.step << " Hz, " << f.end - f.begin << " s";
-  if (f.gaps > 0) words << ", " << f.gaps << " gaps";
-  if (f.repeats > 0) words << ", " << f.repeats << " repeated times";
-  if (f.backward > 0) words << ", " << f.backward << " steps back";
+  const auto count = [&](Index n, const char* one, const char* many) {
+    if (n > 0) words << ", " << n << " " << (n == 1 ? one : many);
+  };
+  words << std::setprecision(4);
+  if (f.step > 0.0) {
+    words << 1.0 / f.step << " Hz, " << f.end - f.begin << " s";
+  } else {
+    words << "one time only, no rate";
+  }
+  count(f.gaps, "gap", "gaps");
+  count(f.repeats, "repeated time", "repeated times");
+  count(f.backward, "step back", "steps back");
   if (f.off > 0.0) words << ", " << 100.0 * f.off << " % of steps off by more than 20 %";
   words << "; clock: " << rule.kind;
   if (rule.kind == "column") words << " '" << excerpt(rule.channel, 40) << "' in " << rule.unit;
@@ -70,7 +79,8 @@ void print_table(const std::vector<TableRow>& rows, std::ostream& out) {
 }
 
 TableRow channel_row(const LogStream& stream, const LogChannel& channel, const ColumnRule& rule) {
-  std::string unit = rule.unit.empty() ? "SI" : rule.unit;
+  std::string unit = rule.unit.empty() ? si_unit_of(quantity_of_column(rule.to)) : rule.unit;
+  if (unit.empty() || (rule.unit.empty() && rule.to.find(':') != rule.to.npos)) unit = "SI";
   if (rule.gain != 1.0) unit = number_text(rule.gain) + "*" + unit;
   if (rule.wrap != 0.0) unit += ", wraps at " + number_text(rule.wrap);
   return {excerpt(channel.name, 40),
@@ -113,10 +123,17 @@ void describe_stream(const ForeignLog& log, const LogStream& stream, const Recip
 Json clock_figures_json(const LogStream& stream, const ClockRule& rule, const std::string& file) {
   if (rule.kind == "none") return nullptr;
   const ClockFigures f = clock_figures(clock_times(stream, rule, file));
-  return {{"kind", rule.kind},       {"unit", rule.unit},       {"known_by", rule.why},
-          {"assumed", rule.assumed}, {"begin_s", f.begin},      {"end_s", f.end},
-          {"hz", 1.0 / f.step},      {"gaps", f.gaps},          {"repeats", f.repeats},
-          {"backward", f.backward},  {"share_irregular", f.off}};
+  return {{"kind", rule.kind},
+          {"unit", rule.unit},
+          {"known_by", rule.why},
+          {"assumed", rule.assumed},
+          {"begin_s", f.begin},
+          {"end_s", f.end},
+          {"hz", f.step > 0.0 ? Json(1.0 / f.step) : Json()},
+          {"gaps", f.gaps},
+          {"repeats", f.repeats},
+          {"backward", f.backward},
+          {"share_irregular", f.off}};
 }
 
 }  // namespace

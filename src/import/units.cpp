@@ -194,6 +194,13 @@ std::string units_of(const std::string& quantity) {
   return list;
 }
 
+std::string si_unit_of(const std::string& quantity) {
+  const auto* si = std::find_if(kUnits.begin(), kUnits.end(), [&](const UnitRow& row) {
+    return quantity == row.quantity && row.factor == 1.0;
+  });
+  return si == kUnits.end() ? "" : si->unit;
+}
+
 std::string unit_of_name(std::string_view name) { return std::string(parts_of(name).unit); }
 
 std::string unknown_unit_of_name(std::string_view name) {

@@ -19,6 +19,9 @@ std::optional<LogUnit> find_unit(std::string_view unit);
 /// "N, mN, kN, …": those of a quantity, or all where it is empty.
 std::string units_of(const std::string& quantity);
 
+/// "N", "rad": the SI unit of a quantity; empty where it is not known.
+std::string si_unit_of(const std::string& quantity);
+
 /// The unit that a name ends with: "fx [N]", "Fx (mN)", "x/mm", "angle_deg"; empty where none.
 std::string unit_of_name(std::string_view name);
 /// What stands in brackets behind a name, "Fx (pound)", and is no unit known here; empty where
