@@ -48,19 +48,27 @@ double RelativeSpeed::in(Index begin, Index end) const {
   return std::sqrt(most / static_cast<double>(std::max<Index>(end - begin - 1, 1)));
 }
 
-double independent_of(const Eigen::MatrixXd& residual) {
+namespace {
+
+/// By how much variances grow where neighbours of residuals are correlated as in a first-order
+/// autoregression (Bartlett 1935).
+double growth_of_variance(const Eigen::MatrixXd& residual) {
   const Index n = residual.rows();
   const double power = std::max(residual.squaredNorm(), 1e-300);
   const double rho = residual.topRows(n - 1).cwiseProduct(residual.bottomRows(n - 1)).sum() / power;
   const double r = std::clamp(rho, 0.0, 0.99);
+  return (1.0 + r) / (1.0 - r);
+}
+
+}  // namespace
+
+double independent_of(const Eigen::MatrixXd& residual) {
   return std::min(kMostIndependentRows,
-                  static_cast<double>(residual.size()) * (1.0 - r) / (1.0 + r));
+                  static_cast<double>(residual.size()) / growth_of_variance(residual));
 }
 
 Eigen::VectorXd fit_deviations(const Adopted& adopted) {
-  const Eigen::MatrixXd& residual = adopted.fit.residual;
-  const double alike =
-      std::max(1.0, static_cast<double>(residual.size()) / independent_of(residual));
+  const double alike = growth_of_variance(adopted.fit.residual);
   return (alike * adopted.fit.covariance.diagonal().array().max(0.0)).sqrt();
 }
 
