@@ -12,6 +12,9 @@ double poisson_tail(double count, double mean);
 /// Probability of `count` successes or more among `trials`, each of this probability (binomial).
 double binomial_tail(double count, double trials, double probability);
 
+/// 95 % of a standard normal variable lie within so many deviations either way.
+constexpr double kNormal95 = 1.96;
+
 /// Probability of more than `z` for a standard normal variable; relative error below 1e-13.
 double normal_tail(double z);
 

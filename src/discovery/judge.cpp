@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/linear_algebra.h"
+#include "core/tails.h"
 #include "discovery/priors.h"
 
 namespace dcnn::discovery {
@@ -161,7 +162,7 @@ Discovered judged(const Data& data, const Trial& trial) {
   found.deviation = deviations(found.law.structure, tangent, found.inflation);
   // Where not even its sign is known, other numbers undo the amplitude: the form is not told.
   found.established = found.disagreement <= prior::kConstant &&
-                      std::abs(amplitude) > prior::kSigned * found.deviation(0);
+                      std::abs(amplitude) > kNormal95 * found.deviation(0);
   return found;
 }
 

@@ -22,8 +22,6 @@ constexpr double kBending = 1e-2;
 constexpr double kBlockSeconds = 8.0;  ///< of blocks for folds and for constancy
 /// Variance of the strength over blocks above which the form is not established.
 constexpr double kConstant = 3.0;
-/// Standard deviations of an amplitude whose sign is known: 95 %.
-constexpr double kSigned = 1.96;
 /// Margin within which another form is a rival: chi-square, and as a share of the gain.
 constexpr double kRival = 10.0, kRivalShare = 1e-4;
 constexpr int kMostLaws = 5;     ///< terms of a sum

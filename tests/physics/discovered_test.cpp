@@ -127,6 +127,49 @@ TEST(DiscoveredLaw, AThixotropicStateFallsToItsEquilibriumAndRecoversAtRest) {
   for (Index k = 0; k < 100; ++k) ASSERT_NEAR(steady.force(k, 0), 2.0 * settled, 1e-12);
 }
 
+// s' = (q - s)/tau after a step of q: 1 - exp(-t/rising), and exp(-t/falling) after it ends.
+TEST(DiscoveredLaw, AnUnevenLagRisesInOneTimeAndFallsInAnother) {
+  constexpr double dt = 0.001, rising = 0.05, falling = 0.4;
+  Eigen::VectorXd motion = Eigen::VectorXd::Zero(2000);
+  motion.segment(1, 1000).setOnes();
+  const auto effect = discovered(
+      R"({"axis": "base_x",
+          "factors": [{"shape": "linear", "of": "v_base_x", "memory": "uneven_lag"}]})",
+      {{"amplitude_n", 2.0},
+       {"memory_1_s", rising},
+       {"falling_1_s", falling},
+       {"scale_1_mps", 1.0}});
+  const Wrench wrench = applied(effect, moving(motion, dt), no_wrench(2000));
+  for (Index k = 1; k < 2000; ++k) {  // a step between two samples is a ramp: half a step late
+    const double t = (static_cast<double>(k > 1000 ? k - 1000 : k) - 0.5) * dt;
+    const double force = k > 1000 ? std::exp(-t / falling) : 1.0 - std::exp(-t / rising);
+    ASSERT_NEAR(wrench.force(k, 0), 2.0 * force, 2e-3) << k;
+  }
+}
+
+// A state of f(u): of |v| it does not change where the motion turns, |state of v| does.
+TEST(DiscoveredLaw, AStateMayBeOfTheShape) {
+  constexpr double dt = 0.001, tau = 0.3;
+  const Eigen::VectorXd motion = (Eigen::ArrayXd::LinSpaced(3000, 0.0, 60.0).sin() > 0.0)
+                                     .select(Eigen::VectorXd::Ones(3000), -1.0);
+  for (const bool of_shape : {false, true}) {
+    Json factor{{"shape", "even_power"}, {"of", "v_base_x"}, {"memory", "lag"}};
+    if (of_shape) factor["remembered"] = true;
+    const auto effect = discovered(
+        Json{{"axis", "base_x"}, {"factors", Json::array({factor})}}.dump().c_str(),
+        {{"amplitude_n", 2.0}, {"memory_1_s", tau}, {"scale_1_mps", 1.0}, {"power_1", 1.0}});
+    const Wrench wrench = applied(effect, moving(motion, dt), no_wrench(3000));
+    const double least = wrench.force.col(0).tail(2000).minCoeff();
+    EXPECT_EQ(least > 1.99, of_shape) << least;
+    EXPECT_EQ(law::to_json(law_of(effect))["factors"][0].contains("remembered"), of_shape);
+  }
+  EXPECT_NE(refusal_of(R"({"axis": "base_x", "factors": [
+                {"shape": "tanh", "of": "v_base_x", "memory": "dahl", "remembered": true}]})",
+                       {{"amplitude_n", 1.0}, {"memory_1_m", 0.1}, {"scale_1", 0.1}})
+                .find("needs a memory of time"),
+            std::string::npos);
+}
+
 TEST(DiscoveredLaw, ADelayIsTheMotionAsItWas) {
   Eigen::VectorXd v = Eigen::ArrayXd::LinSpaced(2000, 0.0, 5.0).sin();
   for (const double delay : {0.0007, 0.0123, 0.31}) {  // less than a sample, and of thinned samples
@@ -391,7 +434,7 @@ TEST(DiscoveredLaw, RefusesUnknownWordsAndUnitsThatItsStructureDoesNotHave) {
 TEST(DiscoveredLaw, EveryShapeAndMemoryIsFiniteAndTold) {
   const Motion motion = example_motion(200);
   for (std::size_t shape = 0; shape < law::shapes().size(); ++shape) {
-    for (int memory = 0; memory <= static_cast<int>(law::Memory::kPlays); ++memory) {
+    for (int memory = 0; memory <= static_cast<int>(law::Memory::kUnevenLag); ++memory) {
       law::Factor factor{shape, 5, static_cast<law::Memory>(memory), true};
       if (law::is_curve(shape)) factor.nodes = 5, factor.peak = 2;
       law::Structure structure;

@@ -98,12 +98,16 @@ enum class Memory {
   kDelay,        ///< q as it was so many seconds ago
   /// s' = (1 - s)/recovery - abs(x') s/length: 1 after a rest, broken down by motion (Moore 1959)
   kThixotropic,
-  kLags,   ///< the mean of lags whose times are evenly spread on a log scale (Fung 1972)
-  kPlays,  ///< the mean of plays whose widths are evenly spread up to a size (Iwan 1966)
+  kLags,       ///< the mean of lags whose times are evenly spread on a log scale (Fung 1972)
+  kPlays,      ///< the mean of plays whose widths are evenly spread up to a size (Iwan 1966)
+  kUnevenLag,  ///< s' = (q - s)/tau, of one time where q is above s and another where it is below
 };
-/// Numbers of a state: a size, and the damping ratio of the second order, the time of recovery, or
-/// the ratio of the longest of many lags to the shortest, whose geometric mean is the size.
+/// Numbers of a state: a size, and the damping ratio of the second order, the time of recovery, the
+/// ratio of the longest of many lags to the shortest, whose geometric mean is the size, or the time
+/// in which an uneven lag falls.
 int numbers_of(Memory memory);
+/// Whether it follows what drives it, in that one's unit: a state of time alone.
+bool is_of_time(Memory memory);
 /// Of a state of second order: below 1, where two lags do the same.
 constexpr double kLeastDamping = 0.005, kMostDamping = 0.98;
 constexpr double kMostSpread = 1e6;  ///< of many lags
@@ -114,6 +118,7 @@ struct Factor {
   bool centred = false;
   std::size_t nodes = 0;  ///< of a curve, the value of which at node `peak` is 1
   std::size_t peak = 0;
+  bool remembered = false;  ///< a state of time is of f(u), not f of the state
   bool operator==(const Factor&) const = default;
 };
 /// Numbers of one factor: of its state, its centre, its scale, and those of its shape.
@@ -197,6 +202,9 @@ template <class Value>
 class LagRun {
  public:
   Value step(const Value& q, double tau, double h, bool first);
+  const Value& value() const { return s_; }
+  /// Goes on from there.
+  void set(const Value& s) { s_ = s; }
 
  private:
   Value s_{}, before_{};
@@ -250,14 +258,15 @@ class FactorRun {
 
  private:
   double state(double q, double h, bool first);
+  double shaped(double q) const;
   double mean_of_plays(double q, bool first);
   const Shape* shape_;
   std::vector<double> curve_;  // values at its nodes
   Memory memory_;
-  bool is_rate_;
-  double size_ = 1.0, recovery_ = 1.0, centre_ = 0.0, scale_ = 1.0, extra_ = 0.0;
+  bool is_rate_, remembered_;
+  double size_ = 1.0, second_ = 1.0, centre_ = 0.0, scale_ = 1.0, extra_ = 0.0;
   double s_ = 0.0, before_ = 0.0;
-  LagRun<double> lag_;
+  LagRun<double> lag_, falling_;
   LagsRun lags_;
   DelayRun delay_;
   std::vector<double> plays_;

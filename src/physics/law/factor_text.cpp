@@ -3,6 +3,15 @@
 #include "dcnn/core/number.h"
 
 namespace dcnn::law {
+namespace {
+
+/// Unit of the path that a coordinate's displacements make.
+std::string path_unit(const Coordinate& q) {
+  const std::string unit = q.unit;
+  return q.is_rate ? unit.substr(0, unit.find('/')) : unit;
+}
+
+}  // namespace
 
 std::vector<FactorText> texts_of(const Law& law, const Terms& terms) {
   const auto list = numbers_of(law.structure, terms);
@@ -21,7 +30,9 @@ std::vector<FactorText> texts_of(const Law& law, const Terms& terms) {
                list[i].name.starts_with(stem + text.index + "_");
       };
       if (begins("memory_")) text.memory = told;
-      if (begins("damping_") || begins("recovery_") || begins("spread_")) text.second = told;
+      for (const char* stem : {"damping_", "recovery_", "spread_", "falling_"}) {
+        if (begins(stem)) text.second = told;
+      }
       if (begins("centre_")) text.centre = told, text.centre_value = value;
       if (begins("scale_")) text.scale = told, text.scale_value = value;
       if (begins("power_") || begins("ratio_") || begins("gain_")) text.extra = value;
@@ -39,6 +50,16 @@ std::string state_unit(const Factor& factor, const Coordinate& q) {
   }
   if (factor.memory == Memory::kDwell) return "s";
   return q.unit;
+}
+
+std::string memory_unit(const Factor& factor, const Coordinate& q) {
+  if (factor.memory == Memory::kPlay || factor.memory == Memory::kPlays) return q.unit;
+  if (factor.memory == Memory::kDahl || factor.memory == Memory::kStop ||
+      factor.memory == Memory::kDwell || factor.memory == Memory::kThixotropic) {
+    return path_unit(q);
+  }
+  if (factor.memory == Memory::kSecondOrder) return "Hz";
+  return "s";
 }
 
 double place(const FactorText& text, std::size_t node) {

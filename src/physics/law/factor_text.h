@@ -22,6 +22,8 @@ struct FactorText {
 std::vector<FactorText> texts_of(const Law& law, const Terms& terms);
 /// Unit of what the shape is taken of.
 std::string state_unit(const Factor& factor, const Coordinate& q);
+/// Unit of the size of what a coordinate drives.
+std::string memory_unit(const Factor& factor, const Coordinate& q);
 /// Place of a node of a curve, in the unit of what the curve is taken of.
 double place(const FactorText& text, std::size_t node);
 /// "N", "N*m", or that of a machine's drive.

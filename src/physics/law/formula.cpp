@@ -23,16 +23,19 @@ const char* memory_name(Memory memory) {
       {Memory::kDwell, "dwell"}, {Memory::kSecondOrder, "second_order"},
       {Memory::kDelay, "delay"}, {Memory::kThixotropic, "thixotropic"},
       {Memory::kStop, "stop"},   {Memory::kLags, "lags"},
-      {Memory::kPlays, "plays"}};
+      {Memory::kPlays, "plays"}, {Memory::kUnevenLag, "uneven_lag"}};
   return names.at(memory);
 }
 
 /// What the shape is taken of, as a part of a formula.
-std::string state_expression(const FactorText& text) {
-  const std::string& q = text.q.name;
+std::string remembered(const std::string& q, const FactorText& text) {
   if (text.factor->memory == Memory::kNone) return q;
   return std::string(memory_name(text.factor->memory)) + "(" + q + ", " + text.memory +
          (text.second.empty() ? "" : ", " + text.second) + ")";
+}
+
+std::string state_expression(const FactorText& text) {
+  return text.factor->remembered ? text.q.name : remembered(text.q.name, text);
 }
 
 /// "curve(alpha; -0.5: 0.1, 0: 1, 0.5: 0.3)", places in the unit of the coordinate.
@@ -53,7 +56,7 @@ std::string argument(const FactorText& text) {
 }
 
 /// f(u) with the argument in the place of u and the number in that of p.
-std::string factor_expression(const FactorText& text) {
+std::string shape_expression(const FactorText& text) {
   if (!text.curve.empty()) return curve_expression(text);
   std::string form = replaced(text.shape->equation, "exp", "\1");  // no u and p of function names
   form = replaced(form, "p", brief(text.extra));
@@ -63,13 +66,26 @@ std::string factor_expression(const FactorText& text) {
   return replaced(form, "\2", argument(text));
 }
 
+std::string factor_expression(const FactorText& text) {
+  const std::string shape = shape_expression(text);
+  return text.factor->remembered ? remembered(shape, text) : shape;
+}
+
 /// "0.1\,\mathrm{m/s}".
 std::string latex_number(double value, const std::string& unit) {
   const std::string number = brief(value);
   return unit.empty() ? number : number + "\\,\\mathrm{" + replaced(unit, "*", "\\,") + "}";
 }
 
-std::string latex_factor(const FactorText& text) {
+std::string latex_remembered(const std::string& q, const FactorText& text) {
+  if (text.factor->memory == Memory::kNone) return q;
+  return "\\mathcal{M}_{\\text{" + replaced(memory_name(text.factor->memory), "_", " ") + "}," +
+         replaced(text.memory, " ", "\\,") +
+         (text.second.empty() ? "" : "," + replaced(text.second, " ", "\\,")) + "}[" + q + "]";
+}
+
+/// The shape of what the coordinate drives, or of the coordinate itself.
+std::string latex_shape(const FactorText& text) {
   const std::string name = text.q.name;
   const auto cut = name.find('_');
   std::string q = name.size() > 1 && cut == std::string::npos ? "\\text{" + name + "}" : name;
@@ -77,11 +93,7 @@ std::string latex_factor(const FactorText& text) {
     q = name.substr(0, cut) + "_{\\text{" + replaced(name.substr(cut + 1), "_", " ") + "}}";
   }
   const std::string state = state_unit(*text.factor, text.q);
-  if (text.factor->memory != Memory::kNone) {
-    q = std::string("\\mathcal{M}_{\\text{") + memory_name(text.factor->memory) + "}," +
-        replaced(text.memory, " ", "\\,") +
-        (text.second.empty() ? "" : "," + replaced(text.second, " ", "\\,")) + "}[" + q + "]";
-  }
+  if (!text.factor->remembered) q = latex_remembered(q, text);
   if (text.factor->centred && text.curve.empty()) {
     q += " - " + latex_number(text.centre_value, state);
   }
@@ -94,6 +106,11 @@ std::string latex_factor(const FactorText& text) {
   }
   const std::string u = "\\tfrac{" + q + "}{" + latex_number(text.scale_value, state) + "}";
   return replaced(replaced(text.shape->latex, "#", brief(text.extra)), "@", u);
+}
+
+std::string latex_factor(const FactorText& text) {
+  const std::string shape = latex_shape(text);
+  return text.factor->remembered ? latex_remembered(shape, text) : shape;
 }
 
 }  // namespace

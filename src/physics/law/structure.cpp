@@ -9,9 +9,9 @@
 namespace dcnn::law {
 namespace {
 
-const std::vector<std::string> kMemories{"none",  "lag",         "high_pass", "play",
-                                         "dahl",  "stop",        "dwell",     "second_order",
-                                         "delay", "thixotropic", "lags",      "plays"};
+const std::vector<std::string> kMemories{"none", "lag",   "high_pass",    "play",  "dahl",
+                                         "stop", "dwell", "second_order", "delay", "thixotropic",
+                                         "lags", "plays", "uneven_lag"};
 constexpr std::size_t kMostFactors = 4;
 const std::vector<std::string> kToldAgain{"expression", "latex", "words", "coordinates", "states"};
 
@@ -60,6 +60,10 @@ Factor parse_factor(Options options, const Terms& terms) {
   const auto memory = options.choice("memory", kMemories[0], kMemories);
   factor.memory = static_cast<Memory>(std::find(kMemories.begin(), kMemories.end(), memory) -
                                       kMemories.begin());
+  factor.remembered = options.get<bool>("remembered", false);
+  if (factor.remembered && !is_of_time(factor.memory)) {
+    options.reject("remembered", "needs a memory of time, as lag, not '", memory, "'");
+  }
   factor.centred = options.get<bool>("centred", false);
   if (is_curve(factor.shape)) {
     const auto count = [&](const char* key, std::size_t least, std::size_t most) {
@@ -88,22 +92,6 @@ std::string suffix_of(const std::string& unit) {
   return unit.empty() ? "" : "_" + unit;
 }
 
-/// Unit of the path that a coordinate's displacements make.
-std::string path_unit(const Coordinate& q) {
-  const std::string unit = q.unit;
-  return q.is_rate ? unit.substr(0, unit.find('/')) : unit;
-}
-
-std::string memory_unit(const Factor& factor, const Coordinate& q) {
-  if (factor.memory == Memory::kPlay || factor.memory == Memory::kPlays) return q.unit;
-  if (factor.memory == Memory::kDahl || factor.memory == Memory::kStop ||
-      factor.memory == Memory::kDwell || factor.memory == Memory::kThixotropic) {
-    return path_unit(q);
-  }
-  if (factor.memory == Memory::kSecondOrder) return "Hz";
-  return "s";
-}
-
 void add_numbers(const Factor& factor, const std::string& index, const Terms& terms,
                  std::vector<Number>& list) {
   const Coordinate& q = terms.coordinates[factor.coordinate];
@@ -119,6 +107,7 @@ void add_numbers(const Factor& factor, const std::string& index, const Terms& te
     add("damping_", "", false, kLeastDamping, kMostDamping);
   }
   if (factor.memory == Memory::kThixotropic) add("recovery_", "s", false, 1e-4, 1e5);
+  if (factor.memory == Memory::kUnevenLag) add("falling_", "s", false, 1e-9, 1e9);
   if (factor.memory == Memory::kLags) add("spread_", "", false, 1.0, kMostSpread);
   const std::string unit = state_unit(factor, q);
   if (factor.centred) add("centre_", unit, !shape.free_centre, -1e9, 1e9);
@@ -163,6 +152,7 @@ Json factor_json(const Factor& factor, const Coordinate& q) {
   if (factor.memory != Memory::kNone) {
     json["memory"] = kMemories[static_cast<std::size_t>(factor.memory)];
   }
+  if (factor.remembered) json["remembered"] = true;
   if (factor.centred) json["centred"] = true;
   if (is_curve(factor.shape)) json["nodes"] = factor.nodes, json["peak"] = factor.peak;
   return json;
@@ -282,7 +272,7 @@ Json to_json(const Law& law, const Terms& terms) {
     states.push_back(Json{{"name", "s_" + std::to_string(k + 1)},
                           {"kind", kMemories[static_cast<std::size_t>(factor.memory)]},
                           {"of", q.name},
-                          {"unit", state_unit(factor, q)}});
+                          {"unit", factor.remembered ? "" : state_unit(factor, q)}});
   }
   json["factors"] = factors;
   json["expression"] = expression(law, terms);

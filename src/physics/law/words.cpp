@@ -10,12 +10,14 @@
 namespace dcnn::law {
 namespace {
 
-/// What the shape is taken of, in words.
-std::string subject(const FactorText& text) {
-  const std::string q = text.q.words;
+/// What `q` drives, in words.
+std::string driven(const std::string& q, const FactorText& text) {
   switch (text.factor->memory) {
     case Memory::kLag:
       return q + " behind a lag of " + text.memory;
+    case Memory::kUnevenLag:
+      return q + " behind a lag of " + text.memory + " as it rises and " + text.second +
+             " as it falls";
     case Memory::kHighPass:
       return "the deviation of " + q + " from its mean over the last " + text.memory;
     case Memory::kPlay:
@@ -41,6 +43,11 @@ std::string subject(const FactorText& text) {
     default:
       return q;
   }
+}
+
+/// What the shape is taken of, in words.
+std::string subject(const FactorText& text) {
+  return text.factor->remembered ? text.q.words : driven(text.q.words, text);
 }
 
 std::string from_centre(const FactorText& text) {
@@ -78,7 +85,7 @@ std::string curve_clause(const FactorText& text) {
   return clause + " and " + told(last);
 }
 
-std::string clause(const FactorText& text) {
+std::string shape_clause(const FactorText& text) {
   if (!text.curve.empty()) return curve_clause(text);
   const std::string of = subject(text), name = text.shape->name, from = from_centre(text);
   const std::string pth = ordinal(text.extra);
@@ -129,6 +136,12 @@ std::string clause(const FactorText& text) {
   }
   return "stronger by " + percent + " % where " + of + " is within " + text.scale + " of " +
          (text.factor->centred ? text.centre : "0");
+}
+
+/// "as the 2nd power of …, all of it behind a lag of 0.3 s".
+std::string clause(const FactorText& text) {
+  const std::string shape = shape_clause(text);
+  return text.factor->remembered ? driven(shape + ", all of it", text) : shape;
 }
 
 }  // namespace
