@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "core/elementary.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/gear_order.h"
 #include "diagnosis/position_bins.h"
 #include "diagnosis/spectral_lines.h"
@@ -160,7 +160,6 @@ void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& fl
              std::vector<Member>& list) {
   constexpr int kLines = 4;
   constexpr std::size_t kTried = 2;
-  constexpr double kMostly = 0.5;  // of a line: any law of such a motion is a hum as well
   const Case& study = scan.setting().study;
   const EffectKind& kind = *find_effect("hum");  // a periodic motion has lines of its own
   const Signals prediction = scan.chain().prediction();
@@ -171,7 +170,7 @@ void add_hum(const Scan& scan, const Signals& left, const std::vector<Floor>& fl
     const bool in_motion = has_line(study, prediction, floors, line.hz) ||
                            (study.axis && has_line(study, sense, floors, line.hz));
     if (in_motion && (line.excess < least_excess_in_motion(line.terms) ||
-                      share_in_motion(study, line.hz) > kMostly)) {
+                      share_in_motion(study, line.hz) > prior::kMostlyMotion)) {
       continue;
     }
     list.push_back(
@@ -209,12 +208,8 @@ double seed_scale(const std::string& axis) {
 
 bool is_listed(const Case& study, const EffectKind& kind) {
   if (study.without.effects.count(kind.name) > 0) return false;
-  if (!study.axis) return !kind.machines_only;
-  // Of a tool's effects an axis has no body to carry, no gravity to feel and nothing to leak into;
-  // and what a drive leaves in some seconds of one motion is hardly ever a hand on the machine.
-  static const std::set<std::string> kOfTools{"weightless_mass", "loose_load",  "misalignment",
-                                              "crosstalk",       "cable_field", "contact"};
-  return kind.stage != Stage::kTool && kOfTools.count(kind.name) == 0;
+  if (!study.axis) return kind.subject != EffectKind::Subject::kMachines;
+  return kind.stage != Stage::kTool && kind.subject != EffectKind::Subject::kTools;
 }
 
 std::vector<std::string> axes_of(const Case& study, const EffectKind& kind) {

@@ -50,10 +50,11 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
     return because("no position is logged");
   }
   const std::string name = kind.name;
-  const bool felt_at_rest = name != "inertial_terms" && name != "weightless_mass" &&
-                            name != "loose_load" && (name != "com" || study.has_torque());
-  if (!study.is_static() && !felt_at_rest && !has_acceleration(study)) {
-    return because("no position or acceleration is logged");
+  const Shown shown = study.has_torque() ? std::max(kind.force, kind.torque) : kind.force;
+  if (shown == Shown::kNever) return because("it changes torques alone, and none is measured");
+  if (shown == Shown::kInMotion) {
+    if (study.is_static()) return because("at rest the force does not depend on it");
+    if (!has_acceleration(study)) return because("no position or acceleration is logged");
   }
   if (kind.stage == Stage::kTool && !study.own_tool && name != "mass") {
     return because("the simulator's own tool is not known");
@@ -69,9 +70,6 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why) {
   }
   if (name == "inertial_terms" && study.simulator.model.inertial == ToolModel::Inertial::kFull) {
     return because("the simulator has all inertial terms");
-  }
-  if ((name == "com" || name == "inertial_terms") && study.is_static() && !study.has_torque()) {
-    return because("at rest the force does not depend on it");
   }
   if (name == "gain" && study.axis && !study.logs.front().regressors.empty()) {
     return because("the coefficients of the base simulator are fitted, and a scale is in them");

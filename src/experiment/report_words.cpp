@@ -127,16 +127,20 @@ std::string three_digits(double value) {
 
 /// A number of a discovered law, by its stem: "scale_2" belongs to the second of its variables.
 std::string words_of_law(const std::string& stem, const std::string& unit) {
-  static const std::map<std::string, std::string> kWords{{"amplitude", "amplitude"},
-                                                         {"scale", "scale"},
-                                                         {"centre", "centre"},
-                                                         {"power", "exponent"},
-                                                         {"gain", "slope"},
-                                                         {"memory", "size of the state"},
-                                                         {"damping", "damping ratio of the state"},
-                                                         {"vector_scale", "scale of the direction"},
-                                                         {"vector_lag", "delay of the direction"},
-                                                         {"lag", "delay"}};
+  static const std::map<std::string, std::string> kWords{
+      {"amplitude", "amplitude"},
+      {"scale", "scale"},
+      {"centre", "centre"},
+      {"power", "exponent"},
+      {"gain", "slope"},
+      {"memory", "size of the state"},
+      {"damping", "damping ratio of the state"},
+      {"recovery", "time in which the state recovers"},
+      {"spread", "longest time over the shortest"},
+      {"falling", "time constant as it falls"},
+      {"vector_scale", "scale of the direction"},
+      {"vector_lag", "delay of the direction"},
+      {"lag", "delay"}};
   static constexpr std::array kOrdinals{"first", "second", "third"};
   std::string name = stem;
   std::string of;
@@ -208,8 +212,7 @@ std::string words_of_parameter(const std::string& effect, const std::string& nam
     }
     return "";
   };
-  const auto cut = unit_of_parameter(name).empty() ? name.npos : name.rfind('_');
-  for (const std::string& stem : {name, name.substr(0, cut)}) {
+  for (const std::string& stem : {name, stem_of_parameter(name)}) {
     if (effect == "discovered") {
       const std::string known = words_of_law(stem, unit_of_parameter(name));
       if (!known.empty()) return known;

@@ -200,33 +200,23 @@ EffectStream stream_of(const EffectSpec& effect, const std::string& where, Exit 
 }
 
 std::string unit_of_parameter(const std::string& name) {
-  static const std::vector<std::pair<std::string, std::string>> kUnits{{"_kg", "kg"},
-                                                                       {"_rad", "rad"},
-                                                                       {"_nm", "N*m"},
-                                                                       {"_n", "N"},
-                                                                       {"_mps", "m/s"},
-                                                                       {"_radps", "rad/s"},
-                                                                       {"_mps2", "m/s^2"},
-                                                                       {"_m2ps2", "m^2/s^2"},
-                                                                       {"_radps2", "rad/s^2"},
-                                                                       {"_nspm", "N*s/m"},
-                                                                       {"_ns2pm2", "N*s^2/m^2"},
-                                                                       {"_npm", "N/m"},
-                                                                       {"_nprad", "N/rad"},
-                                                                       {"_nprad2", "N/rad^2"},
-                                                                       {"_nprad3", "N/rad^3"},
-                                                                       {"_hz", "Hz"},
-                                                                       {"_s", "s"},
-                                                                       {"_nps", "N/s"},
-                                                                       {"_nmps", "N*m/s"},
-                                                                       {"_npk", "N/K"},
-                                                                       {"_nmpk", "N*m/K"},
-                                                                       {"_degc", "degC"},
-                                                                       {"_m", "m"}};
+  static const std::vector<std::pair<std::string, std::string>> kUnits{
+      {"_kg", "kg"},          {"_kgm2", "kg*m^2"}, {"_rad", "rad"},
+      {"_nm", "N*m"},         {"_n", "N"},         {"_mps", "m/s"},
+      {"_radps", "rad/s"},    {"_mps2", "m/s^2"},  {"_m2ps2", "m^2/s^2"},
+      {"_radps2", "rad/s^2"}, {"_nspm", "N*s/m"},  {"_ns2pm2", "N*s^2/m^2"},
+      {"_npm", "N/m"},        {"_nprad", "N/rad"}, {"_nprad2", "N/rad^2"},
+      {"_nprad3", "N/rad^3"}, {"_hz", "Hz"},       {"_s", "s"},
+      {"_nps", "N/s"},        {"_nmps", "N*m/s"},  {"_npk", "N/K"},
+      {"_nmpk", "N*m/K"},     {"_degc", "degC"},   {"_m", "m"}};
   for (const auto& [end, unit] : kUnits) {
     if (name.ends_with(end)) return unit;
   }
   return "";
+}
+
+std::string stem_of_parameter(const std::string& name) {
+  return unit_of_parameter(name).empty() ? name : name.substr(0, name.rfind('_'));
 }
 
 void change_model(const EffectSpec& effect, ToolModel& model) {

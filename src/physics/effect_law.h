@@ -5,6 +5,7 @@
 #include <string>
 
 #include "dcnn/physics/effect.h"
+#include "physics/found_numbers.h"
 
 namespace dcnn {
 

@@ -24,10 +24,10 @@ TEST(AxisWords, AForceOfTheSineOfATurnIsTheOneOfAWeight) {
   const auto force = [](double order, double half) {
     return Json{{"amp", number(4.2, 0.5, "N*m")}, {"order", number(order, half, "")}};
   };
-  EXPECT_NE(words("cogging", force(0.99, 0.05)).find("4.2 N*m"), std::string::npos);
+  EXPECT_NE(words("cogging", force(0.99, 0.05)).find("4.2 N·m"), std::string::npos);
   EXPECT_NE(words("cogging", force(0.99, 0.05)).find("weight"), std::string::npos);
   EXPECT_EQ(words("cogging", force(0.9, 0.05)),
-            "cogging of 4.2 N*m that repeats with order 0.9 on elbow");
+            "cogging of 4.2 N·m that repeats with order 0.9 on elbow");
   EXPECT_EQ(words("cogging", force(0.99, 0.05), "m").find("weight"), std::string::npos);
 }
 
@@ -39,9 +39,9 @@ TEST(AxisWords, HysteresisIsSaidByTheForceAtWhichItSettles) {
                 {"gamma", number(gamma, 0.01, "")},
                 {"m", number(1.0, 0.0, "")}};
   };
-  EXPECT_EQ(words("hysteresis", law(-0.9)), "hysteresis of 0.05 N*m on elbow");
+  EXPECT_EQ(words("hysteresis", law(-0.9)), "hysteresis of 0.05 N·m on elbow");
   EXPECT_EQ(words("hysteresis", law(-1.3)),
-            "hysteresis that grows by 0.5 N*m/rad after a turn back on elbow");
+            "hysteresis that grows by 0.5 N·m/rad after a turn back on elbow");
 }
 
 }  // namespace

@@ -90,6 +90,36 @@ TEST(Wrench, AForceThroughTheOriginHasNoLever) {
   EXPECT_FALSE(report["findings"][0]["parameters"].contains("lever_x_m"));
 }
 
+/// An instrument of 60 g, 0.2 m below the sensor, that the simulator has not: the mass, its centre
+/// and the inertia, m (r^2 E - r r^T), in which the last entries are zero.
+TEST(Wrench, AnotherInertiaIsNamedByTheTorques) {
+  const double before = 0.75, added = 0.06, r = 0.2;
+  const Eigen::Vector3d centre(0.004, -0.006, 0.16), place(0.0, 0.0, r);
+  const Eigen::Vector3d moved = (added * (place - centre)) / (before + added);
+  const Bench bench(with_torque(
+      {hidden("mass", nullptr, {{"delta_mass_kg", added}}),
+       hidden(
+           "com", nullptr,
+           {{"delta_com_x_m", moved(0)}, {"delta_com_y_m", moved(1)}, {"delta_com_z_m", moved(2)}}),
+       hidden("inertia_tensor", nullptr,
+              {{"delta_inertia_xx_kgm2", added * r * r},
+               {"delta_inertia_yy_kgm2", added * r * r},
+               {"delta_inertia_zz_kgm2", 0.0},
+               {"delta_inertia_xy_kgm2", 0.0},
+               {"delta_inertia_xz_kgm2", 0.0},
+               {"delta_inertia_yz_kgm2", 0.0}})}));
+  const Json report = bench.diagnose().report;
+  EXPECT_EQ(report["verdict"], "explained");
+  ASSERT_EQ(test::found(report), (std::set<std::string>{"mass", "com", "inertia_tensor"}))
+      << report["findings"].dump(1);
+  for (const Json& finding : report["findings"]) {
+    if (finding["effect"] != "inertia_tensor") continue;
+    const Json& yy = finding["parameters"]["delta_inertia_yy_kgm2"];
+    EXPECT_EQ(yy["unit"], "kg*m^2");
+    EXPECT_NEAR(yy["value"].get<double>(), added * r * r, 1e-4);
+  }
+}
+
 TEST(Wrench, NothingIsMissingWhereNothingIs) {
   EXPECT_EQ(Bench(with_torque(Json::array())).diagnose().report["verdict"], "consistent");
 }

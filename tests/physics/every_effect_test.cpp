@@ -201,10 +201,11 @@ TEST(Catalogue, HoldsEveryPublishedName) {
     EXPECT_TRUE(names.insert(kind->name).second) << kind->name;
   for (const auto& name : published) EXPECT_EQ(names.count(name), 1U) << name;
   const auto kinds = effect_kinds();
-  const auto more = std::count_if(kinds.begin(), kinds.end(),
-                                  [](const EffectKind* kind) { return kind->machines_only; });
-  // and cable_field, of the embedded data, weightless_mass and discovered
-  EXPECT_EQ(names.size(), published.size() + 3 + static_cast<std::size_t>(more));
+  const auto more = std::count_if(kinds.begin(), kinds.end(), [](const EffectKind* kind) {
+    return kind->subject == EffectKind::Subject::kMachines;
+  });
+  // and cable_field, of the embedded data, weightless_mass, inertia_tensor and discovered
+  EXPECT_EQ(names.size(), published.size() + 4 + static_cast<std::size_t>(more));
 }
 
 TEST(Catalogue, IsListedInTheOrderInWhichItActs) {

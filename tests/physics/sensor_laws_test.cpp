@@ -152,6 +152,23 @@ TEST(ToolEffects, AddToTheNumbersOfTheTool) {
   EXPECT_EQ(model.inertial, ToolModel::Inertial::kFull);
 }
 
+TEST(InertiaTensor, AddsToThatOfTheToolWhereItHasOne) {
+  const EffectSpec effect = make_effect("inertia_tensor", "",
+                                        {{"delta_inertia_xx_kgm2", 1.0},
+                                         {"delta_inertia_yy_kgm2", 2.0},
+                                         {"delta_inertia_zz_kgm2", 3.0},
+                                         {"delta_inertia_xy_kgm2", 4.0},
+                                         {"delta_inertia_xz_kgm2", 5.0},
+                                         {"delta_inertia_yz_kgm2", 6.0}});
+  ToolModel model;
+  change_model(effect, model);
+  EXPECT_FALSE(model.inertia.has_value());  // no torque is simulated
+  model.inertia = Eigen::Matrix3d::Identity();
+  change_model(effect, model);
+  const Eigen::Matrix3d wanted{{2.0, 4.0, 5.0}, {4.0, 3.0, 6.0}, {5.0, 6.0, 4.0}};
+  EXPECT_LT((*model.inertia - wanted).norm(), 1e-15);
+}
+
 TEST(GainAndCrosstalk, AreTheMatrixTheySay) {
   Wrench wrench = no_wrench(1);
   wrench.force.row(0) = Vector3d(1.0, 2.0, 3.0);

@@ -17,6 +17,8 @@
 
 namespace dcnn {
 
+class FoundNumbers;
+
 /// Forces and torques read in S as they pass down the chain of effects.
 struct Wrench {
   Eigen::MatrixXd force;   ///< (T,3) N
@@ -128,6 +130,9 @@ struct EffectFit {
 /// What an effect must know of time: nothing, when a row was taken, or the motion between rows.
 enum class TimeNeed { kNone, kClock, kMotion };
 
+/// When an effect shows in what is read.
+enum class Shown { kNever, kInMotion, kAlways };
+
 /// One law of the catalogue (effects.def), applied in place by simulation and corrected model
 /// alike.
 struct EffectKind {
@@ -145,7 +150,10 @@ struct EffectKind {
   IntervalRule interval = IntervalRule::kOptional;
   TimeNeed needs_time =
       TimeNeed::kNone;         ///< what it needs to act, else it leaves the wrench as it is
-  bool machines_only = false;  ///< the diagnosis looks for it on axes of other machines alone
+  /// What the diagnosis looks for it on: tools, axes of other machines, or both.
+  enum class Subject { kAny, kTools, kMachines };
+  Subject subject = Subject::kAny;
+  Shown force = Shown::kAlways, torque = Shown::kAlways;  ///< in the forces, in the torques
   bool of_load = false;        ///< needs Wrench::load
   /// A relative of a commoner law, which it must outdo by the price of a number (prior::kSpecial).
   bool special = false;
@@ -174,6 +182,8 @@ struct EffectKind {
   /// The ways in which its parameters are fitted (thermal_drift has two); empty for what the
   /// diagnosis does not look for.
   std::vector<EffectFit> fits = {};
+  /// "dry friction of 0.4 N": what was found, in words, without where it acts; null: its meaning.
+  std::string (*words)(const FoundNumbers&) = nullptr;
 };
 
 /// The catalogue in the order of effects.def; effects of one stage act in this order.
@@ -198,6 +208,8 @@ EffectStream stream_of(const EffectSpec& effect, const std::string& where, Exit 
 
 /// The unit of a published parameter, from the end of its name ("fc_n": N), empty for none.
 std::string unit_of_parameter(const std::string& name);
+/// The same name without it ("fc").
+std::string stem_of_parameter(const std::string& name);
 
 /// Applies one effect of Stage::kTool, or any other one to a wrench, respecting its interval.
 void change_model(const EffectSpec& effect, ToolModel& model);

@@ -22,7 +22,7 @@ const EffectKind effect{
     .equation = "-delta_c abs(v) n",
     .example = R"({"delta_c_nspm": 0.5})",
     .axis = AxisRule::kLine,
-    .machines_only = true,
+    .subject = EffectKind::Subject::kMachines,
     .apply = resisted<law>,
     .stream = resisting<law>,
     .fits = {{.amplitudes = 1,
@@ -30,6 +30,11 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"delta_c_nspm", a(0)}};
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          return "friction that differs between the directions, by " + n.size("delta_c") +
+                 " either way";
+        },
 };
 
 }  // namespace dcnn::effects::asymmetric_friction

@@ -42,6 +42,11 @@ const EffectKind effect{
                     return offset_parameters(Eigen::Vector3d(a(0), 0.0, 0.0), "delta_bias");
                   },
               .use = EffectFit::Use::kDriven}},
+    .words =
+        [](const FoundNumbers& n) {
+          return "a constant offset of " +
+                 (n.on_machine() ? n("delta_bias") : n.push("delta_bias"));
+        },
 };
 
 }  // namespace dcnn::effects::bias

@@ -36,6 +36,7 @@ const EffectKind effect{
     .meaning = "cable that pulls differently in every orientation (demonstration data)",
     .equation = "+ amp (sin(alpha+0.4), cos(2 beta), sin(gamma) cos(alpha))",
     .example = R"({"amp_n": 0.2})",
+    .subject = EffectKind::Subject::kTools,
     .apply = apply,
     .stream = stream,
 };

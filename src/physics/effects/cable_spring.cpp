@@ -35,6 +35,10 @@ const EffectKind effect{
                     return Json{{"k_nprad", a(0)}, {"rest_rad", s(0)}};
                   },
               .use = EffectFit::Use::kDriven}},
+    .words =
+        [](const FoundNumbers& n) {
+          return (n.on_machine() ? "a spring of " : "a cable or hose that pulls with ") + n("k");
+        },
 };
 
 }  // namespace dcnn::effects::cable_spring

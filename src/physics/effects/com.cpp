@@ -17,6 +17,7 @@ const EffectKind effect{
     .equation = "c -> c + d",
     .example = R"({"delta_com_x_m": 0.01, "delta_com_y_m": -0.005, "delta_com_z_m": 0.02})",
     .interval = IntervalRule::kNever,
+    .force = Shown::kInMotion,
     .change = change,
     .fits = {{.amplitudes = 3,
               .parameters =
@@ -24,6 +25,11 @@ const EffectKind effect{
                     return Json{
                         {"delta_com_x_m", a(0)}, {"delta_com_y_m", a(1)}, {"delta_com_z_m", a(2)}};
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          return "the centre of mass is " + in_thousandths(n.length("delta_com", "m"), "mm") +
+                 " away from where it is simulated";
+        },
 };
 
 }  // namespace dcnn::effects::com

@@ -24,11 +24,14 @@ const EffectKind effect{
     .example = R"({"force_x_n": 1.0, "force_y_n": -2.0, "force_z_n": 0.5})",
     .interval = IntervalRule::kRequired,
     .needs_time = TimeNeed::kMotion,
+    .subject = EffectKind::Subject::kTools,  // what a drive leaves in some seconds is hardly a hand
+                                             // on the machine
     .apply = apply,
     .fits = {{.amplitudes = 3,
               .with_torque = 6,
               .parameters = [](const Eigen::VectorXd& a,
                                const Eigen::VectorXd&) { return offset_parameters(a, "force"); }}},
+    .words = [](const FoundNumbers& n) { return "a contact of " + n.push("force"); },
 };
 
 }  // namespace dcnn::effects::contact

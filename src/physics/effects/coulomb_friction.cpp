@@ -34,6 +34,7 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
                     return Json{{"fc_n", a(0)}, {"v0_mps", s(0)}};
                   }}},
+    .words = [](const FoundNumbers& n) { return "dry friction of " + n("fc"); },
 };
 
 }  // namespace dcnn::effects::coulomb_friction

@@ -1,5 +1,5 @@
-#include "physics/effect_law.h"
 #include "dcnn/physics/first_order.h"
+#include "physics/effect_law.h"
 
 namespace dcnn::effects::creep {
 namespace {
@@ -65,6 +65,12 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
                     return Json{{"a", a(0)}, {"tau_s", s(0)}};
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          return (n.on_machine() ? "a reading that goes on settling by "
+                                 : "the sensor goes on settling after a load, by ") +
+                 n.plain("a", 100.0) + " % within " + n("tau");
+        },
 };
 
 }  // namespace dcnn::effects::creep

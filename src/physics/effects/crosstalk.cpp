@@ -1,3 +1,4 @@
+#include "dcnn/core/number.h"
 #include "physics/effect_law.h"
 
 namespace dcnn::effects::crosstalk {
@@ -34,6 +35,7 @@ const EffectKind effect{
     .equation = "F_i += c_ij F_j",
     .example =
         R"({"c_xy": 0.01, "c_xz": -0.005, "c_yx": -0.012, "c_yz": 0.007, "c_zx": 0.014, "c_zy": -0.009})",
+    .subject = EffectKind::Subject::kTools,
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 6,
@@ -43,6 +45,11 @@ const EffectKind effect{
                     return Json{{"c_xy", a(0)}, {"c_xz", a(1)}, {"c_yx", a(2)},
                                 {"c_yz", a(3)}, {"c_zx", a(4)}, {"c_zy", a(5)}};
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          return "the sensor's axes leak into each other, by " + brief(100.0 * n.length("c_", "")) +
+                 " % in all";
+        },
 };
 
 }  // namespace dcnn::effects::crosstalk

@@ -19,7 +19,7 @@ const EffectKind effect{
     .equation = "-k3 q^3 n",
     .example = R"({"k3_nprad3": 0.4})",
     .axis = AxisRule::kAngle,
-    .machines_only = true,
+    .subject = EffectKind::Subject::kMachines,
     .strength = "k3_nprad3",
     .apply = pushed<law>,
     .stream = pushing<law>,
@@ -28,6 +28,10 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"k3_nprad3", a(0)}};
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          return "a spring that stiffens with the cube of the position, " + n("k3");
+        },
 };
 
 }  // namespace dcnn::effects::cubic_spring

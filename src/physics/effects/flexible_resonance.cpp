@@ -69,6 +69,10 @@ const EffectKind effect{
               .shapes = {{"freq", 1.0, 200.0, {}}, {"zeta", 2e-3, 0.5, {0.01, 0.03, 0.1}}},
               .parameters = numbers,
               .use = EffectFit::Use::kMachines}},
+    .words =
+        [](const FoundNumbers& n) {
+          return (n.on_machine() ? "a resonance at " : "the tool rings at ") + n("freq");
+        },
 };
 
 }  // namespace dcnn::effects::flexible_resonance

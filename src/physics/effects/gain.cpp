@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cmath>
+
+#include "dcnn/core/number.h"
 #include "physics/effect_law.h"
 
 namespace dcnn::effects::gain {
@@ -55,6 +59,13 @@ const EffectKind effect{
                   },
               .use = EffectFit::Use::kTools,
               .special = true}},
+    .words =
+        [](const FoundNumbers& n) {
+          if (n.on_machine()) return "a scale that is off by " + n.plain("gain", 100.0) + " %";
+          double most = 0.0;
+          for (const FoundNumber& of_axis : n.all()) most = std::max(most, std::abs(of_axis.value));
+          return "the sensor's scale is off by up to " + brief(100.0 * most) + " %";
+        },
 };
 
 }  // namespace dcnn::effects::gain

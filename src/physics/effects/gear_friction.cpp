@@ -50,7 +50,7 @@ const EffectKind effect{
     .equation = "-fc (1 + a sin(order q + phase)) tanh(v/v0) n",
     .example = R"({"fc_n": 0.4, "a": 0.3, "order": 8.0, "phase_rad": 0.5, "v0_mps": 0.01})",
     .axis = AxisRule::kAngle,
-    .machines_only = true,
+    .subject = EffectKind::Subject::kMachines,
     .special = true,
     .apply = apply,
     .stream = stream,
@@ -59,6 +59,11 @@ const EffectKind effect{
                   {{"order", 0.5, 200.0, {}, -1},
                    {"v0", 3e-4, 0.3, {0.003, 0.012, 0.05}, 1, -1, ShapeParameter::Speed::kTurning}},
               .parameters = published}},
+    .words =
+        [](const FoundNumbers& n) {
+          return "dry friction of " + n("fc") + " that varies by " + n.plain("a", 100.0) +
+                 " % with order " + n.plain("order") + " of the position";
+        },
 };
 
 }  // namespace dcnn::effects::gear_friction

@@ -44,6 +44,10 @@ const EffectKind effect{
     .interval = IntervalRule::kNever,
     .change = change,
     .fits = {about<1, 2, 0>(), about<0, 2, 1>(), about<0, 1, 2>()},
+    .words =
+        [](const FoundNumbers& n) {
+          return "the robot's base is tilted by " + in_thousandths(n.length("tilt", "rad"), "mrad");
+        },
 };
 
 }  // namespace dcnn::effects::gravity_tilt

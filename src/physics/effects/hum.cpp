@@ -39,6 +39,11 @@ const EffectKind effect{
                     p["freq_hz"] = s(0);
                     return p;
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          if (n.on_machine()) return "a hum at " + n("freq");
+          return "a hum of " + n.push("") + " at " + n("freq");
+        },
 };
 
 }  // namespace dcnn::effects::hum

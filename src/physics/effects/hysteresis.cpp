@@ -102,6 +102,20 @@ EffectStream stream(const EffectSpec& spec, Options& parameters) {
   };
 }
 
+/// Of a machine by the force at which Bouc-Wen's law settles, 1/(beta + gamma)^(1/m) of its scale,
+/// which is none where its 95 % interval does not say that the law settles: then by its stiffness
+/// after a turn.
+std::string words(const FoundNumbers& n) {
+  if (!n.on_machine()) return "a cable with hysteresis of " + n.size("force");
+  if (!n.has("beta")) return "hysteresis of " + n.size("force");
+  const double beta = n.value("beta"), rate = beta + n.value("gamma");
+  if (rate > 0.0 && !n.holds("gamma", -beta)) {
+    return "hysteresis of " + n.size("force", elementary::pow(rate, -1.0 / n.value("m")));
+  }
+  return "hysteresis that grows by " + n.size("force", 1.0 / n.value("width"), n.unit("width")) +
+         " after a turn back";
+}
+
 }  // namespace
 
 const EffectKind effect{
@@ -140,6 +154,7 @@ const EffectKind effect{
                                 {"m", 1.0}};
                   },
               .use = EffectFit::Use::kMachines}},
+    .words = words,
 };
 
 }  // namespace dcnn::effects::hysteresis

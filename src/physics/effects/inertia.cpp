@@ -36,7 +36,7 @@ const EffectKind effect{
     .equation = "-delta_inertia dv/dt n",
     .example = R"({"delta_inertia_kg": 0.2})",
     .axis = AxisRule::kLine,
-    .machines_only = true,
+    .subject = EffectKind::Subject::kMachines,
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 1,
@@ -44,6 +44,8 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"delta_inertia_kg", a(0)}};
                   }}},
+    .words =
+        [](const FoundNumbers& n) { return "an inertia that is off by " + n("delta_inertia"); },
 };
 
 }  // namespace dcnn::effects::inertia

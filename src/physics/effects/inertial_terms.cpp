@@ -14,9 +14,14 @@ const EffectKind effect{
     .meaning = "simulation leaves inertial terms out",
     .equation = "model.inertial -> full",
     .interval = IntervalRule::kNever,
+    .force = Shown::kInMotion,
+    .torque = Shown::kInMotion,
     .change = change,
     .fits = {{.parameters = [](const Eigen::VectorXd&,
                                const Eigen::VectorXd&) { return Json::object(); }}},
+    .words = [](const FoundNumbers&) -> std::string {
+      return "the simulation leaves out inertial terms that the recordings show";
+    },
 };
 
 }  // namespace dcnn::effects::inertial_terms

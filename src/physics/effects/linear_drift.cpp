@@ -26,6 +26,12 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return offset_parameters(a, "rate", "ps");
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          return n.on_machine()
+                     ? "an offset that grows by " + n("rate")
+                     : "the sensor's offset grows by " + n.push("rate", "/s", 60.0) + " a minute";
+        },
 };
 
 }  // namespace dcnn::effects::linear_drift

@@ -66,6 +66,11 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
                     return Json{{"mu", a(0)}, {"v0_mps", s(0)}};
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          return "friction of " + n.plain("mu", 100.0) + " % of " +
+                 (n.on_machine() ? "what is transmitted" : "the load across the path");
+        },
 };
 
 }  // namespace dcnn::effects::load_friction

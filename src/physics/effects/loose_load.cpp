@@ -67,6 +67,9 @@ const EffectKind effect{
     .example = R"({"slug_kg": 0.05, "gap_m": 0.004})",
     .axis = AxisRule::kSensor,
     .needs_time = TimeNeed::kMotion,
+    .subject = EffectKind::Subject::kTools,
+    .force = Shown::kInMotion,
+    .torque = Shown::kInMotion,
     .apply = apply,
     .fits = {{.amplitudes = 1,
               .non_negative = true,
@@ -75,6 +78,11 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
                     return Json{{"slug_kg", a(0)}, {"gap_m", s(0)}};
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          return "a part of about " + in_thousandths(n.value("slug"), "g") +
+                 " that slides between stops";
+        },
 };
 
 }  // namespace dcnn::effects::loose_load

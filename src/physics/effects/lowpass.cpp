@@ -67,6 +67,12 @@ const EffectKind effect{
              {.shapes = {{"tau", 2e-5, 0.1, {1.5e-4, 0.001, 0.004, 0.02}}},
               .parameters = numbers,
               .use = EffectFit::Use::kMachines}},
+    .words =
+        [](const FoundNumbers& n) {
+          return (n.on_machine() ? "a lag with a time constant of "
+                                 : "the sensor smooths with a time constant of ") +
+                 in_thousandths(n.value("tau"), "ms");
+        },
 };
 
 }  // namespace dcnn::effects::lowpass

@@ -80,6 +80,12 @@ const EffectKind effect{
                                 {"sigma0_npm", std::max(a(0), 1e-12) / s(0)},
                                 {"sigma1_nspm", a(0) / s(0) * s(1)}};
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          return n.is_told("sigma0")
+                     ? "friction of " + n("fc") + " that first gives way elastically"
+                     : "dry friction of " + n("fc");
+        },
 };
 
 }  // namespace dcnn::effects::lugre_friction

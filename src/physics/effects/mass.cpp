@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "physics/effect_law.h"
 
 namespace dcnn::effects::mass {
@@ -23,6 +25,12 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"delta_mass_kg", a(0)}};
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          const double d = n.value("delta_mass");
+          return "the tool is " + mass_text(std::abs(d)) + (d > 0.0 ? " heavier" : " lighter") +
+                 " than simulated";
+        },
 };
 
 }  // namespace dcnn::effects::mass

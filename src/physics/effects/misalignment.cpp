@@ -31,6 +31,7 @@ const EffectKind effect{
     .meaning = "sensor axes turned against the pose frame",
     .equation = "F -> Rm^T F, Rm = Rz(rz) Ry(ry) Rx(rx)",
     .example = R"({"rot_x_rad": 0.02, "rot_y_rad": -0.01, "rot_z_rad": 0.03})",
+    .subject = EffectKind::Subject::kTools,
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 3,
@@ -39,6 +40,11 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"rot_x_rad", a(0)}, {"rot_y_rad", a(1)}, {"rot_z_rad", a(2)}};
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          return "the sensor's axes are turned by " +
+                 in_thousandths(n.length("rot", "rad"), "mrad");
+        },
 };
 
 }  // namespace dcnn::effects::misalignment

@@ -30,6 +30,7 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"c2_ns2pm2", a(0)}};
                   }}},
+    .words = [](const FoundNumbers& n) { return "drag of " + n("c2"); },
 };
 
 }  // namespace dcnn::effects::quadratic_drag

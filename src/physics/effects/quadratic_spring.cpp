@@ -20,7 +20,7 @@ const EffectKind effect{
     .equation = "-k2 (q - rest)^2 n",
     .example = R"({"k2_nprad2": 0.5, "rest_rad": 0.1})",
     .axis = AxisRule::kAngle,
-    .machines_only = true,
+    .subject = EffectKind::Subject::kMachines,
     .strength = "k2_nprad2",
     .apply = pushed<law>,
     .stream = pushing<law>,
@@ -29,6 +29,10 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"k2_nprad2", a(0)}, {"rest_rad", 0.0}};
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          return "a spring that bends with the square of the position, " + n("k2");
+        },
 };
 
 }  // namespace dcnn::effects::quadratic_spring

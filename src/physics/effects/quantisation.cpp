@@ -32,6 +32,11 @@ const EffectKind effect{
                   [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {
                     return Json{{"step_n", s(0)}};
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          return n.on_machine() ? "a reading in steps of " + n("step")
+                                : "the reading comes in steps of " + force_text(n.value("step"));
+        },
 };
 
 }  // namespace dcnn::effects::quantisation

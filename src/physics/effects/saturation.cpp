@@ -36,6 +36,11 @@ const EffectKind effect{
                   [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {
                     return Json{{"limit_n", s(0)}};
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          return (n.on_machine() ? "a reading that is clipped at " : "the reading is clipped at ") +
+                 n("limit");
+        },
 };
 
 }  // namespace dcnn::effects::saturation

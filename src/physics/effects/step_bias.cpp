@@ -25,6 +25,11 @@ const EffectKind effect{
               .with_torque = 6,
               .parameters = [](const Eigen::VectorXd& a,
                                const Eigen::VectorXd&) { return offset_parameters(a, "step"); }}},
+    .words =
+        [](const FoundNumbers& n) {
+          return n.on_machine() ? "an offset that jumps by " + n("step")
+                                : "the sensor's offset jumps by " + n.push("step");
+        },
 };
 
 }  // namespace dcnn::effects::step_bias

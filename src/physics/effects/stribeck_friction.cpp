@@ -39,6 +39,10 @@ const EffectKind effect{
                 return Json{
                     {"fc_n", a(0)}, {"fs_n", a(1)}, {"vs_mps", s(0)}, {"v0_mps", s(0) * s(1)}};
               }}},
+    .words =
+        [](const FoundNumbers& n) {
+          return "friction that falls from " + n("fs") + " to " + n("fc") + " with speed";
+        },
 };
 
 }  // namespace dcnn::effects::stribeck_friction

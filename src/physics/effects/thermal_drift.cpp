@@ -62,6 +62,11 @@ const EffectKind effect{
                     p["t_ref_degc"] = s(0);
                     return p;
                   }}},
+    .words = [](const FoundNumbers& n) -> std::string {
+      if (!n.on_machine()) return "the sensor's offset drifts with its temperature";
+      return n.has("k") ? "an offset that follows the temperature with " + n("k")
+                        : "an offset that settles by " + n("a") + " within " + n("tau");
+    },
 };
 
 }  // namespace dcnn::effects::thermal_drift

@@ -77,6 +77,17 @@ const EffectKind effect{
                   [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {
                     return Json{{"delay_s", -s(0)}};
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          const double delay = n.value("delay");
+          const std::string size = in_thousandths(std::abs(delay), "ms");
+          if (!n.on_machine()) {
+            return std::string("the force ") + (delay < 0.0 ? "leads" : "lags") + " the pose by " +
+                   size;
+          }
+          return delay < 0.0 ? "a lead of " + size + " before the position"
+                             : "a delay of " + size + " after the position";
+        },
 };
 
 }  // namespace dcnn::effects::time_delay

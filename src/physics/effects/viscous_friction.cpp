@@ -29,6 +29,7 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"c_nspm", a(0)}};
                   }}},
+    .words = [](const FoundNumbers& n) { return "viscous friction of " + n("c"); },
 };
 
 }  // namespace dcnn::effects::viscous_friction

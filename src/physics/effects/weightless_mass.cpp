@@ -32,6 +32,9 @@ const EffectKind effect{
     .example = R"({"mass_kg": 0.3})",
     .interval = IntervalRule::kNever,
     .needs_time = TimeNeed::kMotion,
+    .subject = EffectKind::Subject::kTools,
+    .force = Shown::kInMotion,
+    .torque = Shown::kInMotion,
     .at_a_point = true,
     .apply = apply,
     .stream = stream,
@@ -41,6 +44,10 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"mass_kg", a(0)}};
                   }}},
+    .words =
+        [](const FoundNumbers& n) {
+          return "the inertia of " + mass_text(n.value("mass")) + " whose weight is compensated";
+        },
 };
 
 }  // namespace dcnn::effects::weightless_mass
