@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "dcnn/diagnosis/decision.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/evidence/structure.h"
 #include "diagnosis/noise_floor.h"
 #include "diagnosis/search.h"
@@ -40,7 +41,6 @@ std::vector<double> noisier(const std::vector<Floor>& other, const std::vector<F
 }  // namespace
 
 std::vector<std::vector<Alternative>> Search::alternatives() const {
-  constexpr double kBend = 0.06;  // of a gain: what another bend of a law is worth
   const double price = setting_->price, loud = rest_loudness();
   Scale at_hand(*setting_, fit_);
   const auto brings_noise = [&](const Member& m) { return brings_position_noise(study_, m); };
@@ -87,7 +87,7 @@ std::vector<std::vector<Alternative>> Search::alternatives() const {
       double least = more > 0 ? kLeastOfMore * price * more * loud : price * more - near;
       // A small force hides how it bends.
       if (more > 0 && same_family(trial.member, own))
-        least = std::min(least, kBend * own_gain - near);
+        least = std::min(least, prior::kOtherBend * own_gain - near);
       // Nor does noise stand in its place.
       const double noise = least_gain(*setting_, numbers, rest.members.empty()) - near;
       if (-above <= least || taken_off <= noise) continue;

@@ -29,7 +29,7 @@ ArmRegression ArmStructureSearch::fitted(const ArmStructure& structure) const {
 /// A name for each set of shared parameters on the way; one of a joint's for each term.
 double ArmStructureSearch::log_prior(const ArmStructure& structure) const {
   const auto odds = [](double p) { return elementary::log(p / (1.0 - p)); };
-  const double name = evidence::prior::kName;
+  const double name = prior::kName;
   double sum = static_cast<double>(structure.shared) * odds(name);
   for (const std::vector<Index>& more : structure.more) {
     sum += static_cast<double>(more.size()) * odds(name / static_cast<double>(sums_.joints()));

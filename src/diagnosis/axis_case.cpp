@@ -9,6 +9,7 @@
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/axis_sense.h"
 #include "diagnosis/axis_units.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/motion_band.h"
 #include "diagnosis/noise_floor.h"
 #include "diagnosis/periodograms.h"
@@ -99,7 +100,6 @@ std::vector<Index> used_columns(const std::vector<Recording>& recordings, const 
 /// Whether the axis' position varies by more than ten deviations of its noise within the motion's
 /// band, read above that: else its rate is noise.
 bool moves(const Case& study) {
-  constexpr double kDeviations = 10.0;
   const std::string& name = study.axis->axis().position;
   if (name.empty() || study.is_static()) return true;
   Signals position;
@@ -119,7 +119,7 @@ bool moves(const Case& study) {
   if (quiet.empty()) return square > 0.0;
   // White noise of density s^2 has variance s^2 f/f_Nyquist below f.
   const double noise = median(quiet) * std::min(1.0, 2.0 * study.motion_hz * study.dt());
-  return square / rows > kDeviations * kDeviations * noise;
+  return square / rows > prior::kMoves * prior::kMoves * noise;
 }
 
 /// Where an axis' motion ends, and what its position alone makes, 20 Hz or more; a low-pass that is

@@ -120,9 +120,9 @@ double sense_of(const std::vector<Recording>& recordings, const System& system, 
   }
   if (logs.empty()) return 1.0;
   const double turns = turns_of(logs);
-  constexpr double kStep = kLongestDelay / kDelays, kUsual = evidence::prior::kUsualDelay;
-  const double delayed = elementary::log(evidence::prior::kName / (1.0 - evidence::prior::kName) *
-                                         kStep / (2.0 * kUsual));
+  constexpr double kStep = kLongestDelay / kDelays, kUsual = prior::kUsualDelay;
+  const double delayed =
+      elementary::log(prior::kName / (1.0 - prior::kName) * kStep / (2.0 * kUsual));
   double sense = 1.0, most = -1e300;
   for (int k = -kDelays; k <= kDelays; ++k) {
     LaggedSums sums;

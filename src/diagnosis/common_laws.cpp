@@ -13,7 +13,7 @@ namespace {
 /// Prices of a number that the names of a model cost: one for each number, less what makes a law
 /// likelier than others before the recordings (a number costs half of kNumberPrice nats).
 double prices(const Case& study, const std::vector<Member>& members) {
-  const double other = elementary::log(evidence::prior::kName / (1.0 - evidence::prior::kName));
+  const double other = elementary::log(prior::kName / (1.0 - prior::kName));
   double sum = 0.0;
   for (const Member& m : members) {
     sum += m.parameters();

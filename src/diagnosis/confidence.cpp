@@ -46,14 +46,13 @@ void leave_out_improbable(const Search& search,
 /// included; of two that make the same force the one that is likelier beforehand, or that the
 /// catalogue has first, so that rounding decides nothing.
 bool goes_before(const Alternative& other, const Member& own, double odds) {
-  constexpr double kLikelier = 2.0;    // odds
   constexpr double kSame = 1e-3;       // of odds of 1: rounding, and where a fit ends
   constexpr double kSameForce = 1e-3;  // of chi-square: the same
   const auto place = [](const std::string& name) {
     const auto& kinds = effect_kinds();
     return std::find(kinds.begin(), kinds.end(), find_effect(name)) - kinds.begin();
   };
-  if (odds > kLikelier) return true;
+  if (odds > prior::kLikelier) return true;
   if (std::abs(odds - 1.0) < kSame) return place(other.name) < place(own.name());
   return odds > 1.0 && std::abs(other.chi2_above) < kSameForce;
 }
@@ -63,7 +62,7 @@ bool goes_before(const Alternative& other, const Member& own, double odds) {
 /// little evidence that it acts.
 double before_held_out(double before, const Search& search, double log_support) {
   const bool open = search.study().axis && log_support != 0.0;
-  return open ? std::min(before, evidence::prior::kFittedOnMachine) : before;
+  return open ? std::min(before, prior::kFittedOnMachine) : before;
 }
 
 /// A probability that was `before`, after what the held-out data say of a model that predicts
@@ -207,7 +206,7 @@ double beside_own_numbers(const Search& search, const HoldOut& holdout) {
                        [&](const Member& m) { return m.kind == own.kind; });
   });
   if (numbers.empty() || has_all) return 1.0;
-  return after_held_out(1.0 - evidence::prior::kElsewhere, search, holdout,
+  return after_held_out(1.0 - prior::kElsewhere, search, holdout,
                         holdout.prediction(members, search.fit().base),
                         joint_fit(search.setting(), numbers));
 }

@@ -6,6 +6,7 @@
 
 #include "core/elementary.h"
 #include "diagnosis/candidates.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/spectral_lines.h"
 #include "physics/effect_law.h"
 
@@ -104,7 +105,7 @@ std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
   const double gain = gain_at(hz(0));
   const EffectKind& kind = *find_effect("hum");
   Member member = make_member(study, kind, kind.fits[0], "", hz);
-  if (gain < kLeastLine + 4.0 * member.parameters()) return std::nullopt;
+  if (gain < prior::kLeastLine + 4.0 * member.parameters()) return std::nullopt;
   const Index half = member.amplitudes.size() / 2;
   member.amplitudes.setZero();
   member.fixed_deviation.setZero(member.amplitudes.size() + 1);

@@ -24,9 +24,6 @@ struct Clipping {
 };
 std::vector<Clipping> clipping(const Case& study);
 
-/// Gain in chi-square, beyond the price of its numbers, of the best of some 10,000 frequencies.
-inline constexpr double kLeastLine = 28.0;
-
 /// The strongest line above what block means can show, fitted at the log's rate.
 std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
                                     const std::vector<Floor>& floors);

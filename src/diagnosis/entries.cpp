@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tails.h"
 #include "diagnosis/candidates.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/search.h"
 
 namespace dcnn {
 namespace {
 
-constexpr double kHeldDeviations =
-    1.96 * 1.2;                  // 95 %, wider by what selection costs (intervals.cpp)
-constexpr double kBetter = 0.2;  // of a price: as an exchange must gain
+constexpr double kHeldDeviations = prior::kSelection * kNormal95;
 
 /// A fault of the sensor with several numbers: it can imitate a mass, a centre or a tilt.
 bool is_sensor_fault(const Member& member) {
@@ -171,7 +171,7 @@ void Search::hold_untold() {
     members.push_back(own);
     const JointFit beside = joint_fit(*setting_, members);
     const JointFit other = joint_fit(*setting_, Holding(beside, price).sparsest().members);
-    if (priced(other, price) >= priced(fitted, price) - kBetter * price) continue;
+    if (priced(other, price) >= priced(fitted, price) - prior::kLeastExchange * price) continue;
     fitted = other;
     changed = true;
   }
@@ -194,7 +194,7 @@ bool Search::begin_with_own_numbers() {
   const double price = setting_->price;
   const JointFit all = joint_fit(*setting_, std::move(members));
   const JointFit told = joint_fit(*setting_, Holding(all, price).sparser().members);
-  if (priced(told, price) >= priced(fit_, price) - kBetter * price) return false;
+  if (priced(told, price) >= priced(fit_, price) - prior::kLeastExchange * price) return false;
   say("beginning again with the simulator's own numbers");
   settle(std::vector<Member>(told.members));
   return true;

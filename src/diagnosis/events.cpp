@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/sample_at.h"
 #include "physics/effect_law.h"
 
@@ -11,9 +12,6 @@ namespace dcnn {
 namespace {
 
 constexpr double kFinestGrid = 0.25;  // s, of the exhaustive search; a cell holds a sample
-constexpr double kStepEnds = 2.5;     // s, in which a step cannot be told from a bias
-constexpr double kLongest = 60.0;     // s, of a contact
-constexpr double kPart = 0.6;         // of a recording at most: a force that stays is no event
 
 /// Whitened residual summed over cells of time, in the sensor's axes and in the base's.
 struct Cells {
@@ -29,7 +27,7 @@ void add_cells(const Motion& motion, std::size_t log, Cells& cells) {
   double t = motion.t(0);
   for (std::size_t s = 0; s < motion.segments.size(); ++s) {
     const double first = motion.t(motion.segments[s].begin);
-    if (first - t > kLongest) t += cells.grid * std::floor((first - t) / cells.grid);
+    if (first - t > prior::kLongestEvent) t += cells.grid * std::floor((first - t) / cells.grid);
     for (const double end = motion.t(motion.segments[s].end - 1); t <= end; t += cells.grid) {
       cells.t.push_back(t);
       cells.log.push_back(log);
@@ -92,15 +90,16 @@ Stretch best_span(const Cells& cells, const Stretch* taken) {
   std::map<std::size_t, Index> length;
   for (const std::size_t log : cells.log) ++length[log];
   for (Index a = 0; a < n; ++a) {
-    const auto part = kPart * static_cast<double>(length[cells.log[static_cast<std::size_t>(a)]]);
-    const auto longest = static_cast<Index>(std::min(kLongest / cells.grid, part));
+    const auto part = prior::kMostOfRecording *
+                      static_cast<double>(length[cells.log[static_cast<std::size_t>(a)]]);
+    const auto longest = static_cast<Index>(std::min(prior::kLongestEvent / cells.grid, part));
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(cells.sum.cols());
     double weight = 0.0;
     for (Index b = a; b < std::min(n, a + longest); ++b) {
       if (cells.log[static_cast<std::size_t>(b)] != cells.log[static_cast<std::size_t>(a)]) break;
       const double begin = cells.t[static_cast<std::size_t>(a)];
       const double end = cells.t[static_cast<std::size_t>(b)] + cells.grid;
-      if (end - begin > kLongest + cells.grid) break;
+      if (end - begin > prior::kLongestEvent + cells.grid) break;
       const bool overlaps = taken && taken->log == cells.log[static_cast<std::size_t>(a)] &&
                             begin < taken->end + 0.5 && end > taken->begin - 0.5;
       if (overlaps) break;
@@ -134,7 +133,7 @@ Trial find_contact(const Scan& scan) {
   const auto loss = [&](const Eigen::VectorXd& ends) {
     const auto& t = study.logs[first.log].motion.t;
     const double whole = t(t.size() - 1) - t(0), length = ends(1) - ends(0);
-    if (length < 0.05 || length > kPart * whole) return 0.0;
+    if (length < 0.05 || length > prior::kMostOfRecording * whole) return 0.0;
     if (ends(0) < t(0) - cells.grid || ends(1) > t(t.size() - 1) + cells.grid) return 0.0;
     Stretch span = first;
     span.begin = ends(0);
@@ -188,7 +187,7 @@ Trial find_step(const Scan& scan) {
     const double first = study.shared_clock ? study.logs.front().motion.t(0) : motion.t(0);
     const double last = study.shared_clock ? end_of_fit : motion.t(motion.samples() - 1);
     const double rest = all - weight;
-    if (t > first + kStepEnds && t < last - kStepEnds && weight > 0.0 && rest > 0.0) {
+    if (t > first + prior::kStepEnds && t < last - prior::kStepEnds && weight > 0.0 && rest > 0.0) {
       const double gain =
           (before / weight - (total - before) / rest).squaredNorm() * weight * rest / all;
       ranked.emplace_back(std::max(gain, (total - before).squaredNorm() / rest), c);

@@ -35,8 +35,8 @@ class Writer {
     const auto shares = open && held
                             ? shares_of_missing(holdout_.prediction(fit.members, fit.base), noise)
                             : std::vector<double>();
-    const double elsewhere = open                   ? evidence::prior::kElsewhereBesideUnknown
-                             : search_.study().axis ? evidence::prior::kElsewhereOnMachine
+    const double elsewhere = open                   ? prior::kElsewhereBesideUnknown
+                             : search_.study().axis ? prior::kElsewhereOnMachine
                                                     : 0.0;
     const double after = held ? holdout_.mean_rmse(fit.members, fit.base) : 0.0;
     Json list = Json::array();

@@ -3,14 +3,13 @@
 #include <algorithm>
 
 #include "core/elementary.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/noise_shapes.h"
 
 namespace dcnn {
 namespace {
 
-constexpr double kColourGain = 12.0;  // of the log-likelihood, before noise is called coloured
-constexpr double kUpperPart = 1.4;    // of the lowest frequency of the quiet band: its upper part
-constexpr double kColourAbove = 3.0;  // of the log-likelihood there
+constexpr double kUpperPart = 1.4;  // of the lowest frequency of the quiet band: its upper part
 
 /// The first bin of a band's upper part.
 Index upper_part(const Eigen::VectorXd& hz) {
@@ -41,7 +40,7 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
   const Whittle white = fit_level(density, Eigen::VectorXd::Ones(density.size()), windows);
   best.white = white.level;
   if (flat) return best;
-  double most = white.likelihood + kColourGain;
+  double most = white.likelihood + prior::kColour;
   // Colour must show in the upper part of the band too: motion may leak into its lowest bins.
   const Index upper = upper_part(hz);
   if (upper == hz.size()) return best;
@@ -57,7 +56,7 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
     const Whittle fit = fit_level(density, shape, windows);
     if (fit.likelihood <= most) return;
     const Whittle upper_fit = fit_level(density_above, above(shape), windows);
-    if (upper_fit.likelihood <= white_above + kColourAbove) return;
+    if (upper_fit.likelihood <= white_above + prior::kColourAbove) return;
     Floor floor = floor_of(fit.level);
     floor.dt = dt;
     if (is_refuted(floor)) return;
@@ -84,7 +83,7 @@ Floor fit_floor(const Eigen::VectorXd& density, const Eigen::VectorXd& hz, doubl
   }
   // A filter is the last that is asked for, likelier than the others by as much again; an octave of
   // its plateau must be seen, for any colour falls somewhere.
-  most += kColourGain;
+  most += prior::kColour;
   for (double cutoff = 2.0 * hz(0); cutoff < 0.8 * top; cutoff *= 1.15) {
     for (const double share : {0.0, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3}) {
       const Eigen::VectorXd shape =
@@ -111,12 +110,12 @@ bool share_colours(const std::vector<QuietBand>& bands, std::vector<Floor>& floo
       return fit_level(density, shape.tail(bins), band.windows).likelihood -
              fit_level(density, white, band.windows).likelihood;
     };
-    double most = kColourGain;
+    double most = prior::kColour;
     for (const Floor& other : own) {
       if (!has_colour(other)) continue;
       const Eigen::VectorXd shape = band.hz.unaryExpr([&](double f) { return other.density(f); });
       const double here = gain(shape, band.hz.size());
-      if (here <= most || gain(shape, above) <= kColourAbove) continue;
+      if (here <= most || gain(shape, above) <= prior::kColourAbove) continue;
       most = here;
       any = true;
       floors[j] = other;

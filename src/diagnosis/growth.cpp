@@ -8,9 +8,8 @@
 namespace dcnn {
 namespace {
 
-using evidence::prior::kModelError;
+using prior::kModelError;
 
-constexpr double kLeastGrowth = 0.001;  // of what the model explains already
 // More only ever fed what is not in the catalogue; but friction acts in every direction.
 constexpr int kMostMembers = 5, kMostFrictions = 14;
 
@@ -30,7 +29,7 @@ bool Search::grow() {
   });
   if (trials.empty()) return false;
   // Poses at rest have no error of the motion, but that of the law.
-  const double share = study_.is_static() ? kModelError * kModelError : kLeastGrowth;
+  const double share = study_.is_static() ? kModelError * kModelError : prior::kLeastShare;
   const double least = share * explained(false);
   const std::vector<Member> before = fit_.members;
   for (const Trial& trial : trials) {

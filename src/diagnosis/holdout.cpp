@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tails.h"
 #include "diagnosis/axis_case.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/rest.h"
 
 namespace dcnn {
@@ -192,14 +194,13 @@ double HoldOut::left_where_fitted(const Search& search, Index channel) const {
 
 std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
                                                const std::vector<Floor>& floors) const {
-  constexpr double kMost = 1.2, kChance = 1.96;
   const std::vector<double> errors = rmse(search.fit().members, search.fit().base);
   double rows = 0.0;
   for (const auto& held : held_)
     rows += static_cast<double>(std::count(held.begin(), held.end(), 1));
   // Relative deviation of an rms of n normal numbers: 1/sqrt(2n).
   const auto block = static_cast<double>(search.setting().whitener.block());
-  const double independent = kChance / std::sqrt(2.0 * std::max(1.0, rows / block));
+  const double independent = kNormal95 / std::sqrt(2.0 * std::max(1.0, rows / block));
   const Case& fitted = search.study();
   double fitted_rows = 0.0;
   for (const Log& log : fitted.logs) fitted_rows += static_cast<double>(log.motion.samples());
@@ -238,11 +239,11 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
       const Floor& floor = search.floors()[j];
       const double held = floor.power_deviation(rows * fitted.dt()),
                    known = floor.power_deviation(fitted_rows * fitted.dt());
-      chance = std::max(chance, 0.5 * kChance * std::sqrt(held * held + known * known));
+      chance = std::max(chance, 0.5 * kNormal95 * std::sqrt(held * held + known * known));
     }
     const double ratio = errors[j] / std::max(1e-300, noise);
-    if (ratio > kMost * (1.0 + chance) && (!worst || ratio > worst->ratio)) {
-      worst = Excess{j, ratio, noise > kMost * stated};
+    if (ratio > prior::kMostOverNoise * (1.0 + chance) && (!worst || ratio > worst->ratio)) {
+      worst = Excess{j, ratio, noise > prior::kMostOverNoise * stated};
     }
   }
   return worst;

@@ -7,6 +7,7 @@
 #include "core/elementary.h"
 #include "data/median.h"
 #include "diagnosis/candidates.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/noise_floor.h"
 #include "diagnosis/slug.h"
 #include "physics/effect_law.h"
@@ -17,10 +18,7 @@ namespace {
 constexpr double kShortest = 0.003;  // s, half of what an impact lasts in a recording
 constexpr double kSpread = 0.025;    // of a slide's duration: how well its end is foretold
 constexpr double kFirstGap = 0.001, kLastGap = 0.035, kNextGap = 1.06;  // m
-constexpr double kHeard = 6.0;            // deviations of the same sum at other times
-constexpr double kHeardWithoutOne = 2.5;  // the same without the loudest impact
-constexpr double kStandsOut = 1.5;        // over the greatest of them
-constexpr std::size_t kFewest = 4;        // ways from stop to stop
+constexpr std::size_t kFewest = 4;                                      // ways from stop to stop
 constexpr int kOtherTimes = 60;
 constexpr double kMostLog = 700.0;  // of a ratio, before its exponential overflows
 
@@ -139,8 +137,8 @@ class Ear {
       last = impact.from;
     }
     const double others = significance() * (1.0 - heard.most / heard.sum);
-    return significance() > kHeard && others > kHeardWithoutOne && ways >= kFewest &&
-           heard.strength() > kStandsOut * most_elsewhere;
+    return significance() > prior::kImpacts && others > prior::kImpactsWithoutOne &&
+           ways >= kFewest && heard.strength() > prior::kImpactsOverOthers * most_elsewhere;
   }
 
   Evidence heard;

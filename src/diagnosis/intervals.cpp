@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "core/tails.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/judgement.h"
 #include "diagnosis/scan.h"
 
@@ -10,10 +12,7 @@ namespace dcnn {
 namespace {
 
 constexpr double kSandwichSeconds = 1.0;
-constexpr double kSelection = 1.2;  // how much the choice among many widens an interval
-constexpr double kNormal = 1.96;    // of a standard deviation: 95 %
-constexpr double kTied = 0.7;       // correlation from which on a strength hangs on a shape
-constexpr double kWidest = 6.0;     // of a logarithm: more says nothing
+constexpr double kWidest = 6.0;  // of a logarithm: more says nothing
 
 /// Numbers of a member's published parameters at given coordinates.
 Eigen::VectorXd published(const Member& member, const std::vector<std::string>& names) {
@@ -78,7 +77,7 @@ bool is_logarithmic(const Member& member, const Spread& spread, Index k, bool st
   for (Index i = 0; i < member.shapes.size(); ++i) {
     if (member.shape(i).low <= 0.0) continue;
     const Index coordinate = member.amplitudes.size() + i;
-    if (strength && std::abs(spread.correlation(k, coordinate)) > kTied) return true;
+    if (strength && std::abs(spread.correlation(k, coordinate)) > prior::kTied) return true;
     // d(value)/d(log shape) = value: it is that shape.
     const double value = member.shapes(i);
     if (std::abs(spread.gradient(k, coordinate) / value - 1.0) < 1e-3) return true;
@@ -89,9 +88,10 @@ bool is_logarithmic(const Member& member, const Spread& spread, Index k, bool st
 Estimate interval_of(std::string name, double value, double deviation, bool logarithmic) {
   const std::string unit = unit_of_parameter(name);
   if (!logarithmic || value == 0.0) {
-    return {std::move(name), unit, value, value - kNormal * deviation, value + kNormal * deviation};
+    return {std::move(name), unit, value, value - kNormal95 * deviation,
+            value + kNormal95 * deviation};
   }
-  const double factor = elementary::exp(std::min(kWidest, kNormal * deviation / std::abs(value)));
+  const double factor = elementary::exp(std::min(kWidest, kNormal95 * deviation / std::abs(value)));
   const double near = value / factor, far = value * factor;
   return {std::move(name), unit, value, std::min(near, far), std::max(near, far)};
 }
@@ -112,7 +112,7 @@ Eigen::MatrixXd fixed_covariance(const Member& member) {
 /// recordings cannot tell from the best (7.81: chi-square of frequency, damping and share at 95 %).
 void widen_over_local_minima(const Setting& setting, const JointFit& fit, std::size_t m,
                              std::vector<Estimate>& numbers) {
-  constexpr double kWithin = 7.81 * kSelection * kSelection;
+  constexpr double kWithin = 7.81 * prior::kSelection * prior::kSelection;
   std::vector<Member> others = fit.members;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(m));
   const JointFit rest = joint_fit(setting, others);
@@ -182,7 +182,7 @@ std::vector<std::vector<Estimate>> estimates(const Setting& setting, const Joint
           [at](const Spread& a, const Spread& b) { return a.deviation(at) < b.deviation(at); });
       const bool known = widest != spreads.end();
       all.back().push_back(
-          interval_of(names[k], values(at), known ? kSelection * widest->deviation(at) : 0.0,
+          interval_of(names[k], values(at), known ? prior::kSelection * widest->deviation(at) : 0.0,
                       known && is_logarithmic(member, *widest, at, is_strength[k])));
     }
     widen_held(member, names, all.back());

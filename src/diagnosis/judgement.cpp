@@ -107,9 +107,9 @@ double left_over(const std::vector<BandTest>& bands) {
 
 bool is_alarming(const std::vector<BandTest>& bands, double explained) {
   return std::any_of(bands.begin(), bands.end(), [&](const BandTest& band) {
-    const bool much = band.excess > 0.004 * explained ||
-                      (band.excess > 2000.0 && band.excess > 0.002 * explained);
-    return band.stands_out() && much;
+    const bool plain = band.excess > prior::kPlainChiSquare;
+    return band.stands_out() &&
+           band.excess > (plain ? prior::kPlainRemainder : prior::kRemainder) * explained;
   });
 }
 

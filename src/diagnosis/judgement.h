@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/joint_fit.h"
 
 namespace dcnn {
@@ -16,7 +17,7 @@ struct BandTest {
   double excess;     ///< sum - dof
   double dof = 0.0;  ///< 0: too few blocks follow each other for a periodogram
 
-  bool stands_out() const { return z > 5.0; }
+  bool stands_out() const { return z > prior::kBandStandsOut; }
   /// Power over what the floor makes.
   double loudness() const { return excess > 0.0 ? 1.0 + 2.0 * z * z / excess : 1.0; }
 };
@@ -34,13 +35,11 @@ double left_over(const std::vector<BandTest>& bands);
 /// remainder of what was explained.
 bool is_alarming(const std::vector<BandTest>& bands, double explained);
 
-constexpr double kInconstant = 9.0;  ///< standard deviations of Constancy::z
-
 /// Whether a member explains the recordings throughout: its score over blocks of 8 s, per degree of
 /// freedom. A surrogate of something else fits some blocks and not others.
 struct Constancy {
   double ratio = 1.0, z = 0.0, excess = 0.0;  ///< score over its degrees of freedom, and beyond
-  bool refutes() const { return ratio > 2.5 && z > kInconstant; }
+  bool refutes() const { return ratio > prior::kInconstantRatio && z > prior::kInconstant; }
   /// z where what is left is so many times as loud as the noise.
   double above(double loud) const { return z * (ratio / loud - 1.0) / (ratio - 1.0); }
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tails.h"
 #include "dcnn/core/number.h"
 #include "diagnosis/confidence.h"
 #include "diagnosis/discovered.h"
@@ -13,14 +14,12 @@ using discovery::Discovered;
 
 namespace {
 
-constexpr double kLawInterval = 1.96;  // of a standard deviation: 95 %
-
 Json law_numbers(const Discovered& found, const law::Terms& terms) {
   const auto numbers = law::numbers_of(found.law.structure, terms);
   Json json = Json::object();
   for (std::size_t k = 0; k < numbers.size(); ++k) {
     const auto at = static_cast<Index>(k);
-    const double value = found.law.numbers(at), half = kLawInterval * found.deviation(at);
+    const double value = found.law.numbers(at), half = kNormal95 * found.deviation(at);
     json[numbers[k].name] = {
         {"value", value}, {"ci95", {value - half, value + half}}, {"unit", numbers[k].unit}};
   }

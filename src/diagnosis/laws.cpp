@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/law_search.h"
 #include "discovery/priors.h"
 
@@ -10,8 +11,6 @@ namespace dcnn {
 using discovery::Discovered;
 
 namespace {
-
-constexpr double kStillGained = 0.5;  // of a law's gain, once all are fitted through the chain
 
 Member member_of(const Case& study, const law::Law& law, const Json& told) {
   static const EffectFit form{.parameters = [](const Eigen::VectorXd&, const Eigen::VectorXd&) {
@@ -63,7 +62,7 @@ Laws borne(const Setting& setting, const JointFit& names, Laws laws) {
   for (const Discovered& found : laws.found) promised += found.gain;
   std::vector<Member> all = names.members;
   all.insert(all.end(), laws.members.begin(), laws.members.end());
-  if (names.chi2 - joint_fit(setting, all).chi2 < kStillGained * promised) return {};
+  if (names.chi2 - joint_fit(setting, all).chi2 < prior::kRemains * promised) return {};
   return laws;
 }
 

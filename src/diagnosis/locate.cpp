@@ -5,6 +5,7 @@
 #include <map>
 
 #include "dcnn/data/fourier.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/judgement.h"
 
 namespace dcnn {
@@ -12,7 +13,6 @@ namespace {
 
 constexpr double kSegmentSeconds = 0.5;
 constexpr int kBins = 12;
-constexpr double kOutstanding = 6.0;  // deviations: a prior
 
 double floor_power(const std::vector<Floor>& floors, Index channel) {
   const double s = floors[static_cast<std::size_t>(channel)].deviation();
@@ -72,7 +72,7 @@ Json segments(const Case& study, const Signals& left, const std::vector<Floor>& 
   const double spread = (sorted[sorted.size() * 3 / 4] - sorted[sorted.size() / 4]) / 1.349;
   double noise = 0.0;
   for (Index j = 0; j < study.channel_count(); ++j) noise += floor_power(floors, j);
-  const double high = std::max({0.0, middle + kOutstanding * spread, middle + 0.25 * noise});
+  const double high = std::max({0.0, middle + prior::kOutstanding * spread, middle + 0.25 * noise});
   std::vector<Window> found;
   for (const Window& w : windows) {
     if (w.excess <= high) continue;

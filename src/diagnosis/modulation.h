@@ -7,12 +7,6 @@
 
 namespace dcnn {
 
-/// Gain of chi-square from which on a modulation refutes a law: noise makes 18 in one of a thousand
-/// (the largest of some 24 with a degree of freedom each), a second law too faint for a name 20.
-constexpr double kModulated = 25.0;
-/// The same of a second mode, whose frequency and damping are searched for.
-constexpr double kSecondMode = 40.0;
-
 /// For each member, what more of it would explain if its strength grew, or bent, with the time, an
 /// angle, a position, a speed or a force: the most of these, beside the whole model, less what more
 /// than one number gain by chance. Near a law's relative (friction that grows with the load, a

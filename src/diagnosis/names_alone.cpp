@@ -35,7 +35,7 @@ bool NamesAlone::give_way_to(const Laws& laws) const {
   for (std::size_t j = 0; j < floors.size(); ++j) {
     noise(static_cast<Index>(j)) = floors[j].whole_deviation() * floors[j].whole_deviation();
   }
-  return holdout_.share_explained(by_laws, prediction_, noise, 1) > evidence::prior::kInPlaceOfName;
+  return holdout_.share_explained(by_laws, prediction_, noise, 1) > prior::kInPlaceOfName;
 }
 
 }  // namespace dcnn

@@ -3,17 +3,16 @@
 #include <algorithm>
 
 #include "diagnosis/axis_case.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/formula.h"
 #include "diagnosis/search.h"
 
 namespace dcnn {
-namespace {
+namespace {}  // namespace
 
-constexpr double kDependence = 40.0;  // of chi-square: a term of pose, rates, force or time
-
-}  // namespace
-
-bool Search::depends_on_motion() const { return most_of_a_term(*setting_, fit_) > kDependence; }
+bool Search::depends_on_motion() const {
+  return most_of_a_term(*setting_, fit_) > prior::kDependence;
+}
 
 /// Nothing is left, in no band and of no product of what moves.
 bool Search::is_independent() { return !is_alarming_now() && !depends_on_motion(); }

@@ -86,8 +86,8 @@ std::vector<Span> outlying(const Setting& setting, const Signals& left,
     theirs += energy, ++foreign;
   }
   // With less of the energy they decide about no number.
-  const bool are_few = static_cast<double>(foreign) <=
-                       evidence::prior::kMostForeign * static_cast<double>(all.size());
+  const bool are_few =
+      static_cast<double>(foreign) <= prior::kMostForeign * static_cast<double>(all.size());
   return are_few && theirs >= kMachineShare * whole ? spans : std::vector<Span>{};
 }
 

@@ -4,11 +4,10 @@
 
 #include "diagnosis/candidates.h"
 #include "diagnosis/confidence.h"
+#include "diagnosis/evidence/priors.h"
 
 namespace dcnn {
 namespace {
-
-constexpr double kLeftByOwn = 0.05;  // of what was missing: the rest may be another effect
 
 /// Mean square error on what was held out, in variances of each channel's noise.
 double error_of(const Search& search, const HoldOut& holdout, const JointFit& fit) {
@@ -38,7 +37,7 @@ Json take_own_numbers(Search& search, const HoldOut& holdout) {
     return holdout.log_support(predicted, by_found, search.floors()) > 0.0;
   };
   // Of a law that is none of them they explain a part.
-  const double most = kLeftByOwn * error_of(search, holdout, given);
+  const double most = prior::kNothing * error_of(search, holdout, given);
   const bool explain = error_of(search, holdout, alone) <= most;
   // One that these recordings do not show, as a tilt about an axis that gravity hardly leaves, may
   // spoil the others on new ones: they are looked at without those that are refuted too.

@@ -7,13 +7,11 @@
 
 #include "dcnn/core/number.h"
 #include "dcnn/diagnosis/diagnose.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/words.h"
 
 namespace dcnn {
 namespace {
-
-constexpr double kKnownWay = 10.0;  // factor either way
-constexpr double kTurnsAway = 3.0;  // of a rest: no cable pulls from there
 
 /// The parameter of this stem: "fc" of an axis, "fc_n" of a tool; null where there is none.
 Json numbers_of(const Json& finding, const std::string& stem) {
@@ -177,7 +175,8 @@ bool is_constant(const Json& finding) {
   if (k.is_null() || rest.is_null()) return false;
   if (k["ci95"][0].get<double>() <= 0.0 && k["ci95"][1].get<double>() >= 0.0) return true;
   constexpr double kTurn = 2.0 * std::numbers::pi;
-  return rest["unit"] == "rad" && std::abs(rest["value"].get<double>()) > kTurnsAway * kTurn;
+  return rest["unit"] == "rad" &&
+         std::abs(rest["value"].get<double>()) > prior::kMostTurnsAway * kTurn;
 }
 
 std::string constant_words(const Json& finding) {
@@ -219,7 +218,7 @@ bool is_told(const Json& number) {
   const Json& ends = number["ci95"];
   if (!ends.is_array() || ends[0].is_null() || ends[1].is_null()) return true;
   const double low = ends[0], high = ends[1];
-  return low <= 0.0 || high <= kKnownWay * kKnownWay * low;
+  return low <= 0.0 || high <= prior::kKnownWithin * prior::kKnownWithin * low;
 }
 
 Json in_lines(const Json& findings) {

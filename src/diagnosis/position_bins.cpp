@@ -190,7 +190,7 @@ double band_of_position_lines(const std::vector<Eigen::VectorXd>& forces,
   const double loud = noise * elementary::log(double(orders.size()) / kChance);
   Index last = -1;
   for (Index k = 0; k < orders.size(); ++k) {
-    if (orders(k) > loud && orders(k) > evidence::prior::kLeastPositionLine * whole) last = k;
+    if (orders(k) > loud && orders(k) > prior::kLeastPositionLine * whole) last = k;
   }
   if (last < 0) return 0.0;
   const double hz = step * static_cast<double>(begin + last) * speed / (2.0 * std::numbers::pi);

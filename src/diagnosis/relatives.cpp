@@ -5,26 +5,22 @@
 
 #include "diagnosis/axis_case.h"
 #include "diagnosis/candidates.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/modulation.h"
+#include "diagnosis/position_bins.h"
 #include "diagnosis/search.h"
 #include "physics/effect_law.h"
 
 namespace dcnn {
 namespace {
 
-constexpr double kSlowestMode = 2.0;   // Hz
-constexpr double kUnseen = 0.05;       // of a mode's gain: ringing that nobody sees the cause of
-constexpr double kLeastDoubt = 0.001;  // of a member's gain
-constexpr double kLeastDoubtBeside = 0.003;  // the same beside a law that is refuted
-constexpr double kSmallRest = 0.05;          // of what was missing
-constexpr double kSlowPart = 0.7;            // of what is left
+constexpr double kSlowestMode = 2.0;  // Hz
 
 /// A cogging beside a spring, or a hysteresis, of its angle that does not repeat itself within the
 /// motion (a cubic less its line has one period and a half): together they are a spring that bends.
 bool bends_a_spring(const Member& cogging, const std::vector<Member>& members) {
-  constexpr double kRepeats = 2.0;  // periods; the least shape makes one
   const bool once =
-      cogging.name() == "cogging" && cogging.shapes(0) < kRepeats * cogging.least_shapes(0);
+      cogging.name() == "cogging" && cogging.shapes(0) < kFewestRepeats * cogging.least_shapes(0);
   const auto angle = [](const Member& m) { return m.axis.substr(0, m.axis.find(':')); };
   return once && std::any_of(members.begin(), members.end(), [&](const Member& m) {
            const bool bends = m.name() == "cable_spring" || m.name() == "hysteresis";
@@ -39,8 +35,8 @@ bool bends_a_spring(const Member& cogging, const std::vector<Member>& members) {
 double Search::rest_loudness() const {
   if (study_.axis || is_overdispersed()) return 1.0;
   const double left = left_over(bands_);
-  const bool slow = bands_.front().excess > kSlowPart * left;
-  return slow && left < kSmallRest * explained(false) ? loudest(bands_) : 1.0;
+  const bool slow = bands_.front().excess > prior::kMostlySlow * left;
+  return slow && left < prior::kNothing * explained(false) ? loudest(bands_) : 1.0;
 }
 
 /// How far each member is from the law it is named after, above 1 refuted: it fits in some places
@@ -53,7 +49,7 @@ std::vector<double> Search::doubts(double little) {
   const auto tests = constancy(*setting_, fit_);
   const double loud = rest_loudness();
   const auto strengths = modulations(*setting_, fit_);
-  const double modulated = loud * kModulated;
+  const double modulated = loud * prior::kModulated;
   double swings = 0.0;
   for (const BandTest& band : bands_) {
     if (band.stands_out() && band.from_hz >= kSlowestMode) swings += band.excess;
@@ -62,11 +58,11 @@ std::vector<double> Search::doubts(double little) {
     if (fit_.members[m].fixed) continue;
     // An offset is no law of motion: what goes with it by so little is another effect beside it.
     const bool is_offset = fit_.members[m].kind->stage == Stage::kOffset;
-    const double slack = (is_offset ? kSmallRest : little) * std::max(0.0, net_gain(m));
+    const double slack = (is_offset ? prior::kNothing : little) * std::max(0.0, net_gain(m));
     double& apart = doubts[m];
     apart = strengths[m] > slack ? strengths[m] / modulated : 0.0;
     if (tests[m].refutes() && tests[m].excess > slack) {
-      apart = std::max(apart, tests[m].above(loud) / kInconstant);
+      apart = std::max(apart, tests[m].above(loud) / prior::kInconstant);
     }
     if (bends_a_spring(fit_.members[m], fit_.members)) apart = kInfinity;
     // Beside an offset that wanders a bias is its mean.
@@ -75,8 +71,9 @@ std::vector<double> Search::doubts(double little) {
     // or of whose remainder a second one, driven by what is seen, explains most, is one of several.
     if (fit_.members[m].kind->stage == Stage::kResonance) {
       const double second = second_mode(*setting_, fit_, fit_.members[m]);
-      const bool several = second > std::max(kSecondMode + kLeastDoubt * net_gain(m), 0.5 * swings);
-      apart = swings <= kUnseen * net_gain(m) && !several ? 0.0 : kInfinity;
+      const bool several =
+          second > std::max(prior::kSecondMode + prior::kLeastShare * net_gain(m), 0.5 * swings);
+      apart = swings <= prior::kNothing * net_gain(m) && !several ? 0.0 : kInfinity;
     }
   }
   return doubts;
@@ -84,7 +81,7 @@ std::vector<double> Search::doubts(double little) {
 
 /// Takes back the member that is least the law it is named after.
 bool Search::remove_near_laws() {
-  const std::vector<double> far = doubts(kLeastDoubt);
+  const std::vector<double> far = doubts(prior::kLeastShare);
   const auto worst = std::max_element(far.begin(), far.end());
   if (worst == far.end() || *worst <= 1.0) return false;
   const auto at = static_cast<std::size_t>(worst - far.begin());
@@ -105,8 +102,7 @@ bool Search::remove_near_laws() {
 /// to be a mere correction of it. False where there is none, and where only drifts and steps are
 /// refuted: an offset that wanders hides nothing that moves.
 bool Search::keep_unaffected() {
-  constexpr double kCorrection = 0.2;  // of what the refuted ones gain
-  const std::vector<double> far = doubts(kLeastDoubtBeside);
+  const std::vector<double> far = doubts(prior::kLeastShareBesideRefuted);
   const auto direction = [](const Member& m) { return m.axis.substr(m.axis.find(':') + 1); };
   double wrong = 0.0;
   bool moves = false;
@@ -118,7 +114,7 @@ bool Search::keep_unaffected() {
     moves = moves || fit_.members[m].kind->stage != Stage::kOffset;
   }
   if (!moves) return false;
-  const double least = std::max(kCorrection * wrong, left_over(bands_));
+  const double least = std::max(prior::kKeptOfRefuted * wrong, left_over(bands_));
   std::vector<Member> kept;
   bool any = false;
   for (std::size_t m = 0; m < far.size(); ++m) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "diagnosis/beginning.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/passed_base.h"
 
 namespace dcnn {
@@ -12,13 +13,6 @@ namespace {
 
 constexpr double kUnit =
     1e-3;  // amplitude of a column: small enough for angles, large for rounding
-// Gain, in prices, to name an effect without a number, with one, and for each further one of an
-// effect that is alone: chi-square that noise exceeds in 3 of a million trials (21.8, 25.4, 28.5,
-// 31.1 for 1 to 4). Beside others, which may be a little wrong, each number must pay its price.
-constexpr double kNone = 1.2, kFirst = 1.0, kFurtherAlone = 0.35;
-// On a machine, where a price is a share of what is left, laws are only nearly true; and held-out
-// data decide.
-constexpr double kNoneOfMachine = 2.0;
 
 /// Amplitudes an effect cannot have without being another one.
 bool is_itself(const Case& study, const Member& member) {
@@ -46,9 +40,10 @@ bool is_itself(const Case& study, const Member& member) {
 }  // namespace
 
 double least_gain(const Setting& setting, int numbers, bool alone) {
-  if (setting.study.axis) return (kNoneOfMachine + numbers) * setting.price;
-  if (!alone || numbers == 0) return (kNone + numbers) * setting.price;
-  return (kNone + kFirst + kFurtherAlone * (numbers - 1)) * setting.price;
+  if (setting.study.axis) return (prior::kTriedOnMachine + numbers) * setting.price;
+  if (!alone || numbers == 0) return (prior::kTried + numbers) * setting.price;
+  return (prior::kTried + prior::kFirstNumber + prior::kFurtherNumber * (numbers - 1)) *
+         setting.price;
 }
 
 Scan::Scan(const Setting& setting, const JointFit& fit)

@@ -8,6 +8,7 @@
 #include "diagnosis/candidates.h"
 #include "diagnosis/detectors.h"
 #include "diagnosis/events.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/law_search.h"
 #include "diagnosis/outlying.h"
 #include "diagnosis/rest.h"
@@ -15,11 +16,8 @@
 namespace dcnn {
 namespace {
 
-constexpr int kMostRounds = 6;             // of exchanges
-constexpr int kMostGrowth = 30;            // of growth: what is added may be left out again
-constexpr double kLinearError = 0.01;      // of a gain that is estimated along a tangent
-constexpr double kRoundedError = 0.4;      // the same where rounding bends every tangent
-constexpr double kDegenerateError = 0.05;  // the same beside a law whose shape is at its bound
+constexpr int kMostRounds = 6;   // of exchanges
+constexpr int kMostGrowth = 30;  // of growth: what is added may be left out again
 
 }  // namespace
 
@@ -112,7 +110,8 @@ bool Search::rings() const {
 }
 
 double Search::doubt(const Trial& trial) const {
-  return (study_.rounding_step > 0.0 ? kRoundedError : kLinearError) * trial.gain;
+  return (study_.rounding_step > 0.0 ? prior::kTangentErrorRounded : prior::kTangentError) *
+         trial.gain;
 }
 
 /// Exchanges a member for another effect that serves better in its place.
@@ -128,7 +127,8 @@ bool Search::swap() {
           trial.net_gain() < own + setting_->price) {
         continue;
       }
-      const double doubtful = is_degenerate(fit_.members[m]) ? kDegenerateError * trial.gain : 0.0;
+      const double doubtful =
+          is_degenerate(fit_.members[m]) ? prior::kTangentErrorAtBound * trial.gain : 0.0;
       if (trial.net_gain() < told - std::max({2.0 * setting_->price, doubt(trial), doubtful}))
         break;
       const std::vector<Member> members = with_member(rest.members, trial.member);

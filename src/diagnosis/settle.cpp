@@ -5,6 +5,7 @@
 #include "dcnn/data/filter.h"
 #include "diagnosis/axis_case.h"
 #include "diagnosis/base_errors.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/search.h"
 #include "physics/effect_law.h"
 
@@ -153,11 +154,10 @@ bool Search::choose_rounding_noise() {
 /// Whether the floor below this fit is far from the one that it was weighed by, as it is where its
 /// members began far from their best.
 bool Search::floor_moved() const {
-  constexpr double kFar = 1.5;
   const Signals left = unfiltered_left(study_, fit_.members);
   const auto now = noise_floor(study_, left, noise_level(study_, left));
   for (std::size_t j = 0; j < now.size(); ++j) {
-    if (floors_[j].deviation() > kFar * now[j].deviation()) return true;
+    if (floors_[j].deviation() > prior::kFloorMoved * now[j].deviation()) return true;
   }
   return false;
 }
@@ -182,13 +182,12 @@ void Search::settle(const std::vector<Member>& members) {
   // and so does a number's price (McCullagh and Nelder, Generalized Linear Models, 1989, 4.5). A
   // machine always leaves something, in far fewer independent rows than it has. Of a tool that
   // moves an unknown is weighed in its own terms, and laws are looked for in it.
-  constexpr double kSlowNoisePrice = 20.0;
   const double share = study_.axis          ? kMachineShare
                        : is_overdispersed() ? kNumberPrice / setting_->mask.sum()
                                             : 0.0;
   setting_->price = std::max(kNumberPrice, share * fit_.chi2);
   // Of noise that rises as 1/f the next recording would show another slope.
-  if (!slow_.empty()) setting_->price = std::max(kSlowNoisePrice, setting_->price);
+  if (!slow_.empty()) setting_->price = std::max(prior::kPriceInSlowNoise, setting_->price);
   forget_places();
 }
 

@@ -67,7 +67,7 @@ void fit_links(std::vector<LoadedCase>& cases) {
   for (std::size_t j = 0; j < cases.size(); ++j) {
     const auto joint = static_cast<Index>(j);
     set_sense(cases[j], model.turned(joint) * senses(joint));
-    const double alone = evidence::updated(evidence::prior::kName, regression.log_support_alone(j));
+    const double alone = evidence::updated(prior::kName, regression.log_support_alone(j));
     if (alone > 0.5) continue;
     AxisPlan plan = *cases[j].fit.axis;
     plan.columns = columns;

@@ -10,12 +10,9 @@
 namespace dcnn {
 namespace {
 
-namespace prior = evidence::prior;
-
-constexpr double kSlow = 10.0;       // Hz, below which slow noise is looked for
-constexpr double kCorner = 3.0;      // of the log-likelihood, that a corner must gain as one number
-constexpr double kRatio = 1.2;       // from one corner or level that is tried to the next
-constexpr double kLeastLevel = 0.1;  // that is tried, of the floor
+constexpr double kSlow = 10.0;               // Hz, below which slow noise is looked for
+constexpr double kRatio = 1.2;               // from one corner or level that is tried to the next
+constexpr double kLeastLevel = 0.1;          // that is tried, of the floor
 constexpr std::size_t kFewestSlowBins = 16;  // that tell a form
 
 /// Periodograms of whole segments below kSlow.
@@ -62,7 +59,7 @@ std::vector<Cell> gathered(const std::vector<SlowBin>& bins) {
 struct Form {
   double corner_hz = 0.0;  ///< 0 for the former
   double slope = 1.0;
-  double price() const { return corner_hz > 0.0 || slope != 1.0 ? kCorner : 0.0; }
+  double price() const { return corner_hz > 0.0 || slope != 1.0 ? prior::kSlowNoiseNumber : 0.0; }
 };
 
 /// The likeliest level of a form in one channel, none included, and its log-likelihood (Whittle).
@@ -141,7 +138,8 @@ std::optional<std::vector<SlowPart>> slow_parts(const Case& study, const Signals
     for (const Leveled& channel : all[k]) likelihood += channel.likelihood;
     if (likelihood > together) together = likelihood, shared = k;
   }
-  if (together >= apart - kCorner * (static_cast<double>(channels) - 1.0)) own = all[shared];
+  if (together >= apart - prior::kSlowNoiseNumber * (static_cast<double>(channels) - 1.0))
+    own = all[shared];
   std::vector<SlowPart> result;
   for (const Leveled& channel : own) result.push_back(channel.part);
   return result;

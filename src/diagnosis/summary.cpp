@@ -4,13 +4,12 @@
 
 #include "dcnn/diagnosis/diagnose.h"
 #include "dcnn/physics/effect_words.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/plain_findings.h"
 #include "diagnosis/words.h"
 
 namespace dcnn {
 namespace {
-
-constexpr double kFar = 1.2;  // times its noise: a held-out error that calls for a word
 
 /// The channel on which the findings gain most.
 std::size_t telling_channel(const Json& fit) {
@@ -39,7 +38,7 @@ std::string change_of(const Json& report, std::size_t j) {
 std::string other_channels(const Json& report, std::size_t named) {
   const Json& fit = report["fit"];
   std::string text;
-  double most = kFar;
+  double most = prior::kMostOverNoise;
   std::size_t worst = named;
   for (std::size_t j = 0; j < report["targets"].size(); ++j) {
     const double before = fit["holdout_rmse_before"][j], after = fit["holdout_rmse_after"][j];
@@ -63,9 +62,8 @@ std::string capitalised(std::string text) {
 /// Whether the held-out error is, to half a percent, the same without it: a contact in a recording
 /// of the fit, or a law that the held-out motion does not show.
 bool is_without_effect(const Json& finding) {
-  constexpr double kLeastGain = 0.005;
   const Json& gain = finding["holdout_gain"];
-  return !gain.is_null() && std::abs(gain.get<double>()) < kLeastGain;
+  return !gain.is_null() && std::abs(gain.get<double>()) < prior::kLeastHeldOutGain;
 }
 
 /// " (held-out tx and tz speak against it)", of a finding that other channels bear out.
@@ -137,14 +135,13 @@ Missing what_is_missing(const Json& report) {
 /// Targets that vary above their noise, of whose variation the simulator as given explains nothing,
 /// and how many do vary.
 std::pair<std::vector<std::string>, std::size_t> unexplained_targets(const Json& report) {
-  constexpr double kVaries = 1.5;  // times the noise, as a root mean square about the mean
   const Json& fit = report["fit"];
   std::pair<std::vector<std::string>, std::size_t> result;
   const Json explained = fit.value("holdout_explained_before", Json());
   for (std::size_t j = 0; j < explained.size(); ++j) {
     if (explained[j].is_null()) continue;
     const double measured = fit["holdout_rms_measured"][j], noise = heldout_noise(fit)[j];
-    if (measured <= kVaries * noise) continue;
+    if (measured <= prior::kVaries * noise) continue;
     ++result.second;
     if (explained[j].get<double>() <= 0.0) result.first.push_back(report["targets"][j]);
   }
@@ -186,7 +183,7 @@ std::string noise_words(const Json& report, std::size_t j) {
   const Json& fit = report["fit"];
   const double noise = heldout_noise(fit)[j];
   if (noise >= (1.0 - kSame) * fit["holdout_rmse_after"][j].get<double>()) {
-    return "the sensor's noise may be all of it";
+    return "all of it may be the sensor's noise";
   }
   return "the sensor's noise is " + brief(noise) + " " +
          unit_text(report["units"][j].get<std::string>());
@@ -209,10 +206,10 @@ std::string consistent(const Json& report) {
   };
   const std::string target = report["targets"][worst].get<std::string>();
   return "Nothing is missing: the simulator leaves " + number(fit["holdout_rmse_after"]) +
-         " on held-out " + target + ", " + noise_words(report, worst) +
-         (ratio(worst) > kFar ? "; the noise of the measured motion, or what the fitted recordings "
-                                "leave as well, makes the rest."
-                              : ".");
+         " on held-out " + target + "; " + noise_words(report, worst) +
+         (ratio(worst) > prior::kMostOverNoise ? ". The noise of the measured motion, or what the "
+                                                 "fitted recordings leave as well, makes the rest."
+                                               : ".");
 }
 
 /// Where something simpler does better than all that was found, on any channel: a constant, or the
@@ -246,7 +243,7 @@ std::string answer(const Json& report) {
   if (report["verdict"] == "consistent") return consistent(report);
   const Missing missing = what_is_missing(report);
   return missing.words + ". The hold-out error of " + report["targets"][j].get<std::string>() +
-         " " + change_of(report, j) + ", " + noise_words(report, j) + other_channels(report, j) +
+         " " + change_of(report, j) + "; " + noise_words(report, j) + other_channels(report, j) +
          "." +
          (missing.others.empty() ? ""
                                  : " In the fitted recordings, without effect on the held-out "

@@ -4,13 +4,12 @@
 #include <string>
 
 #include "diagnosis/candidates.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/gear_order.h"
 #include "diagnosis/search.h"
 
 namespace dcnn {
 namespace {
-
-constexpr double kKnownFactor = 10.0;  // factor either way, beyond which a shape is not known
 
 constexpr double kAtEnd = 1e-3;  // of a shape: tolerance of a bound
 
@@ -18,7 +17,7 @@ constexpr double kAtEnd = 1e-3;  // of a shape: tolerance of a bound
 /// decades.
 bool spans_decades(const Estimate& number) {
   return number.value > 0.0 &&
-         number.high > kKnownFactor * kKnownFactor * std::max(0.0, number.low);
+         number.high > prior::kKnownWithin * prior::kKnownWithin * std::max(0.0, number.low);
 }
 
 /// An offset that settles with the clock.

@@ -4,6 +4,7 @@
 
 #include "diagnosis/candidates.h"
 #include "diagnosis/detectors.h"
+#include "diagnosis/evidence/priors.h"
 #include "diagnosis/impacts.h"
 #include "diagnosis/left_out.h"
 #include "diagnosis/search.h"
@@ -56,8 +57,9 @@ std::optional<Member> Search::heard_hum(const Signals& left) const {
   const double line = 0.5 * hum->amplitudes.squaredNorm() * rows;
   if (study_.axis && line < 0.002 * power) return std::nullopt;
   // Nor is it motion too small for the encoder to show.
-  return line > kLeastLine * unseen_motion(study_, fit_.members, hum->shapes(0)) ? hum
-                                                                                 : std::nullopt;
+  return line > prior::kLeastLine * unseen_motion(study_, fit_.members, hum->shapes(0))
+             ? hum
+             : std::nullopt;
 }
 
 /// Whether a line that was heard before anything was found is none beside that: what a motion that
@@ -105,7 +107,7 @@ bool Search::still_has_impacts() {
 /// often: a coincidence of a few moments, not a law. (An event has too few seconds for this test.)
 /// A delay or a lag at the end of its range is no estimate, but what comes nearest to another law.
 void Search::drop_coincidences() {
-  constexpr double kMostLikely = 0.05, kCertain = 50.0;
+  constexpr double kMostLikely = 0.05;
   if (study_.is_static() || study_.without.flips) return;
   while (true) {
     double most = kMostLikely;
@@ -114,7 +116,8 @@ void Search::drop_coincidences() {
       if (stays(fit_.members[m]) || fit_.members[m].interval_s) continue;
       const bool estimate =
           fit_.members[m].amplitudes.size() > 0 || !is_degenerate(fit_.members[m]);
-      if (estimate && net_gain(m) > kCertain * setting_->price) continue;  // nor have a few moves
+      if (estimate && net_gain(m) > prior::kCertainGain * setting_->price)
+        continue;  // nor have a few moves
       const double p = estimate ? flip_p_value(*setting_, fit_, m) : 1.0;
       if (p > most) most = p, worst = m;
     }
@@ -150,7 +153,6 @@ void Search::drop_unconfirmed() {
 /// Takes back what a remainder nobody can name makes doubtful: events, but for those of which only
 /// the shape is a little off, and members that fit in some places and not in others.
 void Search::judge() {
-  constexpr double kPlain = 20.0;         // times what is left, that an event explains
   constexpr double kWithoutEvents = 0.2;  // of a search's limit, at least
   drop_coincidences();
   drop_unconfirmed();
@@ -172,7 +174,7 @@ void Search::judge() {
   if (events_allowed_) {
     events_allowed_ = false;
     std::vector<Member> rest;
-    const double plain = kPlain * left_over(bands_);
+    const double plain = prior::kPlainEvent * left_over(bands_);
     for (std::size_t m = 0; m < fit_.members.size(); ++m) {
       if (!fit_.members[m].interval_s || net_gain(m) > plain) rest.push_back(fit_.members[m]);
     }
@@ -203,7 +205,6 @@ void Search::judge() {
 /// time on which it was not fitted; and a mode must be one after its fit as before it. Whether any
 /// was left out.
 bool Search::keep_what_carries_over() {
-  constexpr double kMostOfIt = 0.5;
   const std::size_t refuted = refuted_.size();
   std::vector<Member> members;
   const Scan scan(*setting_, fit_);
@@ -217,7 +218,7 @@ bool Search::keep_what_carries_over() {
     // Of those that do not, what explains least: beside it another may not seem to help either.
     std::optional<std::size_t> least;
     for (std::size_t m = 0; m < shares.size(); ++m) {
-      if (shares[m] < kMostOfIt && (!least || gain(m) < gain(*least))) least = m;
+      if (shares[m] < prior::kRemains && (!least || gain(m) < gain(*least))) least = m;
     }
     if (!least) break;
     refuted_.push_back(fit_.members[*least]);

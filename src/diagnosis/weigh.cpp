@@ -68,7 +68,7 @@ void Search::weigh() {
   // A spectrum a little above the floor alone is noise, and a field alone the error of a law: what
   // remains depends on what moves, or has more power than noise of a free spectrum.
   const bool unknown = posterior_.named_and_unknown + posterior_.unknown > 0.5;
-  const bool loud = loudest(bands_) > evidence::prior::kMostFreeNoise;
+  const bool loud = loudest(bands_) > prior::kMostFreeNoise;
   remains_ = (remains_ || unknown) && (loud || depends_on_motion());
 }
 

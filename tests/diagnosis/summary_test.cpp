@@ -32,7 +32,7 @@ TEST(Headline, BeginsWithWhatTheHeldOutErrorTellsOf) {
   const Json report = summary_report(
       Json::array({finding_of("a contact of 3 N", 0.0), finding_of("dry friction of 0.4 N", 0.9)}));
   EXPECT_EQ(headline(report),
-            "Dry friction of 0.4 N. The hold-out error of fx falls from 1 to 0.04 N, the sensor's "
+            "Dry friction of 0.4 N. The hold-out error of fx falls from 1 to 0.04 N; the sensor's "
             "noise is 0.039 N. In the fitted recordings, without effect on the held-out error: a "
             "contact of 3 N.");
 }
@@ -85,13 +85,13 @@ TEST(Headline, WhereNothingIsMissingSpeaksOfTheWorstChannel) {
   report["verdict"] = "consistent";
   report["fit"]["holdout_rmse_after"] = {0.04, 0.55};
   EXPECT_EQ(headline(report),
-            "Nothing is missing: the simulator leaves 0.55 N on held-out fy, the sensor's noise is "
+            "Nothing is missing: the simulator leaves 0.55 N on held-out fy; the sensor's noise is "
             "0.49 N.");
   report["fit"]["holdout_rmse_after"] = {0.08, 0.55};
   EXPECT_EQ(
       headline(report),
-      "Nothing is missing: the simulator leaves 0.08 N on held-out fx, the sensor's noise is "
-      "0.039 N; the noise of the measured motion, or what the fitted recordings leave as well, "
+      "Nothing is missing: the simulator leaves 0.08 N on held-out fx; the sensor's noise is "
+      "0.039 N. The noise of the measured motion, or what the fitted recordings leave as well, "
       "makes the rest.");
 }
 
@@ -100,8 +100,8 @@ TEST(Headline, SaysThatNoiseWhichTheErrorBoundsMayBeAllOfIt) {
   Json report = summary_report(Json::array({finding_of("dry friction of 0.4 N", 0.9)}));
   report["fit"]["noise_floor"] = {0.04, 0.5};
   EXPECT_EQ(headline(report),
-            "Dry friction of 0.4 N. The hold-out error of fx falls from 1 to 0.04 N, the sensor's "
-            "noise may be all of it.");
+            "Dry friction of 0.4 N. The hold-out error of fx falls from 1 to 0.04 N; all of it "
+            "may be the sensor's noise.");
 }
 
 TEST(Headline, SaysThatALawLeavesNothingElse) {
