@@ -14,7 +14,9 @@ namespace {
 constexpr double kLongestDelay = 0.6;  // s, as delays are looked for (effects/time_delay.cpp)
 constexpr int kDelays = 60;            // either way: steps that no motion below 10 Hz turns in
 
-/// Offset, position, velocity and acceleration of one recording, and its reading.
+/// Offset, velocity, acceleration, position of one recording, of a turning axis its sine and cosine
+/// (a link in gravity), and its reading.
+constexpr Index kColumns = 6, kWithoutGravity = 4, kVelocity = 1, kAcceleration = 2;
 struct LaggedRows {
   Eigen::MatrixXd motion;
   Eigen::VectorXd reading;
@@ -25,8 +27,9 @@ struct LaggedRows {
 
 /// Sums of a regression of the reading on the motion `delay` rows before.
 struct LaggedSums {
-  Eigen::Matrix4d gram = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d match = Eigen::Vector4d::Zero();
+  Eigen::Matrix<double, kColumns, kColumns> gram =
+      Eigen::Matrix<double, kColumns, kColumns>::Zero();
+  Eigen::Vector<double, kColumns> match = Eigen::Vector<double, kColumns>::Zero();
   double square = 0.0, sum = 0.0, rows = 0.0;
 
   void add(const LaggedRows& log, Index delay) {
@@ -50,15 +53,17 @@ struct SenseFit {
   double left = 1.0;  ///< share of the reading's variance
 };
 
-SenseFit sense_fit(const LaggedSums& sums) {
-  const Eigen::Vector4d scale = sums.gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  Eigen::Matrix4d scaled = scale.asDiagonal() * sums.gram * scale.asDiagonal();
+/// Of the first so many columns.
+SenseFit sense_fit(const LaggedSums& sums, Index columns) {
+  const Eigen::MatrixXd gram = sums.gram.topLeftCorner(columns, columns);
+  const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
   scaled.diagonal().array() += 1e-9;
-  const Eigen::Matrix4d inverse = scaled.inverse();
-  const Eigen::Vector4d match = scale.cwiseProduct(sums.match);
+  const Eigen::MatrixXd inverse = scaled.inverse();
+  const Eigen::VectorXd match = scale.cwiseProduct(sums.match.head(columns));
   // In units of their own deviations, up to the noise's.
-  const Eigen::Vector4d estimate = (inverse * match).cwiseQuotient(inverse.diagonal().cwiseSqrt());
-  const double along_v = estimate(2), along_a = estimate(3);
+  const Eigen::VectorXd estimate = (inverse * match).cwiseQuotient(inverse.diagonal().cwiseSqrt());
+  const double along_v = estimate(kVelocity), along_a = estimate(kAcceleration);
   const double variance = sums.square - sums.sum * sums.sum / std::max(1.0, sums.rows);
   SenseFit fit;
   fit.sense = (std::abs(along_v) > std::abs(along_a) ? along_v : along_a) < 0.0 ? -1.0 : 1.0;
@@ -85,11 +90,20 @@ LaggedRows lagged_rows(const Recording& recording, const System& system, const A
   LaggedRows rows;
   const Motion motion = axis_motion(recording, axis, derivative);
   if (motion.v_B.rows() == 0) return rows;
-  rows.motion.resize(motion.samples(), 4);
+  rows.motion = Eigen::MatrixXd::Zero(motion.samples(), kColumns);
   rows.motion.col(0).setOnes();
-  rows.motion.col(1).setZero();
-  if (recording.has(axis.position)) rows.motion.col(1) = recording.column(axis.position);
-  rows.motion.rightCols(2) << motion.v_B.col(0), motion.a_B.col(0);
+  rows.motion.col(kVelocity) = motion.v_B.col(0);
+  rows.motion.col(kAcceleration) = motion.a_B.col(0);
+  if (recording.has(axis.position)) {
+    const Eigen::VectorXd q = recording.column(axis.position);
+    rows.motion.col(3) = q;
+    if (axis.position_unit == "rad") {
+      for (Index i = 0; i < q.size(); ++i) {
+        rows.motion(i, 4) = elementary::sin(q(i));
+        rows.motion(i, 5) = elementary::cos(q(i));
+      }
+    }
+  }
   rows.reading = without_spikes(measured(recording, target, system, true).col(0));
   rows.segments = recording.segments;
   rows.dt = recording.dt;
@@ -103,7 +117,7 @@ double turns_of(const std::vector<LaggedRows>& logs) {
   double turns = 0.0;
   for (const LaggedRows& log : logs) {
     for (Index i = 1; i < log.motion.rows(); ++i) {
-      turns += log.motion(i, 2) * log.motion(i - 1, 2) < 0.0;
+      turns += log.motion(i, kVelocity) * log.motion(i - 1, kVelocity) < 0.0;
     }
   }
   return turns;
@@ -129,7 +143,8 @@ double sense_of(const std::vector<Recording>& recordings, const System& system, 
     for (const LaggedRows& log : logs) {
       sums.add(log, std::llround(kStep * k / log.dt));
     }
-    const SenseFit fit = sense_fit(sums);
+    // Behind a delay a sine of the position is no weight: it would stand for friction's harmonics.
+    const SenseFit fit = sense_fit(sums, k == 0 ? kColumns : kWithoutGravity);
     // Of a motion to and fro half a period later is the opposite: the shorter delay is likelier.
     const double prior = k == 0 ? 0.0 : delayed - kStep * std::abs(k) / kUsual;
     const double likely = -0.5 * turns * elementary::log(std::max(fit.left, 1e-12)) + prior;

@@ -14,7 +14,7 @@ namespace dcnn {
 namespace {
 
 /// Those with a value; a logged signal's name is none.
-FoundNumbers found_numbers(const Json& parameters, const Axis& axis) {
+FoundNumbers found_numbers(const Json& parameters) {
   std::vector<FoundNumber> found;
   for (const auto& [name, number] : parameters.items()) {
     const auto end = [&](std::size_t k) {
@@ -24,7 +24,7 @@ FoundNumbers found_numbers(const Json& parameters, const Axis& axis) {
     found.push_back({name, unit_text(number["unit"].get<std::string>()),
                      number["value"].get<double>(), end(0), end(1), is_told(number)});
   }
-  return {std::move(found), true, axis.position_unit == "rad"};
+  return {std::move(found), true};
 }
 
 }  // namespace
@@ -45,8 +45,8 @@ std::string axis_words(const Json& finding, const Axis& axis, const std::string&
   }
   if (is_constant(finding)) return constant_words(finding) + " on " + axis.name;
   const EffectKind* kind = find_effect(id);
-  const std::string what = kind && kind->words ? kind->words(found_numbers(numbers, axis))
-                                               : words_of_effect(id, axis.name);
+  const std::string what =
+      kind && kind->words ? kind->words(found_numbers(numbers)) : words_of_effect(id, axis.name);
   return what + " on " + axis.name;
 }
 

@@ -208,8 +208,12 @@ double seed_scale(const std::string& axis) {
 
 bool is_listed(const Case& study, const EffectKind& kind) {
   if (study.without.effects.count(kind.name) > 0) return false;
-  if (!study.axis) return kind.subject != EffectKind::Subject::kMachines;
-  return kind.stage != Stage::kTool && kind.subject != EffectKind::Subject::kTools;
+  using Subject = EffectKind::Subject;
+  if (!study.axis) return kind.subject == Subject::kAny || kind.subject == Subject::kTools;
+  if (kind.subject == Subject::kTurning) {
+    return study.axis->axis().position_unit == "rad" && study.axis->system.arm.is_null();
+  }
+  return kind.stage != Stage::kTool && kind.subject != Subject::kTools;
 }
 
 std::vector<std::string> axes_of(const Case& study, const EffectKind& kind) {

@@ -62,7 +62,7 @@ FoundNumbers found_numbers(const Estimates& numbers) {
     found.push_back({stem_of_parameter(e.name), unit_text(e.unit), e.value, e.low, e.high,
                      is_told({{"ci95", {e.low, e.high}}})});
   }
-  return {std::move(found), false, false};
+  return {std::move(found), false};
 }
 
 std::string effect_in_words(const Member& member, const Estimates& numbers) {

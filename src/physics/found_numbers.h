@@ -15,12 +15,11 @@ struct FoundNumber {
 
 class FoundNumbers {
  public:
-  /// `on_machine`: on an axis of a machine, whose position `turns` (rad).
-  FoundNumbers(std::vector<FoundNumber> numbers, bool on_machine, bool turns)
-      : numbers_(std::move(numbers)), on_machine_(on_machine), turns_(turns) {}
+  /// `on_machine`: on an axis of a machine.
+  FoundNumbers(std::vector<FoundNumber> numbers, bool on_machine)
+      : numbers_(std::move(numbers)), on_machine_(on_machine) {}
 
   bool on_machine() const { return on_machine_; }
-  bool turns() const { return turns_; }
   const std::vector<FoundNumber>& all() const { return numbers_; }
   bool has(const std::string& stem) const { return find(stem) != nullptr; }
   /// 0 where it is not there.
@@ -45,7 +44,7 @@ class FoundNumbers {
  private:
   const FoundNumber* find(const std::string& stem) const;
   std::vector<FoundNumber> numbers_;
-  bool on_machine_, turns_;
+  bool on_machine_;
 };
 
 /// "12 mm" of 0.012 and "mm".

@@ -18,7 +18,7 @@ std::vector<const EffectKind*> fitted_kinds() {
   std::vector<const EffectKind*> kinds;
   for (const auto* kind : effect_kinds()) {
     // What shows in torques alone: wrench_test
-    if (!kind->fits.empty() && kind->subject != EffectKind::Subject::kMachines &&
+    if (!kind->fits.empty() && kind->subject < EffectKind::Subject::kMachines &&
         kind->force != Shown::kNever)
       kinds.push_back(kind);
   }

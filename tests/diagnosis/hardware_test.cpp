@@ -145,6 +145,19 @@ TEST(DiagnoseHardware, NamesASpringThatBendsToOneSideAndAPlainOne) {
   EXPECT_EQ(found(plain), (Names{"cable_spring", "coulomb_friction"})) << plain["findings"].dump(1);
 }
 
+TEST(DiagnoseHardware, NamesTheWeightOfALoadOffTheAxis) {
+  const AxisLaw hanging = [](const AxisState& s) {
+    return 1.2 * std::sin(s.q - 0.3) + 0.5 * dry(s.v);
+  };
+  const Json report = report_on(hanging, hanging);
+  EXPECT_EQ(found(report), (Names{"coulomb_friction", "gravity_load"}))
+      << report["findings"].dump(1);
+  if (const Json* load = named(report, "gravity_load")) {
+    EXPECT_NEAR(told(*load, "amp"), 1.2, 0.03);
+    EXPECT_NEAR(told(*load, "rest"), 0.3, 0.03);
+  }
+}
+
 /// Bouc and Wen's z by Euler's steps, beta 1, over a width of 0.5 rad.
 AxisLaw boucwen(double gamma) {
   return [gamma, z = 0.0, before = std::optional<double>()](const AxisState& s) mutable {

@@ -111,6 +111,32 @@ TEST(AxisSense, OfAMotionToAndFroIsToldAtTheShorterDelay) {
   }
 }
 
+/// A swing-up: the weight is most of the torque, and its sine is no line of the position.
+TEST(AxisSense, OfAPendulumIsNotThatOfItsWeight) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "swings.csv";
+  write_file(folder / "machine.json", machine({"acceleration"}).dump());
+  System system = read_system(folder / "machine.json");
+  system.axes[0].velocity = system.axes[0].acceleration = "";
+  system.axes[0].position_unit = "rad";
+  for (const double sense : {1.0, -1.0}) {
+    Rng rng({7});
+    Table table{{"t", "pos", "torque"}, Eigen::MatrixXd(2000, 3)};
+    for (Index k = 0; k < table.values.rows(); ++k) {
+      // Swings that grow, and a turn over the top.
+      const double t = 0.004 * static_cast<double>(k), w = 5.0, grow = 0.35 * t;
+      const double q = grow * std::sin(w * t),
+                   v = 0.35 * std::sin(w * t) + grow * w * std::cos(w * t),
+                   a = 0.7 * w * std::cos(w * t) - grow * w * w * std::sin(w * t);
+      const double drive = 0.17 * a + 3.5 * std::sin(q) + 0.11 * std::tanh(v / 0.05);
+      table.values.row(k) << t, q + 1e-3 * rng.normal(), sense * drive + 0.1 * rng.normal();
+    }
+    write_csv(path, table);
+    const std::vector<Recording> logs{read_recording(path, {}, system)};
+    EXPECT_EQ(sense_of(logs, system, system.axes[0], {}), sense);
+  }
+}
+
 TEST(NamePrior, FrictionIsTheRuleOnAMachineAlone) {
   const auto rare = [](double p) { return elementary::log(p / (1.0 - p)); };
   Case tool, axis;

@@ -61,7 +61,7 @@ TEST(Friction, OnlyTakesEnergyOut) {
   const VectorXd v = swing(0.02, 1.0, 500);
   for (const auto* kind : effect_kinds()) {
     const std::string name = kind->name;
-    if (kind->axis != AxisRule::kLine || kind->subject == EffectKind::Subject::kMachines) continue;
+    if (kind->axis != AxisRule::kLine || kind->subject >= EffectKind::Subject::kMachines) continue;
     EXPECT_LT(friction_force(example_effect(*kind), v).dot(v), 0.0) << name;
     if (name == "lugre_friction") continue;  // gives back what its bristles hold
     EXPECT_LE(friction_force(example_effect(*kind), v).cwiseProduct(v).maxCoeff(), 0.0) << name;

@@ -93,6 +93,14 @@ TEST(QuadraticSpring, PullsOneWayWithTheSquare) {
   EXPECT_LT((force - Vector3d(0.0, -0.75, -0.75)).norm(), 1e-12);
 }
 
+TEST(GravityLoad, PullsTowardsWhereItHangs) {
+  const auto effect =
+      make_effect("gravity_load", "alpha:base_x", {{"amp_n", 3.0}, {"rest_rad", 0.2}});
+  const Vector3d q(0.2, 0.7, 0.2 - std::numbers::pi / 2.0);
+  const VectorXd force = applied(effect, axis_at(q, Vector3d::Zero()), no_wrench(3)).force.col(0);
+  EXPECT_LT((force - Vector3d(0.0, -3.0 * std::sin(0.5), 3.0)).norm(), 1e-12);
+}
+
 TEST(AsymmetricFriction, HasAnotherCoefficientInEachDirection) {
   // 3 forwards and 2 backwards are 2.5 in the mean and half a difference of 0.5.
   const Motion motion = axis_at(Eigen::Vector2d::Zero(), Eigen::Vector2d(0.4, -0.4));

@@ -149,12 +149,13 @@ struct EffectKind {
   AxisRule axis = AxisRule::kNone;
   IntervalRule interval = IntervalRule::kOptional;
   TimeNeed needs_time =
-      TimeNeed::kNone;         ///< what it needs to act, else it leaves the wrench as it is
-  /// What the diagnosis looks for it on: tools, axes of other machines, or both.
-  enum class Subject { kAny, kTools, kMachines };
+      TimeNeed::kNone;  ///< what it needs to act, else it leaves the wrench as it is
+  /// What the diagnosis looks for it on: tools, axes of other machines, or both. kTurning: axes
+  /// that turn by rad and whose gravity no description of an arm holds.
+  enum class Subject { kAny, kTools, kMachines, kTurning };
   Subject subject = Subject::kAny;
   Shown force = Shown::kAlways, torque = Shown::kAlways;  ///< in the forces, in the torques
-  bool of_load = false;        ///< needs Wrench::load
+  bool of_load = false;                                   ///< needs Wrench::load
   /// A relative of a commoner law, which it must outdo by the price of a number (prior::kSpecial).
   bool special = false;
   /// Nearly every machine has it (prior::kCommon).

@@ -12,16 +12,10 @@ auto law(Options& parameters) {
   return [=](double q) { return amp * elementary::sin(order * q + phase); };
 }
 
-/// On a machine once a turn as that of a weight on a turning axis is.
 std::string words(const FoundNumbers& n) {
-  if (!n.on_machine()) {
-    return "a force of " + n("amp") + " that repeats " + n.plain("order") + " times a turn";
-  }
-  if (n.turns() && n.holds("order", 1.0)) {
-    return "a force of " + n.size("amp") +
-           " that goes with the sine of the position, as the weight of a load off its axis";
-  }
-  return "cogging of " + n.size("amp") + " that repeats with order " + n.plain("order");
+  return n.on_machine()
+             ? "cogging of " + n.size("amp") + " that repeats with order " + n.plain("order")
+             : "a force of " + n("amp") + " that repeats " + n.plain("order") + " times a turn";
 }
 
 }  // namespace
