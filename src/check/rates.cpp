@@ -61,6 +61,11 @@ double rate_cost(const Eigen::MatrixXd& logged, const RateMeaning& meaning, doub
          elementary::log(std::max(variance + kRateError * kRateError * size, 1e-300));
 }
 
+double unrelated_cost(const Eigen::MatrixXd& logged, const Eigen::MatrixXd& rate,
+                      double independent) {
+  return rate_cost(logged, {rate, 0.0, "unrelated"}, independent);
+}
+
 std::vector<JointRate> joint_rates(const Log& log, const Sampled& rows, const Reading& reading) {
   std::vector<JointRate> out;
   const double dt = log.step * reading.clock;
@@ -94,6 +99,8 @@ double rates_weight(const Log& log, const Sampled& rows, const Reading& reading)
       if (all.size() <= k) all.push_back(elementary::log(prior));
       all[k] += weight;
     }
+    terms.push_back(elementary::log(kFaultPrior) -
+                    unrelated_cost(joint.logged, joint.meanings[0].rate, independent));
     each += log_sum(as_vector(terms));
   }
   if (all.empty()) return 0.0;

@@ -20,6 +20,11 @@ std::vector<RateMeaning> rate_meanings(const Eigen::MatrixXd& rate, bool turns, 
 /// -ln of the likelihood of the logged rate, SI, as one meaning has it.
 double rate_cost(const Eigen::MatrixXd& logged, const RateMeaning& meaning, double independent);
 
+/// The same where the logged rate does not follow the position at all: a joint at rest, or positions
+/// that are held or too coarse to be differentiated. No other meaning explains less than that.
+double unrelated_cost(const Eigen::MatrixXd& logged, const Eigen::MatrixXd& rate,
+                      double independent);
+
 struct JointRate {
   std::string channel;
   Eigen::MatrixXd logged;  ///< (n,1), smoothed, in units of the file

@@ -11,4 +11,11 @@ void fix_blocking() {
   if (!fixed) Eigen::setCpuCacheSizes(kFirst, kSecond, kThird);
 }
 
+namespace {
+
+// Whatever of the library is called first.
+[[maybe_unused]] const bool kIsFixed = (fix_blocking(), true);
+
+}  // namespace
+
 }  // namespace dcnn

@@ -30,10 +30,10 @@ class ArmFitter {
       : chain_(chain), logs_(logs), joints_(static_cast<Index>(chain.joints.size())) {
     fit_.drives.resize(chain.joints.size());
     // Friction and rotors are not seen where no joint moves.
-    const bool at_rest =
+    at_rest_ =
         std::all_of(logs.begin(), logs.end(), [](const ArmLog& log) { return log.clock.at_rest; });
     for (Drive& drive : fit_.drives) {
-      if (at_rest) drive.terms = {DriveTerm::kOffset};
+      if (at_rest_) drive.terms = {DriveTerm::kOffset};
     }
     for (std::size_t j = 0; drive_gains && j < fit_.drives.size(); ++j) {
       fit_.drives[j].terms.push_back(DriveTerm::kGain);
@@ -55,7 +55,7 @@ class ArmFitter {
   void refine() {
     for (int round = 0; round < kRounds; ++round) {
       solve();
-      if (round % 2 == 0) choose_paths();  // each costs a search over two shapes
+      if (round % 2 == 0 && !at_rest_) choose_paths();  // each costs a search over two shapes
     }
   }
 
@@ -257,6 +257,7 @@ class ArmFitter {
 
   /// Adds terms while Schwarz's criterion, with the rows that count, gains.
   void choose_terms() {
+    if (at_rest_) return;
     for (std::size_t j = 0; j < fit_.drives.size(); ++j) {
       double rows = 0.0;
       for (const ArmLog& log : logs_) rows += static_cast<double>(log.torque.rows());
@@ -276,6 +277,7 @@ class ArmFitter {
   const JointChain& chain_;
   std::vector<ArmLog>& logs_;
   Index joints_, size_ = 0;
+  bool at_rest_ = false;
   ArmFit fit_;
 };
 

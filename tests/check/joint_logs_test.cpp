@@ -98,5 +98,29 @@ TEST(JointLogs, AMotorThatTurnsToAndFroIsNotInDegrees) {
   EXPECT_LT(probability_of(report_of(table), "angle_unit", "q_1"), check::kLikely);
 }
 
+// Positions that are new every ten rows of an uneven clock, beside a drive's own rates: what is
+// derived of them says nothing of units.
+TEST(JointLogs, PositionsThatAreHeldSayNothingOfTheUnitsOfRates) {
+  Table table{{"t", "q_1", "q_2", "qd_1", "qd_2", "tau_1", "tau_2"}, Eigen::MatrixXd(6000, 7)};
+  Rng rng({23});
+  double t = 0.0, held = 0.0;
+  for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+    t += 0.0025 + 0.001 * rng.uniform(-1.0, 1.0);
+    const double v = 0.13 * std::cos(0.5 * t);
+    if (i % 10 == 0 || rng.uniform() < 0.02) held = 0.26 * std::sin(0.5 * t);
+    table.values.row(i) << t, held, 0.3, v + 0.05 * rng.normal(), 0.01 * rng.normal(),
+        0.4 * std::tanh(20.0 * v) + 0.1 * rng.normal(), 0.02 * rng.normal();
+    if (i == 3000) table.values(i, 2) += 1e-4;  // the encoder's last digit
+  }
+  const check::Report report = report_of(table);
+  for (const char* fault : {"rates", "angle_unit", "clock_unit"}) {
+    for (const check::Fault& one : report.faults) {
+      if (one.id == fault) {
+        EXPECT_LT(one.probability, check::kLikely) << one.words;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dcnn

@@ -16,7 +16,8 @@ using Eigen::Index;
 /// The first meaning is the declared one.
 void compare_rates(const Eigen::MatrixXd& logged, const std::vector<RateMeaning>& meanings,
                    double independent, const std::string& channel, std::vector<Fault>& out) {
-  const double declared = rate_cost(logged, meanings[0], independent);
+  const double declared = std::min(rate_cost(logged, meanings[0], independent),
+                                   unrelated_cost(logged, meanings[0].rate, independent));
   Eigen::VectorXd gain(static_cast<Index>(meanings.size()) - 1);
   for (Index k = 0; k < gain.size(); ++k) {
     gain[k] = declared - rate_cost(logged, meanings[static_cast<std::size_t>(k) + 1], independent);
