@@ -174,7 +174,10 @@ void Search::explore() {
                                  [](const Member& m) { return m.kind->stage == Stage::kDynamics; });
     const double before = study_.derivative.cutoff_hz;
     // A long lag fools the first choice; otherwise names do not depend on a small error of it.
-    if (!lag && !is_alarming(band_tests(*setting_, fit_.residual), explained(true))) return;
+    if (!lag && !is_alarming(band_tests(*setting_, fit_.residual), explained(true))) {
+      pass_more_motion();
+      return;
+    }
     choose_cutoff(fit_.members);
     settle(fit_.members);
     if (std::abs(study_.derivative.cutoff_hz / before - 1.0) < 0.1) return;

@@ -165,6 +165,7 @@ class Search {
   std::vector<Case*> cases();  ///< study_ and the same under other filters
   void choose_cutoff(const std::vector<Member>& members);
   void pass_motion(const std::vector<Member>& members);
+  void pass_more_motion();
   void tune_to_mode();
   bool choose_rounding_noise();
   Surroundings surroundings(const std::vector<Member>& members) const;

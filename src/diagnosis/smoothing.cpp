@@ -197,6 +197,15 @@ void Search::pass_motion(const std::vector<Member>& members) {
   study_.derivative.most_noise = most_noise_of(study_);
 }
 
+/// Beside what was found since, more motion may pass: what a missing law leaves speaks against fast
+/// motion that it goes with.
+void Search::pass_more_motion() {
+  const bool limited = study_.derivative.most_noise.size() > 1;
+  if (!limited || study_.is_static() || fit_.members.empty()) return;
+  pass_motion(fit_.members);
+  if (study_.derivative.most_noise.size() == 1) settle(fit_.members);
+}
+
 /// A mode makes much of little motion near its own frequency, which the first choice took for
 /// noise: its numbers and the smoother are found together, from the cut-off at hand upwards, the
 /// likeliest kept if it leaves nothing but what rings unseen. Before anything else can be taken for
