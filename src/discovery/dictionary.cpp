@@ -23,13 +23,7 @@ void add_rate(const Data& data, std::size_t c, std::vector<Atom>& list) {
   for (const double s : {0.05, 0.2, 0.6}) add(piece("tanh", c, s * rms));
   for (const double s : {0.15, 0.4, 1.0}) add(piece("peaked", c, s * rms));
   for (const double s : {0.5, 1.0}) add(piece("dead_band", c, s * rms));
-  for (const double s : {1.0, -1.0}) {
-    const Piece one_way = piece("one_sided", c, s * rms, 1.0);
-    add(one_way);
-    add(remembered(one_way, Memory::kLag, 0.5));
-  }
-  add(uneven(piece("linear", c, rms), 0.1, 1.0));
-  add(uneven(piece("linear", c, rms), 1.0, 0.1));
+  for (const double s : {1.0, -1.0}) add(piece("one_sided", c, s * rms, 1.0));
   for (const double tau : {0.05, 0.2, 0.6, 2.0}) {
     add(remembering(piece("linear", c, rms), Memory::kLag, tau));
   }
@@ -115,8 +109,6 @@ void add_load(const Data& data, std::size_t c, std::vector<Atom>& list) {
   for (const double s : {0.1, 0.5}) add(piece("tanh", c, s * rms));
   for (const double s : {0.3, 0.6}) add(piece("dead_band", c, s * rms));
   for (const double s : {1.0, -1.0}) add(piece("one_sided", c, s * rms, 1.0));
-  add(uneven(piece("linear", c, rms), 0.1, 1.0));
-  add(uneven(piece("linear", c, rms), 1.0, 0.1));
   for (const double tau : {0.1, 0.3, 1.0, 3.0, 10.0}) {
     add(remembering(piece("linear", c, rms), Memory::kLag, tau));
   }
@@ -206,19 +198,6 @@ Piece centred(Piece piece, double centre) {
 Piece remembering(Piece piece, Memory memory, double size) {
   piece.factor.memory = memory;
   piece.memory = size;
-  return piece;
-}
-
-Piece remembered(Piece piece, Memory memory, double size, double second) {
-  piece = remembering(piece, memory, size);
-  piece.second = second;
-  piece.factor.remembered = true;
-  return piece;
-}
-
-Piece uneven(Piece piece, double rising, double falling) {
-  piece = remembering(piece, Memory::kUnevenLag, rising);
-  piece.second = falling;
   return piece;
 }
 

@@ -20,13 +20,10 @@ Piece piece(const char* shape, std::size_t coordinate, double scale, double extr
 Piece centred(Piece piece, double centre);
 Piece remembering(Piece piece, law::Memory memory, double size);
 /// Behind a state of second order with this natural frequency, lightly damped.
-/// The same of the shape's value, in the place of the coordinate.
-Piece remembered(Piece piece, law::Memory memory, double size, double second = 0.0);
 Piece swinging(Piece piece, double hz);
 /// Behind many lags about `seconds`.
 Piece lagging(Piece piece, double seconds, double spread);
 /// Broken down by motion over `length`, rebuilt in `seconds`.
-Piece uneven(Piece piece, double rising, double falling);
 Piece thixotropic(Piece piece, double length, double seconds);
 
 /// A factor linear in the coordinate, about the middle of its range where it has no zero.

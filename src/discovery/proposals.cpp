@@ -38,14 +38,10 @@ void add_modulators(const Data& data, std::size_t c, std::vector<Piece>& list) {
     list.push_back(piece("falling", c, 0.3 * data.rms(c), 0.3));
   }
   if (kind == Kind::kRate || kind == Kind::kLoad) {
-    const Piece size = piece("even_power", c, data.rms(c), 1.0);
-    list.push_back(size);
-    list.push_back(remembered(size, Memory::kLag, 1.0));
+    list.push_back(piece("even_power", c, data.rms(c), 1.0));
     list.push_back(piece("tanh", c, 0.2 * data.rms(c)));
     for (const double side : {1.0, -1.0}) {
-      const Piece one_way = piece("one_sided", c, side * data.rms(c), 1.0);
-      list.push_back(one_way);
-      list.push_back(remembered(one_way, Memory::kLag, 0.5));
+      list.push_back(piece("one_sided", c, side * data.rms(c), 1.0));
     }
   }
   if (law::coordinates()[c].is_rate) {  // a contact that grows with its age
@@ -144,9 +140,7 @@ std::vector<Piece> other_shapes(const Data& data, const Piece& from) {
   add("step", -0.2 * size);
   if (from.extra != 0.0) add("switched", 0.2 * size, from.extra);
   if (kind_of(c) == Kind::kSize) add("inverse_power", size, 2.0);
-  if (kind_of(c) == Kind::kSignal || kind_of(c) == Kind::kSize) {
-    add("exponential", data.half_range(c));
-  }
+  if (kind_of(c) == Kind::kSignal) add("exponential", data.half_range(c));
   if (c == coordinate_named("distance")) {
     add("gaussian", size);
     add("exponential", 0.5 * size);
@@ -252,13 +246,6 @@ std::vector<Piece> with_memories(const Data& data, const Piece& from) {
     return list;
   }
   list.push_back(remembering(from, Memory::kLag, 0.2));
-  if (from.factor.shape != shape_named("linear")) {  // of a line the order makes no difference
-    for (const double tau : {0.2, 1.0}) list.push_back(remembered(from, Memory::kLag, tau));
-    list.push_back(remembered(from, Memory::kUnevenLag, 0.1, 1.0));
-  }
-  for (const auto& [rising, falling] : {std::pair{0.1, 1.0}, std::pair{1.0, 0.1}}) {
-    list.push_back(uneven(from, rising, falling));
-  }
   list.push_back(lagging(from, 1.0, 30.0));
   for (const double delay : {0.1, 0.3}) list.push_back(remembering(from, Memory::kDelay, delay));
   if (kind_of(c) == Kind::kRate || kind_of(c) == Kind::kLoad) {

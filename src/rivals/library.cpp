@@ -40,6 +40,7 @@ VectorXd flat(const Eigen::MatrixXd& force) { return force.reshaped(); }
 std::vector<Law> library(bool thermometer) {
   std::vector<Law> laws;
   for (const EffectKind* kind : effect_kinds()) {
+    if (kind->force == Shown::kNever) continue;  // the scenarios have forces alone
     std::vector<std::string> axes = admitted_axes(kind->axis);
     if (axes.empty()) axes.emplace_back();
     for (const EffectFit& fit : kind->fits) {

@@ -107,43 +107,6 @@ TEST(Discover, DragThatMotionBreaksDownAndRestRebuilds) {
       << law::expression(laws[0].law);
 }
 
-/// The hold-out error of the discovered force where y' = rate(v_base_y, y) pushes along the base's
-/// y axis, in the noise.
-double error_of_state(double amplitude, double sigma, int seed,
-                      double (*rate)(double v, double y)) {
-  const auto force_of = [&](const Scene& at) {
-    MatrixXd force(at.motion.samples(), 3);
-    double y = 0.0;
-    for (Index k = 0; k < force.rows(); ++k) {
-      const double v = at.motion.v_B(k, 1), before = at.motion.v_B(std::max<Index>(0, k - 1), 1);
-      for (int part = 0; part < 100; ++part) {  // Euler's steps of 0.2 ms
-        y += 0.01 * at.motion.dt * rate(before + 0.01 * part * (v - before), y);
-      }
-      force.row(k) = amplitude * y * at.motion.R_BS[static_cast<std::size_t>(k)].row(1);
-    }
-    return force;
-  };
-  const Scene at = scene(3, 2500), other = scene(77, 2500);
-  const auto laws = discover(problem_of(at, force_of(at) + white(2500, sigma, seed), sigma));
-  if (laws.empty()) return 1e9;
-  const MatrixXd error = prediction(other, laws) - force_of(other);
-  return std::sqrt(error.squaredNorm() / static_cast<double>(error.size())) / sigma;
-}
-
-// What strokes in one direction build up leaks in 0.8 s.
-TEST(Discover, APumpThatLeaks) {
-  EXPECT_LE(
-      error_of_state(-8.0, 0.01, 51, [](double v, double y) { return std::max(0.0, v) - y / 0.8; }),
-      0.32);
-}
-
-// A valve: what follows in 0.1 s one way and in 0.9 s back.
-TEST(Discover, ALagThatIsFasterOneWay) {
-  EXPECT_LE(error_of_state(-3.0, 0.01, 52,
-                           [](double v, double y) { return (v - y) / (v > y ? 0.1 : 0.9); }),
-            0.32);
-}
-
 TEST(Discover, ATetherThatIsTautBeyondItsLength) {
   const Scene at = scene(3, 2000);
   const Eigen::Vector3d hook =
