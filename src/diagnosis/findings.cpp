@@ -105,12 +105,10 @@ class Writer {
 
  private:
   Json base_entry(const Member& member, const std::vector<Estimate>& numbers) const {
-    Json entry{{"effect", member.name()},
-               {"kind", member.kind->kind},
-               {"axis", nullptr},
-               {"interval_s", nullptr},
-               {"parameters", parameters_json(numbers)},
-               {"words", in_words(member, numbers)}};
+    const Json numbered = parameters_json(numbers);
+    Json entry{{"effect", member.name()}, {"kind", member.kind->kind},
+               {"axis", nullptr},         {"interval_s", nullptr},
+               {"parameters", numbered},  {"words", in_words(member, numbered)}};
     if (!member.axis.empty()) entry["axis"] = member.axis;
     if (member.driver) {
       const auto& [signal, low, high] = *member.driver;

@@ -8,8 +8,6 @@
 #include "diagnosis/search.h"
 
 namespace dcnn {
-namespace {}  // namespace
-
 bool Search::depends_on_motion() const {
   return most_of_a_term(*setting_, fit_) > prior::kDependence;
 }

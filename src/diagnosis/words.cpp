@@ -1,34 +1,25 @@
 #include "diagnosis/words.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <vector>
 
 #include "dcnn/diagnosis/diagnose.h"
 #include "dcnn/physics/effect_words.h"
-#include "physics/found_numbers.h"
 
 namespace dcnn {
 namespace {
 
-using Estimates = std::vector<Estimate>;
-
-double value_of(const Estimates& numbers, const std::string& name) {
-  for (const Estimate& e : numbers) {
-    if (e.name == name) return e.value;
-  }
-  return 0.0;
-}
-
 std::string place(const std::string& axis) { return axis.empty() ? "" : " " + words_of_axis(axis); }
 
 /// ", at y = -35 mm, z = 158 mm from the sensor's origin", where torques tell of it.
-std::string lever(const Estimates& n) {
+std::string lever(const Json& parameters) {
   std::string at;
-  for (const Estimate& e : n) {
-    if (!e.name.starts_with("lever_") || e.low == e.high) continue;
-    at +=
-        (at.empty() ? ", at " : ", ") + e.name.substr(6, 1) + " = " + in_thousandths(e.value, "mm");
+  for (const auto& [name, number] : parameters.items()) {
+    if (!name.starts_with("lever_") || number["ci95"][0] == number["ci95"][1]) continue;
+    at += (at.empty() ? ", at " : ", ") + name.substr(6, 1) + " = " +
+          in_thousandths(number["value"].get<double>(), "mm");
   }
   return at.empty() ? at : at + " from the sensor's origin";
 }
@@ -49,25 +40,16 @@ std::string when(const Member& member) {
 }
 
 /// Of a law that a logged signal drives.
-std::string driven_in_words(const Member& member, const Estimates& n) {
+std::string driven_in_words(const Member& member, const Json& parameters) {
   const auto& [signal, low, high] = *member.driver;
   return driven_words(*member.kind, place(member.axis),
                       {signal, unit_text(unit_of_parameter(member.kind->strength)), low, high,
-                       member.amplitudes(0), member.amplitudes(1), value_of(n, "lag_s")});
+                       member.amplitudes(0), member.amplitudes(1), parameters["lag_s"]["value"]});
 }
 
-FoundNumbers found_numbers(const Estimates& numbers) {
-  std::vector<FoundNumber> found;
-  for (const Estimate& e : numbers) {
-    found.push_back({stem_of_parameter(e.name), unit_text(e.unit), e.value, e.low, e.high,
-                     is_told({{"ci95", {e.low, e.high}}})});
-  }
-  return {std::move(found), false};
-}
-
-std::string effect_in_words(const Member& member, const Estimates& numbers) {
+std::string effect_in_words(const Member& member, const Json& parameters) {
   const EffectKind& kind = *member.kind;
-  const std::string what = kind.words ? kind.words(found_numbers(numbers)) : kind.meaning;
+  const std::string what = kind.words ? kind.words(found_numbers(parameters, false)) : kind.meaning;
   return what + place(member.axis) + when(member);
 }
 
@@ -89,8 +71,24 @@ std::string per_signal(const std::string& unit, const Json& driven_by) {
   return (unit.empty() ? "1" : unit) + " per unit of " + driven_by["value"].get<std::string>();
 }
 
-std::string in_words(const Member& member, const Estimates& n) {
-  return (member.driver ? driven_in_words(member, n) : effect_in_words(member, n)) + lever(n);
+FoundNumbers found_numbers(const Json& parameters, bool on_machine) {
+  std::vector<FoundNumber> found;
+  for (const auto& [name, number] : parameters.items()) {
+    const auto end = [&](std::size_t k) {
+      const Json& value = number["ci95"][k];
+      return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+    };
+    found.push_back({on_machine ? name : stem_of_parameter(name),
+                     unit_text(number["unit"].get<std::string>()), number["value"].get<double>(),
+                     end(0), end(1), is_told(number)});
+  }
+  return {std::move(found), on_machine};
+}
+
+std::string in_words(const Member& member, const Json& parameters) {
+  return (member.driver ? driven_in_words(member, parameters)
+                        : effect_in_words(member, parameters)) +
+         lever(parameters);
 }
 
 }  // namespace dcnn

@@ -2,15 +2,19 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "dcnn/core/number.h"
 #include "diagnosis/judgement.h"
+#include "physics/found_numbers.h"
 
 namespace dcnn {
 
-/// "dry friction of 0.42 N along the tool": what was found, with its leading number.
-std::string in_words(const Member& member, const std::vector<Estimate>& numbers);
+/// The `parameters` of a finding with a value; of an axis of a machine their names have no unit.
+FoundNumbers found_numbers(const Json& parameters, bool on_machine);
+
+/// "dry friction of 0.42 N along the tool": what was found, with its leading number, of the
+/// `parameters` of its finding.
+std::string in_words(const Member& member, const Json& parameters);
 
 /// A law whose strength follows a logged signal: its strengths where the signal is lowest and
 /// highest, and by how long they come after it [s].

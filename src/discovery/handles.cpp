@@ -25,10 +25,6 @@ void add_handles(const Data& data, Piece& piece, std::vector<Handle>& list) {
                             piece.factor.memory == law::Memory::kDelay;
   if (clock_memory) {
     list.push_back(positive(piece.memory, 2.0 * data.dt(), 0.5 * data.seconds()));
-  } else if (piece.factor.memory == law::Memory::kUnevenLag) {
-    for (double* time : {&piece.memory, &piece.second}) {
-      list.push_back(positive(*time, 2.0 * data.dt(), 0.5 * data.seconds()));
-    }
   } else if (piece.factor.memory == law::Memory::kSecondOrder) {
     list.push_back(positive(piece.memory, 1.0 / data.seconds(), 0.25 / data.dt()));
     list.push_back(positive(piece.second, law::kLeastDamping, law::kMostDamping));

@@ -75,7 +75,6 @@ void add_deletions(const Data& data, const Sketch& from, std::vector<Sketch>& li
     if (from.pieces[k].factor.memory != law::Memory::kNone) {
       Sketch sketch = from;
       sketch.pieces[k].factor.memory = law::Memory::kNone;
-      sketch.pieces[k].factor.remembered = false;
       if (!from.pieces[k].values.empty()) sketch.pieces[k] = without_memory(data, from.pieces[k]);
       list.push_back(sketch);
     }

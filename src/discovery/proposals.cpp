@@ -232,7 +232,6 @@ Piece without_memory(const Data& data, const Piece& from) {
   if (other_unit) return centred(piece("tanh", c, 0.3 * data.half_range(c)), data.middle(c));
   Piece plain = from;
   plain.factor.memory = Memory::kNone;
-  plain.factor.remembered = false;
   if (!plain.values.empty()) std::tie(plain.centre, plain.scale) = range_of(data, plain.factor);
   return plain;
 }
