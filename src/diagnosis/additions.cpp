@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The effects that would gain most next to a model.
 #include <algorithm>
 #include <cmath>
@@ -18,15 +19,15 @@ constexpr double kPromising = 0.4;    // of the gain needed, after a first refin
 constexpr double kNear = 0.8;         // of the gain needed, after a second one
 constexpr double kNearRounded = 0.4;  // the same where rounding bends every tangent
 
-/// An effect acts along an axis once, a hum at a frequency that recordings so long tell from
-/// others, a cogging at an order that so long a motion tells from others.
+/// An effect acts along an axis once, or at many frequencies or orders: those that recordings so
+/// long, or so long a motion, tell from others.
 bool same_place(const Member& a, const Member& b, double seconds) {
   constexpr double kPeriods = 2.0;  // over the whole, by which two lines differ
   if (a.kind != b.kind || a.axis != b.axis || a.interval_s || b.interval_s) return false;
   if (is_undriven(a, b)) return false;
-  const bool hums = a.name() == "hum";
-  if (!hums && a.name() != "cogging") return true;
-  const double period = hums ? 1.0 / seconds : a.least_shapes(0) / kFewestTurns;
+  if (!a.kind->at_many) return true;
+  const bool of_time = a.shape(0).peak == ShapeParameter::Peak::kLine;
+  const double period = of_time ? 1.0 / seconds : a.least_shapes(0) / kFewestTurns;
   return std::abs(a.shapes(0) - b.shapes(0)) < kPeriods * period;
 }
 
@@ -39,10 +40,7 @@ bool same_line(const Member& a, const Member& b) {
 /// Dry friction is a Stribeck curve that does not fall, and one of gears that does not vary: the
 /// other takes its place, or none.
 bool both_dry(const Member& a, const Member& b) {
-  const auto dry = [](const Member& m) {
-    return m.name() == "coulomb_friction" || m.name() == "stribeck_friction" ||
-           m.name() == "gear_friction" || m.name() == "lugre_friction";
-  };
+  const auto dry = [](const Member& m) { return m.kind->friction == EffectKind::Friction::kDry; };
   return same_line(a, b) && dry(a) && dry(b);
 }
 
@@ -51,27 +49,31 @@ bool same_angle(const Member& a, const Member& b) {
   return angle(a) == angle(b);
 }
 
-/// A spring and less than a turn of cogging in one angle bend as any curved spring does, and are
+/// A spring and less than a turn of a wave in one angle bend as any curved spring does, and are
 /// neither: beside the one, or a simulator that has it, the other needs a whole turn.
 void keep_apart(const Case& study, std::vector<Member>& list, const std::vector<Member>& members) {
-  const bool is_given = is_in_base(study, *find_effect("cable_spring"));
-  const auto beside = [&](const Member& candidate, const char* effect, const auto& condition) {
+  using Course = EffectKind::Course;
+  const auto beside = [&](const Member& candidate, Course course, const auto& condition) {
     return std::any_of(members.begin(), members.end(), [&](const Member& m) {
-      return m.name() == effect && same_angle(m, candidate) && condition(m);
+      return m.kind->course == course && same_angle(m, candidate) && condition(m);
     });
   };
   const auto any = [](const Member&) { return true; };
-  const auto slow = [](const Member& cogging) {
-    return cogging.shapes(0) < cogging.least_shapes(0) / kFewestTurns;
+  const auto slow = [](const Member& wave) {
+    return wave.shapes(0) < wave.least_shapes(0) / kFewestTurns;
   };
+  const auto& kinds = effect_kinds();
+  const bool is_given = std::any_of(kinds.begin(), kinds.end(), [&](const EffectKind* kind) {
+    return kind->course == Course::kStraight && is_in_base(study, *kind);
+  });
   for (Member& candidate : list) {
-    if (candidate.name() != "cogging") continue;
-    if (!is_given && !beside(candidate, "cable_spring", any)) continue;
+    if (candidate.kind->course != Course::kWave) continue;
+    if (!is_given && !beside(candidate, Course::kStraight, any)) continue;
     candidate.least_shapes /= kFewestTurns;
     candidate.shapes = candidate.shapes.cwiseMax(candidate.least_shapes);
   }
   std::erase_if(list, [&](const Member& candidate) {
-    return candidate.name() == "cable_spring" && beside(candidate, "cogging", slow);
+    return candidate.kind->course == Course::kStraight && beside(candidate, Course::kWave, slow);
   });
 }
 

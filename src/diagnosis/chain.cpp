@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/chain.h"
 
 #include <cmath>
@@ -43,12 +44,11 @@ void linear_lags(const std::vector<EffectSpec>& effects, const Motion& motion,
   std::vector<EffectSpec> early, late;
   double seconds = 0.0;
   for (const EffectSpec& effect : effects) {
-    const Stage stage = find_effect(effect.effect)->stage;
-    if (stage == Stage::kDynamics && effect.effect != "creep") {
-      const char* name = effect.effect == "lowpass" ? "tau_s" : "delay_s";
-      seconds += effect.parameters.value(name, 0.0);
+    const EffectKind& kind = *find_effect(effect.effect);
+    if (kind.lateness) {
+      seconds += effect.parameters.value(kind.lateness, 0.0);
     } else {
-      (stage <= Stage::kDynamics ? early : late).push_back(effect);
+      (kind.stage <= Stage::kDynamics ? early : late).push_back(effect);
     }
   }
   ToolModel no_bias = model;

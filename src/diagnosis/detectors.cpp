@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/detectors.h"
 
 #include <algorithm>
@@ -29,6 +30,7 @@ std::vector<Clipping> clipping(const Case& study) {
       low = std::min(low, log.measured.col(j).minCoeff());
     }
     Clipping clip{j, std::max(std::abs(high), std::abs(low)), {}};
+    if (clip.limit == 0.0) continue;  // a channel without a signal
     // Held at a limit means in a row, and longer than anywhere else: on a lattice as coarse as the
     // noise every value repeats.
     Index longest = 0, elsewhere = 0, total = 0;
@@ -124,6 +126,9 @@ std::optional<Member> find_fast_hum(const Case& study, const Signals& left,
   return member;
 }
 
-bool is_heard_hum(const Member& member) { return member.name() == "hum" && member.fixed; }
+bool is_heard_hum(const Member& member) {
+  return member.fixed && member.own_shapes() > 0 &&
+         member.shape(0).peak == ShapeParameter::Peak::kLine;
+}
 
 }  // namespace dcnn

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/gear_order.h"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ std::vector<Member> with_even_gears(const Case& study, std::vector<Member> membe
   const EffectKind& kind = *find_effect("coulomb_friction");
   // Both make dry friction along the one axis of a machine.
   const bool is_dry = std::any_of(members.begin(), members.end(), [&](const Member& m) {
-    return m.kind == &kind || m.kind == find_effect("stribeck_friction");
+    return m.kind->friction == EffectKind::Friction::kDry;
   });
   if (is_dry || !is_listed(study, kind)) return members;
   members.push_back(

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Published numbers and how well they are known.
 #include <algorithm>
 #include <cmath>
@@ -186,8 +187,7 @@ std::vector<std::vector<Estimate>> estimates(const Setting& setting, const Joint
                       known && is_logarithmic(member, *widest, at, is_strength[k])));
     }
     widen_held(member, names, all.back());
-    const bool is_mode = member.name() == "flexible_resonance";
-    if (is_mode && !setting.study.without.refinement) {
+    if (member.kind->stage == Stage::kResonance && !setting.study.without.refinement) {
       widen_over_local_minima(setting, fit, m, all.back());
     }
   }

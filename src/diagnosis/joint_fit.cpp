@@ -1,9 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/joint_fit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <numeric>
 
 #include "diagnosis/beginning.h"
@@ -34,14 +34,11 @@ std::vector<Coordinate> coordinates_of(const std::vector<Member>& members) {
   return list;
 }
 
-/// Friction that would rise with speed instead of falling is another law: fs >= fc.
-bool is_of_stribeck(const Member& member) { return member.name() == "stribeck_friction"; }
-
 void move(Member& member, const Coordinate& c, double step) {
   if (!c.is_shape) {
     double& amplitude = member.amplitudes(c.index);
     amplitude = member.form->bounded(amplitude + step);
-    if (is_of_stribeck(member)) {
+    if (member.form->rising) {
       member.amplitudes(1) = std::max(member.amplitudes(0), member.amplitudes(1));
     }
     return;
@@ -51,15 +48,14 @@ void move(Member& member, const Coordinate& c, double step) {
       from_search_scale(member, c.index, search_scale(shape, member.shapes(c.index)) + step);
 }
 
-/// How far from zero the rest of a tool's spring may be: one that is turns away is a constant,
-/// which other effects are (scan.cpp). The amplitude that belongs to it [N]; infinity for others.
-double most_at_rest(const Case& study, const Member& member) {
-  if (study.axis || member.driver || member.name() != "cable_spring") return kInfinity;
-  return 2.0 * std::numbers::pi * std::abs(member.amplitudes(0));
+/// What the size of a second amplitude may be (EffectFit::most_ratio); infinity for most effects.
+double most_of_second(const Case& study, const Member& member) {
+  if (study.axis || member.form->most_ratio == kInfinity) return kInfinity;
+  return member.form->most_ratio * std::abs(member.amplitudes(0));
 }
 
-void hold_rest(const Case& study, Member& member) {
-  const double most = most_at_rest(study, member);
+void hold_ratio(const Case& study, Member& member) {
+  const double most = most_of_second(study, member);
   if (most < kInfinity) member.amplitudes(1) = std::clamp(member.amplitudes(1), -most, most);
 }
 
@@ -75,8 +71,8 @@ double longest_step(const std::vector<Member>& members, const Coordinate& c) {
 double difference_step(const Case& study, const std::vector<Member>& members, const Coordinate& c) {
   const Member& member = members[c.member];
   if (!c.is_shape) return std::max(1e-3 * std::abs(member.amplitudes(c.index)), 1e-5);
-  // A hum's frequency is known to a small part of a turn over all recordings.
-  if (member.name() == "hum") return 0.003 / (span_seconds(study) * member.shapes(c.index));
+  if (member.shape(c.index).peak == ShapeParameter::Peak::kLine)
+    return 0.003 / (span_seconds(study) * member.shapes(c.index));
   return member.shapes(c.index) > 0.995 * member.most_shapes(c.index) ? -1e-3 : 1e-3;
 }
 
@@ -103,7 +99,8 @@ Eigen::MatrixXd derivatives(const Setting& setting, const Chain& chain,
 }
 
 /// The Gauss-Newton change of the coordinates. Amplitudes that it would make negative although they
-/// may not be go to zero, and the others are solved for beside that; so does fs - fc.
+/// may not be go to zero, and the others are solved for beside that; so does the height of a second
+/// one above the first where it is EffectFit::rising.
 Eigen::VectorXd best_change(const std::vector<Member>& members,
                             const std::vector<Coordinate>& coordinates, Eigen::MatrixXd tangent,
                             const Eigen::VectorXd& left, bool shapes_stay) {
@@ -115,10 +112,10 @@ Eigen::VectorXd best_change(const std::vector<Member>& members,
       return at < coordinates.size() && coordinates[at].is_shape;
     });
   }
-  // In place of fs its height above fc, which then raises both.
+  // In place of a second amplitude its height above the first, which then raises both.
   for (std::size_t k = 0; k < coordinates.size(); ++k) {
     const Coordinate& c = coordinates[k];
-    if (c.is_shape || c.index != 1 || !is_of_stribeck(members[c.member])) continue;
+    if (c.is_shape || c.index != 1 || !members[c.member].form->rising) continue;
     const auto fs = static_cast<Index>(k);
     tangent.col(fs - 1) += tangent.col(fs);
     raised.push_back(fs);
@@ -198,14 +195,14 @@ std::vector<Signals> own_offsets(const Case& study) {
 
 bool rests_at_bound(const Case& study, const Member& member) {
   constexpr double kRounding = 1e-9;
-  const double most = most_at_rest(study, member);
+  const double most = most_of_second(study, member);
   return most < kInfinity && std::abs(member.amplitudes(1)) >= (1.0 - kRounding) * most;
 }
 
 JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   for (Member& m : members) {
     for (double& amplitude : m.amplitudes) amplitude = m.form->bounded(amplitude);
-    hold_rest(setting.study, m);
+    hold_ratio(setting.study, m);
   }
   const Eigen::VectorXd wanted = setting.whitened(setting.measured);
   const auto coordinates = coordinates_of(members);
@@ -253,7 +250,7 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
         whole = whole && std::abs(change(k)) <= most;
         move(moved[c.member], c, length * std::clamp(change(k), -most, most));
       }
-      for (Member& m : moved) hold_rest(setting.study, m);
+      for (Member& m : moved) hold_ratio(setting.study, m);
       if (passing) nuisance_columns.leftCols(linear) = passed_base(setting, moved);
       auto next = std::make_unique<Chain>(setting.study, std::move(moved));
       const Eigen::VectorXd there = setting.whitened(next->prediction());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/plain_findings.h"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 
 #include "dcnn/core/number.h"
 #include "dcnn/diagnosis/diagnose.h"
+#include "dcnn/physics/effect.h"
 #include "diagnosis/evidence/priors.h"
 #include "diagnosis/words.h"
 
@@ -32,11 +34,8 @@ std::string unit_of(const Json& finding, const std::string& stem) {
 }
 
 bool is_friction(const Json& finding) {
-  static const std::set<std::string> kFrictions{
-      "coulomb_friction", "viscous_friction",    "stribeck_friction", "quadratic_drag",
-      "lugre_friction",   "asymmetric_friction", "load_friction",     "gear_friction"};
-  return kFrictions.count(finding["effect"].get<std::string>()) != 0 &&
-         !finding.contains("driven_over");
+  const EffectKind* kind = find_effect(finding["effect"]);
+  return kind && kind->friction != EffectKind::Friction::kNone && !finding.contains("driven_over");
 }
 
 bool same_axis(const Json& a, const Json& b) { return a["axis"] == b["axis"]; }
@@ -170,7 +169,9 @@ bool is_doubtful(const Json& finding) {
 }
 
 bool is_constant(const Json& finding) {
-  if (finding["effect"] != "cable_spring" || finding.contains("driven_over")) return false;
+  const EffectKind* kind = find_effect(finding["effect"]);
+  if (!kind || kind->course != EffectKind::Course::kStraight) return false;
+  if (finding.contains("driven_over")) return false;
   const Json k = numbers_of(finding, "k"), rest = numbers_of(finding, "rest");
   if (k.is_null() || rest.is_null()) return false;
   if (k["ci95"][0].get<double>() <= 0.0 && k["ci95"][1].get<double>() >= 0.0) return true;

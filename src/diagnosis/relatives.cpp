@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws that are near the one that acts, and none of them: what gives them away.
 #include <algorithm>
 #include <set>
@@ -16,15 +17,17 @@ namespace {
 
 constexpr double kSlowestMode = 2.0;  // Hz
 
-/// A cogging beside a spring, or a hysteresis, of its angle that does not repeat itself within the
+/// A wave beside a straight line or a loop over its angle that does not repeat itself within the
 /// motion (a cubic less its line has one period and a half): together they are a spring that bends.
-bool bends_a_spring(const Member& cogging, const std::vector<Member>& members) {
+bool bends_a_spring(const Member& wave, const std::vector<Member>& members) {
+  using Course = EffectKind::Course;
   const bool once =
-      cogging.name() == "cogging" && cogging.shapes(0) < kFewestRepeats * cogging.least_shapes(0);
+      wave.kind->course == Course::kWave && wave.shapes(0) < kFewestRepeats * wave.least_shapes(0);
   const auto angle = [](const Member& m) { return m.axis.substr(0, m.axis.find(':')); };
   return once && std::any_of(members.begin(), members.end(), [&](const Member& m) {
-           const bool bends = m.name() == "cable_spring" || m.name() == "hysteresis";
-           return bends && angle(m) == angle(cogging);
+           const Course course = m.kind->course;
+           const bool bends = course == Course::kStraight || course == Course::kLoop;
+           return bends && angle(m) == angle(wave);
          });
 }
 
@@ -65,8 +68,8 @@ std::vector<double> Search::doubts(double little) {
       apart = std::max(apart, tests[m].above(loud) / prior::kInconstant);
     }
     if (bends_a_spring(fit_.members[m], fit_.members)) apart = kInfinity;
-    // Beside an offset that wanders a bias is its mean.
-    if (loud > 1.0 && fit_.members[m].name() == "bias") apart = 0.0;
+    // Beside an offset that wanders a constant is its mean.
+    if (loud > 1.0 && fit_.members[m].kind->is_constant) apart = 0.0;
     // Motion that nobody sees rings in a mode here and there. One that leaves more where modes are,
     // or of whose remainder a second one, driven by what is seen, explains most, is one of several.
     if (fit_.members[m].kind->stage == Stage::kResonance) {
@@ -87,7 +90,9 @@ bool Search::remove_near_laws() {
   const auto at = static_cast<std::size_t>(worst - far.begin());
   std::vector<Member> rest = members_without(at);
   // What is certain of a drift that is none is its mean.
-  const EffectKind& bias = *find_effect("bias");
+  const auto& kinds = effect_kinds();
+  const EffectKind& bias = **std::find_if(kinds.begin(), kinds.end(),
+                                          [](const EffectKind* kind) { return kind->is_constant; });
   const bool drifts = fit_.members[at].kind->stage == Stage::kOffset;
   if (rest_loudness() > 1.0 && drifts && is_listed(study_, bias) &&
       std::none_of(rest.begin(), rest.end(), [&](const Member& m) { return m.kind == &bias; })) {

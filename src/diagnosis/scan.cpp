@@ -1,8 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/scan.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "diagnosis/beginning.h"
 #include "diagnosis/evidence/priors.h"
@@ -14,27 +14,14 @@ namespace {
 constexpr double kUnit =
     1e-3;  // amplitude of a column: small enough for angles, large for rounding
 
-/// Amplitudes an effect cannot have without being another one.
+/// Whether a member's amplitudes are those of its effect.
 bool is_itself(const Case& study, const Member& member) {
-  const std::string name = member.name();
-  // On an axis the position says which way a force resists.
-  if (study.axis && name == "hysteresis") return member.amplitudes(0) > 0.0;
-  // A spring whose rest is turns away is a constant, which other effects are.
-  if (!study.axis && name == "cable_spring" && !member.driver) {
-    return std::abs(member.amplitudes(1)) <=
-           2.0 * std::numbers::pi * std::abs(member.amplitudes(0));
-  }
-  if (name == "creep") return std::abs(member.amplitudes(0)) < 1.0;  // of a solid, no fluid
-  if (name == "gear_friction") {                                     // it resists in every position
-    return member.amplitudes(0) > 0.0 && member.amplitudes.tail(2).norm() < member.amplitudes(0);
-  }
-  // No more than all of the tool rings, but for noise.
-  if (!study.axis && name == "flexible_resonance" && std::abs(member.amplitudes(0)) > 1.5) {
+  const Eigen::VectorXd& a = member.amplitudes;
+  if (!study.axis && a.size() > 1 && std::abs(a(1)) > member.form->most_ratio * std::abs(a(0))) {
     return false;
   }
-  if (name != "stribeck_friction") return true;
-  const double ratio = member.amplitudes(1) / std::max(1e-300, member.amplitudes(0));
-  return ratio > 1.0 && (!study.axis || ratio < 4.0);
+  const auto of_kind = member.kind->is_itself;
+  return of_kind == nullptr || of_kind(a, study.axis != nullptr);
 }
 
 }  // namespace
@@ -178,12 +165,12 @@ Trial Scan::improved(const Trial& start, Detail detail, int evaluations,
     x(i) = search_scale(shape, start.member.shapes(i));
     size(i) = shape.low > 0.0 ? 0.4 : 0.15 * (shape.high - shape.low);
     if (detail == Detail::kFine) size(i) *= 0.2;
-    if (start.member.name() == "cogging" || (i == 0 && start.member.name() == "gear_friction")) {
-      size(i) = 0.01;
+    if (shape.peak == ShapeParameter::Peak::kNarrow) {
+      size(i) = start.member.kind->stage == Stage::kResonance ? 0.05 : 0.01;
     }
-    if (start.member.name() == "hum")
+    if (shape.peak == ShapeParameter::Peak::kLine) {
       size(i) = 0.1 / (span_seconds(setting_.study) * start.member.shapes(i));
-    if (start.member.name() == "flexible_resonance" && i == 0) size(i) = 0.05;
+    }
     if (start.member.driver && i == n - 1) size(i) = 0.02 + 0.2 * std::abs(start.member.shapes(i));
   }
   Trial best = start;

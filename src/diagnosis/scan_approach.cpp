@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the search for a candidate's shapes begins: combs over those with many local optima.
 #include <algorithm>
 #include <cmath>
@@ -97,16 +98,17 @@ Trial Scan::lagged(const Trial& start) const {
 }
 
 Trial Scan::approach(const Trial& seed) const {
-  const std::string name = seed.member.name();
+  const bool shaped = seed.member.own_shapes() > 0;
+  const auto peak = shaped ? seed.member.shape(0).peak : ShapeParameter::Peak::kWide;
   const auto a_little = [&](const Trial& start) {
     return refine(start, Detail::kCoarse, kApproach);
   };
   if (setting_.study.without.refinement) return seed;
-  if (name == "hum") return a_little(tuned(seed, Detail::kCoarse));
+  if (peak == ShapeParameter::Peak::kLine) return a_little(tuned(seed, Detail::kCoarse));
   const bool fitted_base = !setting_.study.logs.front().regressors.empty();
-  if (name == "time_delay" && fitted_base) return a_little(combed(seed));
+  if (peak == ShapeParameter::Peak::kComb && fitted_base) return a_little(combed(seed));
   const Trial best = a_little(seed.member.driver ? lagged(seed) : seed);
-  if (name != "flexible_resonance" || seed.gain < 2.0 * seed.price) return best;
+  if (seed.member.kind->stage != Stage::kResonance || seed.gain < 2.0 * seed.price) return best;
   const Trial elsewhere = best_mode(seed.member);
   return elsewhere.gain > best.gain ? elsewhere : best;
 }

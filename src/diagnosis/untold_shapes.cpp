@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A drift of which the recordings do not tell the time constant is told as what they do tell.
 #include <algorithm>
 #include <cmath>
@@ -20,8 +21,11 @@ bool spans_decades(const Estimate& number) {
          number.high > prior::kKnownWithin * prior::kKnownWithin * std::max(0.0, number.low);
 }
 
-/// An offset that settles with the clock.
-bool settles(const Member& member) { return member.kind == find_effect("thermal_drift"); }
+/// An offset that changes with the clock by a law with a shape, as one that settles.
+bool settles(const Member& member) {
+  return member.kind->stage == Stage::kOffset && member.kind->needs_time == TimeNeed::kClock &&
+         !member.form->shapes.empty();
+}
 
 bool is_untold(const Member& member, const std::vector<Estimate>& numbers) {
   if (!settles(member) || member.fixed || member.interval_s) return false;
@@ -93,9 +97,11 @@ void Search::straighten_drifts() {
     if (!has_untold_shape(*setting_, fit_)) return;
     if (!is_untold(fit_.members[m], estimates(*setting_, fit_)[m])) continue;
     std::optional<JointFit> best;
-    for (const char* name : {"bias", "linear_drift"}) {
-      const EffectKind& kind = *find_effect(name);
-      if (!is_listed(study_, kind) || !is_testable(study_, kind)) continue;
+    for (const EffectKind* offset : effect_kinds()) {
+      const EffectKind& kind = *offset;
+      const bool is_plain = kind.stage == Stage::kOffset && kind.fits.front().shapes.empty() &&
+                            kind.interval != IntervalRule::kOnset;
+      if (!is_plain || !is_listed(study_, kind) || !is_testable(study_, kind)) continue;
       std::vector<Member> members = members_without(m);
       const bool there = std::any_of(members.begin(), members.end(),
                                      [&](const Member& other) { return other.kind == &kind; });

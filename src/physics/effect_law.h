@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the laws in effects/ share: their names, their parameters, and the axes they act along.
 #pragma once
 
@@ -18,6 +19,8 @@ namespace dcnn {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTiny = std::numeric_limits<double>::min();  ///< the least positive number
+/// EffectKind::hidden_by of what changes the simulator's tool.
+inline constexpr const char* kUnknownTool = "the simulator's own tool is not known";
 
 /// A parameter that must be there: a finite number in [low, high].
 double parameter(Options& parameters, const std::string& key, double low = -kInfinity,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The catalogue of what can be missing in, or wrong with, the model of a rigid tool.
 #pragma once
 
@@ -91,8 +92,9 @@ struct EffectSpec {
 /// A parameter the force is not linear in: where the diagnosis looks for it.
 struct ShapeParameter {
   const char* name;
-  double low, high;           ///< bounds; searched on a logarithmic scale where low > 0
-  std::vector<double> seeds;  ///< where a search begins; empty where seeds come from the residual
+  double low, high;  ///< bounds; searched on a logarithmic scale where low > 0
+  /// Where a search begins; empty where seeds come from the residual.
+  std::vector<double> seeds = {};
   /// Bounds and seeds are in rad or m and s; along an axis of a machine of another size they grow
   /// with these powers of its units of length and time.
   int length = 0, time = 0;
@@ -101,6 +103,11 @@ struct ShapeParameter {
   /// over which friction falls, as far as it.
   enum class Speed { kAny, kTurning, kFalling };
   Speed speed = Speed::kAny;
+  /// What the likelihood looks like over it. kWide: one maximum over much of the range. kNarrow: as
+  /// that of an order or a mode, within some per cent of a seed. kLine: as that of a frequency,
+  /// within a part of a turn over all recordings. kComb: a maximum for each turn of the motion.
+  enum class Peak { kWide, kNarrow, kLine, kComb };
+  Peak peak = Peak::kWide;
 };
 
 /// How an effect is found from data: the force is linear in its amplitudes where the shapes are
@@ -125,6 +132,10 @@ struct EffectFit {
   bool special = false;
   /// Tried where gravity points mostly along this base axis (0 to 2); -1: wherever it points.
   int gravity_along = -1;
+  /// The second amplitude is no less than the first: below it is another law.
+  bool rising = false;
+  /// On a tool the second amplitude is at most so many times the first: beyond it is another law.
+  double most_ratio = std::numeric_limits<double>::infinity();
 };
 
 /// What an effect must know of time: nothing, when a row was taken, or the motion between rows.
@@ -132,6 +143,18 @@ enum class TimeNeed { kNone, kClock, kMotion };
 
 /// When an effect shows in what is read.
 enum class Shown { kNever, kInMotion, kAlways };
+
+/// What decides whether recordings can show an effect, beyond the signals that it needs.
+struct Showing {
+  bool on_machine = false;    ///< of one axis of another machine, else of a tool
+  bool own_tool = true;       ///< the simulator's tool is known: its mass and its centre of mass
+  bool has_inertia = true;    ///< what is simulated has inertia
+  bool is_full = true;        ///< the simulator has all inertial terms
+  bool several_axes = false;  ///< of one machine, on one clock
+  bool reads_motion = false;  ///< what is read is a position or a rate
+  bool fitted_base = false;   ///< coefficients of the base simulator are fitted
+  bool own_offsets = false;   ///< each recording has an offset of its own
+};
 
 /// One law of the catalogue (effects.def), applied in place by simulation and corrected model
 /// alike.
@@ -166,6 +189,23 @@ struct EffectKind {
   bool at_a_point = false;
   /// A constant: no error of a law or of the motion comes with it, however large it is.
   bool is_constant = false;
+  /// Friction: kDry resists at any speed, so that one law of it acts along a line.
+  enum class Friction { kNone, kDry, kOther };
+  Friction friction = Friction::kNone;
+  /// Over the position of its axis a straight line, a loop or a wave: less than a turn of a wave
+  /// beside one of the others is a spring that bends.
+  enum class Course { kOther, kStraight, kLoop, kWave };
+  Course course = Course::kOther;
+  /// Acts once for each value of its first shape that recordings tell from the others, else once
+  /// along an axis.
+  bool at_many = false;
+  /// A number of the simulator that may be wrong by itself: of a tool's, of another machine's.
+  enum class Own { kNone, kTools, kMachines };
+  Own own = Own::kNone;
+  /// The signal of a machine's base simulator (System) that is this law, null where there is none.
+  const char* base_signal = nullptr;
+  /// The parameter by which the reading is late [s], null where there is none.
+  const char* lateness = nullptr;
   /// The parameter that the force is proportional to, the others held: it may follow a logged
   /// signal (parameters driven_by, slope, lag_s); null where there is none.
   const char* strength = nullptr;
@@ -183,6 +223,10 @@ struct EffectKind {
   /// The ways in which its parameters are fitted (thermal_drift has two); empty for what the
   /// diagnosis does not look for.
   std::vector<EffectFit> fits = {};
+  /// Whether these amplitudes are the effect's; else another one is meant. Null: always.
+  bool (*is_itself)(const Eigen::VectorXd& amplitudes, bool on_machine) = nullptr;
+  /// Why recordings cannot show it, in words, or null; null: they can.
+  const char* (*hidden_by)(const Showing&) = nullptr;
   /// "dry friction of 0.4 N": what was found, in words, without where it acts; null: its meaning.
   std::string (*words)(const FoundNumbers&) = nullptr;
 };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
 #include "physics/friction.h"
@@ -23,6 +24,7 @@ const EffectKind effect{
     .example = R"({"delta_c_nspm": 0.5})",
     .axis = AxisRule::kLine,
     .subject = EffectKind::Subject::kMachines,
+    .friction = EffectKind::Friction::kOther,
     .apply = resisted<law>,
     .stream = resisting<law>,
     .fits = {{.amplitudes = 1,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "physics/effect_law.h"
 
 namespace dcnn::effects::bias {
@@ -27,6 +28,7 @@ const EffectKind effect{
     .equation = "+ b",
     .example = R"({"delta_bias_x_n": 0.3, "delta_bias_y_n": -0.2, "delta_bias_z_n": 0.1})",
     .is_constant = true,
+    .own = EffectKind::Own::kTools,
     .strength = "delta_bias_x_n",
     .apply = apply,
     .stream = stream,
@@ -42,6 +44,10 @@ const EffectKind effect{
                     return offset_parameters(Eigen::Vector3d(a(0), 0.0, 0.0), "delta_bias");
                   },
               .use = EffectFit::Use::kDriven}},
+    .hidden_by =
+        [](const Showing& of) {
+          return of.own_offsets ? "each recording has an offset of its own (zeroed)" : nullptr;
+        },
     .words =
         [](const FoundNumbers& n) {
           return "a constant offset of " +

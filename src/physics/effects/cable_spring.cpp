@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <numbers>
+
 #include "physics/effect_law.h"
 
 namespace dcnn::effects::cable_spring {
@@ -19,6 +22,8 @@ const EffectKind effect{
     .equation = "-k (q - rest) n",
     .example = R"({"k_nprad": 0.5, "rest_rad": 0.1})",
     .axis = AxisRule::kAngle,
+    .course = EffectKind::Course::kStraight,
+    .base_signal = "position",
     .strength = "k_nprad",
     .apply = pushed<law>,
     .stream = pushing<law>,
@@ -27,7 +32,9 @@ const EffectKind effect{
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"k_nprad", a(0)}, {"rest_rad", a(0) == 0.0 ? 0.0 : a(1) / a(0)}};
-                  }},
+                  },
+              // One whose rest is turns away is a constant.
+              .most_ratio = 2.0 * std::numbers::pi},
              {.amplitudes = 1,
               .shapes = {{"rest", -3.2, 3.2, {0.0}, 1}},
               .parameters =

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
 #include "core/elementary.h"
@@ -29,10 +30,16 @@ const EffectKind effect{
     .equation = "amp sin(order q + phase) n",
     .example = R"({"amp_n": 0.1, "order": 12.0, "phase_rad": 0.5})",
     .axis = AxisRule::kAngle,
+    .course = EffectKind::Course::kWave,
+    .at_many = true,
     .apply = pushed<law>,
     .stream = pushing<law>,
     .fits = {{.amplitudes = 2,
-              .shapes = {{"order", 0.5, 200.0, {}, -1}},
+              .shapes = {{.name = "order",
+                          .low = 0.5,
+                          .high = 200.0,
+                          .length = -1,
+                          .peak = ShapeParameter::Peak::kNarrow}},
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
                     return Json{{"amp_n", a.norm()},

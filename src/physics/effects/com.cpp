@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "physics/effect_law.h"
 
 namespace dcnn::effects::com {
@@ -18,6 +19,7 @@ const EffectKind effect{
     .example = R"({"delta_com_x_m": 0.01, "delta_com_y_m": -0.005, "delta_com_z_m": 0.02})",
     .interval = IntervalRule::kNever,
     .force = Shown::kInMotion,
+    .own = EffectKind::Own::kTools,
     .change = change,
     .fits = {{.amplitudes = 3,
               .parameters =
@@ -25,6 +27,7 @@ const EffectKind effect{
                     return Json{
                         {"delta_com_x_m", a(0)}, {"delta_com_y_m", a(1)}, {"delta_com_z_m", a(2)}};
                   }}},
+    .hidden_by = [](const Showing& of) { return of.own_tool ? nullptr : kUnknownTool; },
     .words =
         [](const FoundNumbers& n) {
           return "the centre of mass is " + in_thousandths(n.length("delta_com", "m"), "mm") +

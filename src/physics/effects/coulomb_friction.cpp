@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
 #include "core/elementary.h"
@@ -23,6 +24,7 @@ const EffectKind effect{
     .example = R"({"fc_n": 0.4, "v0_mps": 0.01})",
     .axis = AxisRule::kLine,
     .common = true,
+    .friction = EffectKind::Friction::kDry,
     .strength = "fc_n",
     .apply = resisted<law>,
     .stream = resisting<law>,

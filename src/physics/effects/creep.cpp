@@ -1,3 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include "dcnn/physics/first_order.h"
 #include "physics/effect_law.h"
 
@@ -65,6 +68,7 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
                     return Json{{"a", a(0)}, {"tau_s", s(0)}};
                   }}},
+    .is_itself = [](const Eigen::VectorXd& a, bool) { return std::abs(a(0)) < 1.0; },
     .words =
         [](const FoundNumbers& n) {
           return (n.on_machine() ? "a reading that goes on settling by "

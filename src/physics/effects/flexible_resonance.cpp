@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -7,6 +8,10 @@
 
 namespace dcnn::effects::flexible_resonance {
 namespace {
+
+constexpr double kMostWithNoise = 1.5;  // of a tool that rings
+const ShapeParameter kFrequency{
+    .name = "freq", .low = 1.0, .high = 200.0, .peak = ShapeParameter::Peak::kNarrow};
 
 void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const ToolModel&,
            Options& parameters) {
@@ -60,15 +65,18 @@ const EffectKind effect{
     // What a mount lets through is no more than all. A machine's mode takes nothing off, and rings.
     .fits = {{.amplitudes = 1,
               .most_strength = 1.0,
-              .shapes = {{"freq", 1.0, 200.0, {}}, {"zeta", 2e-3, 0.9, {0.01, 0.03, 0.1}}},
+              .shapes = {kFrequency, {"zeta", 2e-3, 0.9, {0.01, 0.03, 0.1}}},
               .parameters = numbers,
               .use = EffectFit::Use::kTools},
              {.amplitudes = 1,
               .non_negative = true,
               .most_strength = 1.0,
-              .shapes = {{"freq", 1.0, 200.0, {}}, {"zeta", 2e-3, 0.5, {0.01, 0.03, 0.1}}},
+              .shapes = {kFrequency, {"zeta", 2e-3, 0.5, {0.01, 0.03, 0.1}}},
               .parameters = numbers,
               .use = EffectFit::Use::kMachines}},
+    // No more than all of the tool rings, but for noise.
+    .is_itself = [](const Eigen::VectorXd& a,
+                    bool on_machine) { return on_machine || std::abs(a(0)) <= kMostWithNoise; },
     .words =
         [](const FoundNumbers& n) {
           return (n.on_machine() ? "a resonance at " : "the tool rings at ") + n("freq");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
 
@@ -43,6 +44,7 @@ const EffectKind effect{
     .on_machine = "scale error",
     .equation = "F_i -> (1+k_i) F_i",
     .example = R"({"gain_x": 0.02, "gain_y": -0.03, "gain_z": 0.01})",
+    .own = EffectKind::Own::kMachines,
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 3,
@@ -59,6 +61,12 @@ const EffectKind effect{
                   },
               .use = EffectFit::Use::kTools,
               .special = true}},
+    .hidden_by =
+        [](const Showing& of) {
+          return of.on_machine && of.fitted_base
+                     ? "the coefficients of the base simulator are fitted, and a scale is in them"
+                     : nullptr;
+        },
     .words =
         [](const FoundNumbers& n) {
           if (n.on_machine()) return "a scale that is off by " + n.plain("gain", 100.0) + " %";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/elementary.h"
 #include "physics/friction.h"
 
@@ -52,13 +53,22 @@ const EffectKind effect{
     .axis = AxisRule::kAngle,
     .subject = EffectKind::Subject::kMachines,
     .special = true,
+    .friction = EffectKind::Friction::kDry,
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 3,
               .shapes =
-                  {{"order", 0.5, 200.0, {}, -1},
+                  {{.name = "order",
+                    .low = 0.5,
+                    .high = 200.0,
+                    .length = -1,
+                    .peak = ShapeParameter::Peak::kNarrow},
                    {"v0", 3e-4, 0.3, {0.003, 0.012, 0.05}, 1, -1, ShapeParameter::Speed::kTurning}},
               .parameters = published}},
+    .is_itself =
+        [](const Eigen::VectorXd& a, bool) {  // it resists in every position
+          return a(0) > 0.0 && a.tail(2).norm() < a(0);
+        },
     .words =
         [](const FoundNumbers& n) {
           return "dry friction of " + n("fc") + " that varies by " + n.plain("a", 100.0) +

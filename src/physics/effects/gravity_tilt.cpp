@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <numbers>
 
 #include "dcnn/data/rotation.h"
@@ -42,8 +43,10 @@ const EffectKind effect{
     .equation = "g -> Rz(tz) Ry(ty) Rx(tx) g",
     .example = R"({"tilt_x_rad": 0.02, "tilt_y_rad": -0.03})",
     .interval = IntervalRule::kNever,
+    .own = EffectKind::Own::kTools,
     .change = change,
     .fits = {about<1, 2, 0>(), about<0, 2, 1>(), about<0, 1, 2>()},
+    .hidden_by = [](const Showing& of) { return of.own_tool ? nullptr : kUnknownTool; },
     .words =
         [](const FoundNumbers& n) {
           return "the robot's base is tilted by " + in_thousandths(n.length("tilt", "rad"), "mrad");

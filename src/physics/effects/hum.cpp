@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <numbers>
 
 #include "core/elementary.h"
@@ -27,10 +28,14 @@ const EffectKind effect{
     .example =
         R"({"freq_hz": 50.0, "sin_x_n": 0.1, "sin_y_n": 0.0, "sin_z_n": -0.05, "cos_x_n": 0.02, "cos_y_n": 0.08, "cos_z_n": 0.0})",
     .needs_time = TimeNeed::kMotion,
+    .at_many = true,
     .apply = apply,
     .fits = {{.amplitudes = 6,
               .with_torque = 12,
-              .shapes = {{"freq", 0.05, 500.0, {}}},
+              .shapes = {{.name = "freq",
+                          .low = 0.05,
+                          .high = 500.0,
+                          .peak = ShapeParameter::Peak::kLine}},
               .parameters =
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
                     const Index half = a.size() / 2;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
 
@@ -131,6 +132,7 @@ const EffectKind effect{
     .axis = AxisRule::kAngle,
     .needs_time = TimeNeed::kMotion,
     .begins_anywhere = true,
+    .course = EffectKind::Course::kLoop,
     .strength = "force_n",
     .apply = apply,
     .stream = stream,
@@ -154,6 +156,9 @@ const EffectKind effect{
                                 {"m", 1.0}};
                   },
               .use = EffectFit::Use::kMachines}},
+    // On an axis the position says which way a force resists.
+    .is_itself = [](const Eigen::VectorXd& a,
+                    bool on_machine) { return !on_machine || a(0) > 0.0; },
     .words = words,
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "physics/effect_law.h"
 
 namespace dcnn::effects::inertia {
@@ -37,6 +38,7 @@ const EffectKind effect{
     .example = R"({"delta_inertia_kg": 0.2})",
     .axis = AxisRule::kLine,
     .subject = EffectKind::Subject::kMachines,
+    .base_signal = "acceleration",
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 1,
@@ -44,6 +46,11 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"delta_inertia_kg", a(0)}};
                   }}},
+    .hidden_by =
+        [](const Showing& of) {
+          return of.reads_motion ? "what is read is a motion, of which a delay looks like it"
+                                 : nullptr;
+        },
     .words =
         [](const FoundNumbers& n) { return "an inertia that is off by " + n("delta_inertia"); },
 };

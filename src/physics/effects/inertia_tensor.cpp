@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -45,6 +46,7 @@ const EffectKind effect{
                     }
                     return parameters;
                   }}},
+    .hidden_by = [](const Showing& of) { return of.own_tool ? nullptr : kUnknownTool; },
     .words =
         [](const FoundNumbers& n) {
           const auto most = std::max_element(n.all().begin(), n.all().end(),

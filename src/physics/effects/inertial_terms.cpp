@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "physics/effect_law.h"
 
 namespace dcnn::effects::inertial_terms {
@@ -19,6 +20,11 @@ const EffectKind effect{
     .change = change,
     .fits = {{.parameters = [](const Eigen::VectorXd&,
                                const Eigen::VectorXd&) { return Json::object(); }}},
+    .hidden_by =
+        [](const Showing& of) {
+          if (!of.own_tool) return kUnknownTool;
+          return of.is_full ? "the simulator has all inertial terms" : nullptr;
+        },
     .words = [](const FoundNumbers&) -> std::string {
       return "the simulation leaves out inertial terms that the recordings show";
     },

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
 #include "core/elementary.h"
@@ -54,6 +55,7 @@ const EffectKind effect{
     .axis = AxisRule::kLine,
     .of_load = true,
     .special = true,
+    .friction = EffectKind::Friction::kOther,
     .strength = "mu",
     .apply = apply,
     .stream = stream,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/physics/first_order.h"
 #include "physics/effect_law.h"
 
@@ -57,6 +58,7 @@ const EffectKind effect{
     .equation = "tau dF'/dt + F' = F",
     .example = R"({"tau_s": 0.01})",
     .needs_time = TimeNeed::kMotion,
+    .lateness = "tau_s",
     .apply = apply,
     .stream = stream,
     // A drive's filters are faster than a tenth of a second; those of a sensor's driver need not

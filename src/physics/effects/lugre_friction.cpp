@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
 
@@ -67,6 +68,7 @@ const EffectKind effect{
     .example = R"({"fc_n": 0.4, "sigma0_npm": 2000.0, "sigma1_nspm": 2.0})",
     .axis = AxisRule::kLine,
     .needs_time = TimeNeed::kMotion,
+    .friction = EffectKind::Friction::kDry,
     .apply = apply,
     .stream = stream,
     .fits = {{.amplitudes = 1,

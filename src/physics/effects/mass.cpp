@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
 #include "physics/effect_law.h"
@@ -19,6 +20,7 @@ const EffectKind effect{
     .equation = "m -> m + d",
     .example = R"({"delta_mass_kg": 0.05})",
     .interval = IntervalRule::kNever,
+    .own = EffectKind::Own::kTools,
     .change = change,
     .fits = {{.amplitudes = 1,
               .parameters =

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
 #include "physics/friction.h"
@@ -21,6 +22,7 @@ const EffectKind effect{
     .equation = "-c2 v abs(v) n",
     .example = R"({"c2_ns2pm2": 5.0})",
     .axis = AxisRule::kLine,
+    .friction = EffectKind::Friction::kOther,
     .strength = "c2_ns2pm2",
     .apply = resisted<law>,
     .stream = resisting<law>,

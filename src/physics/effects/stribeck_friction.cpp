@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include "core/elementary.h"
@@ -5,6 +7,8 @@
 
 namespace dcnn::effects::stribeck_friction {
 namespace {
+
+constexpr double kMostAtRest = 4.0;  // times the friction of motion, on a machine
 
 auto law(Options& parameters) {
   const double fc = parameter(parameters, "fc_n", 0.0), fs = parameter(parameters, "fs_n", 0.0);
@@ -26,6 +30,7 @@ const EffectKind effect{
     .equation = "-(fc + (fs-fc) exp(-(v/vs)^2)) tanh(v/v0) n",
     .example = R"({"fc_n": 0.3, "fs_n": 0.6, "vs_mps": 0.03, "v0_mps": 0.005})",
     .axis = AxisRule::kLine,
+    .friction = EffectKind::Friction::kDry,
     .apply = resisted<law>,
     .stream = resisting<law>,
     .fits =
@@ -38,7 +43,13 @@ const EffectKind effect{
               [](const Eigen::VectorXd& a, const Eigen::VectorXd& s) {
                 return Json{
                     {"fc_n", a(0)}, {"fs_n", a(1)}, {"vs_mps", s(0)}, {"v0_mps", s(0) * s(1)}};
-              }}},
+              },
+          .rising = true}},
+    .is_itself =
+        [](const Eigen::VectorXd& a, bool on_machine) {
+          const double ratio = a(1) / std::max(1e-300, a(0));
+          return ratio > 1.0 && (!on_machine || ratio < kMostAtRest);
+        },
     .words =
         [](const FoundNumbers& n) {
           return "friction that falls from " + n("fs") + " to " + n("fc") + " with speed";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -63,20 +64,35 @@ const EffectKind effect{
     .equation = "F(t) -> F(t - d)",
     .example = R"({"delay_s": 0.013})",
     .needs_time = TimeNeed::kMotion,
+    .lateness = "delay_s",
     .apply = apply,
     .stream = stream,
     // Seeds reach to half a second, each within a factor of three of the next, for a search ends at
     // the nearest turn of the motion; the one in the middle of the list stands for the least size.
-    .fits = {{.shapes = {{"delay", 2e-5, 1.0, {1.5e-4, 0.001, 0.02, 0.004, 0.06, 0.15, 0.4}}},
+    .fits = {{.shapes = {{.name = "delay",
+                          .low = 2e-5,
+                          .high = 1.0,
+                          .seeds = {1.5e-4, 0.001, 0.02, 0.004, 0.06, 0.15, 0.4},
+                          .peak = ShapeParameter::Peak::kComb}},
               .parameters =
                   [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {
                     return Json{{"delay_s", s(0)}};
                   }},
-             {.shapes = {{"lead", 2e-5, 0.6, {0.001, 0.02, 0.06, 0.004, 0.15, 0.4}}},
+             {.shapes = {{.name = "lead",
+                          .low = 2e-5,
+                          .high = 0.6,
+                          .seeds = {0.001, 0.02, 0.06, 0.004, 0.15, 0.4},
+                          .peak = ShapeParameter::Peak::kComb}},
               .parameters =
                   [](const Eigen::VectorXd&, const Eigen::VectorXd& s) {
                     return Json{{"delay_s", -s(0)}};
                   }}},
+    .hidden_by =
+        [](const Showing& of) {
+          return of.on_machine && of.several_axes
+                     ? "the axes share one clock: none of them alone is late"
+                     : nullptr;
+        },
     .words =
         [](const FoundNumbers& n) {
           const double delay = n.value("delay");

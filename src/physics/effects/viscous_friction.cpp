@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "physics/friction.h"
 
 namespace dcnn::effects::viscous_friction {
@@ -20,6 +21,8 @@ const EffectKind effect{
     .example = R"({"c_nspm": 2.0})",
     .axis = AxisRule::kLine,
     .common = true,
+    .friction = EffectKind::Friction::kOther,
+    .base_signal = "velocity",
     .strength = "c_nspm",
     .apply = resisted<law>,
     .stream = resisting<law>,
@@ -29,6 +32,11 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"c_nspm", a(0)}};
                   }}},
+    .hidden_by =
+        [](const Showing& of) {
+          return of.reads_motion ? "what is read is a motion, of which a delay looks like it"
+                                 : nullptr;
+        },
     .words = [](const FoundNumbers& n) { return "viscous friction of " + n("c"); },
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "physics/effect_law.h"
 
 // Robot controllers often subtract the weight of a payload from what their sensor reads, and not
@@ -44,6 +45,10 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"mass_kg", a(0)}};
                   }}},
+    .hidden_by =
+        [](const Showing& of) {
+          return of.has_inertia ? "what is simulated has its inertia" : nullptr;
+        },
     .words =
         [](const FoundNumbers& n) {
           return "the inertia of " + mass_text(n.value("mass")) + " whose weight is compensated";
