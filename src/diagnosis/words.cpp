@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/words.h"
 
 #include <cmath>
@@ -72,15 +73,15 @@ std::string per_signal(const std::string& unit, const Json& driven_by) {
 }
 
 FoundNumbers found_numbers(const Json& parameters, bool on_machine) {
+  const auto end_of = [](const Json& interval, std::size_t k) {
+    return interval[k].is_number() ? interval[k].get<double>()
+                                   : std::numeric_limits<double>::quiet_NaN();
+  };
   std::vector<FoundNumber> found;
   for (const auto& [name, number] : parameters.items()) {
-    const auto end = [&](std::size_t k) {
-      const Json& value = number["ci95"][k];
-      return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
-    };
     found.push_back({on_machine ? name : stem_of_parameter(name),
                      unit_text(number["unit"].get<std::string>()), number["value"].get<double>(),
-                     end(0), end(1), is_told(number)});
+                     end_of(number["ci95"], 0), end_of(number["ci95"], 1), is_told(number)});
   }
   return {std::move(found), on_machine};
 }
