@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/search.h"
 
 #include <algorithm>
@@ -192,6 +193,11 @@ bool Search::mask_outlying() {
   outlying_ = std::move(spans);
   settle(fit_.members);
   return true;
+}
+
+void Search::look_longer() {
+  constexpr double kAtLeast = 0.2;
+  begun_ = std::max(begun_, passes() - (1.0 - kAtLeast) * kMostPasses);
 }
 
 std::vector<Member> Search::to_begin_with() const { return is_spent() ? fit_.members : apart_; }

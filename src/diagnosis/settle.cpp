@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Floor, whitening and nuisance for what a set of members leaves.
 #include <algorithm>
 #include <cmath>
@@ -6,6 +7,7 @@
 #include "diagnosis/axis_case.h"
 #include "diagnosis/base_errors.h"
 #include "diagnosis/evidence/priors.h"
+#include "diagnosis/periodograms.h"
 #include "diagnosis/search.h"
 #include "physics/effect_law.h"
 
@@ -48,7 +50,10 @@ Surroundings Search::surroundings(const std::vector<Member>& members) const {
   bound_by_residual(study_, raw, levels, floors);
   add_pose_noise(study_, floors);
   add_position_noise(study_, members, made.left, floors);
-  if (in_slow_noise_) made.slow = slow_parts(study_, made.left, floors).value_or(made.slow);
+  if (in_slow_noise_) {
+    const Signals even = evened(study_, made.left, levels);  // of which the floors are, too
+    made.slow = slow_parts(study_, even, floors).value_or(made.slow);
+  }
   for (std::size_t j = 0; j < made.slow.size(); ++j) {
     made.slow[j].add_to(floors[j]);
     floors[j].source += "; below, slow noise that depends on nothing";

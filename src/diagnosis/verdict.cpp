@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What tests of their own find, and what is taken back.
 #include <algorithm>
 #include <cmath>
@@ -153,7 +154,6 @@ void Search::drop_unconfirmed() {
 /// Takes back what a remainder nobody can name makes doubtful: events, but for those of which only
 /// the shape is a little off, and members that fit in some places and not in others.
 void Search::judge() {
-  constexpr double kWithoutEvents = 0.2;  // of a search's limit, at least
   drop_coincidences();
   drop_unconfirmed();
   if (study_.axis) keep_what_is_confirmed();
@@ -183,7 +183,7 @@ void Search::judge() {
       settle(rest);
       // What the events stood for is still to be found, though the search be spent on them.
       ended_early_ = ended_early_ || is_spent();
-      begun_ = std::max(begun_, passes() - (1.0 - kWithoutEvents) * kMostPasses);
+      look_longer();
       explore();
     }
   }
