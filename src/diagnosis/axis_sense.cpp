@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/axis_sense.h"
 
 #include <algorithm>
@@ -15,8 +16,9 @@ constexpr double kLongestDelay = 0.6;  // s, as delays are looked for (effects/t
 constexpr int kDelays = 60;            // either way: steps that no motion below 10 Hz turns in
 
 /// Offset, velocity, acceleration, position of one recording, of a turning axis its sine and cosine
-/// (a link in gravity), and its reading.
-constexpr Index kColumns = 6, kWithoutGravity = 4, kVelocity = 1, kAcceleration = 2;
+/// (a link in gravity) and their rates, for a weight read some milliseconds late is no drag; and
+/// its reading.
+constexpr Index kColumns = 8, kWithoutGravity = 4, kVelocity = 1, kAcceleration = 2, kPosition = 3;
 struct LaggedRows {
   Eigen::MatrixXd motion;
   Eigen::VectorXd reading;
@@ -51,6 +53,7 @@ struct LaggedSums {
 struct SenseFit {
   double sense = 1.0;
   double left = 1.0;  ///< share of the reading's variance
+  double more = 0.0;  ///< the same without the term that tells the sense, beyond `left`
 };
 
 /// Of the first so many columns.
@@ -66,7 +69,9 @@ SenseFit sense_fit(const LaggedSums& sums, Index columns) {
   const double along_v = estimate(kVelocity), along_a = estimate(kAcceleration);
   const double variance = sums.square - sums.sum * sums.sum / std::max(1.0, sums.rows);
   SenseFit fit;
-  fit.sense = (std::abs(along_v) > std::abs(along_a) ? along_v : along_a) < 0.0 ? -1.0 : 1.0;
+  const double telling = std::abs(along_v) > std::abs(along_a) ? along_v : along_a;
+  fit.sense = telling < 0.0 ? -1.0 : 1.0;
+  fit.more = telling * telling / std::max(variance, 1e-300);
   // Rounding is what an exact simulator leaves.
   fit.left = (std::max(0.0, sums.square - match.dot(inverse * match)) + 1e-9 * sums.square) /
              std::max(variance, 1e-300);
@@ -96,11 +101,14 @@ LaggedRows lagged_rows(const Recording& recording, const System& system, const A
   rows.motion.col(kAcceleration) = motion.a_B.col(0);
   if (recording.has(axis.position)) {
     const Eigen::VectorXd q = recording.column(axis.position);
-    rows.motion.col(3) = q;
+    rows.motion.col(kPosition) = q;
     if (axis.position_unit == "rad") {
       for (Index i = 0; i < q.size(); ++i) {
+        const double v = rows.motion(i, kVelocity);
         rows.motion(i, 4) = elementary::sin(q(i));
         rows.motion(i, 5) = elementary::cos(q(i));
+        rows.motion(i, 6) = v * rows.motion(i, 5);
+        rows.motion(i, 7) = v * rows.motion(i, 4);
       }
     }
   }
@@ -112,13 +120,30 @@ LaggedRows lagged_rows(const Recording& recording, const System& system, const A
   return rows;
 }
 
-/// How often the axis turns back: so many independent pieces a motion has.
+/// How often a signal turns back by more than a twentieth of its range: less is noise.
+double turns_of(const Eigen::VectorXd& x) {
+  constexpr double kLeast = 0.05;
+  const double least = kLeast * (x.maxCoeff() - x.minCoeff());
+  double turns = 0.0, high = x(0), low = x(0), way = 0.0;  // since the last turn; its direction
+  for (const double now : x) {
+    high = std::max(high, now), low = std::min(low, now);
+    const bool falls = way >= 0.0 && high - now > least, rises = way <= 0.0 && now - low > least;
+    if (!falls && !rises) continue;
+    turns += way != 0.0;
+    way = falls ? -1.0 : 1.0;
+    high = low = now;
+  }
+  return turns;
+}
+
+/// How often the axis turns back, by its position where that is logged: so many independent pieces
+/// a motion has.
 double turns_of(const std::vector<LaggedRows>& logs) {
   double turns = 0.0;
   for (const LaggedRows& log : logs) {
-    for (Index i = 1; i < log.motion.rows(); ++i) {
-      turns += log.motion(i, kVelocity) * log.motion(i - 1, kVelocity) < 0.0;
-    }
+    const bool placed = !log.motion.col(kPosition).isZero(0.0);
+    turns += placed ? turns_of(Eigen::VectorXd(log.motion.col(kPosition)))
+                    : turns_of(Eigen::VectorXd(log.motion.col(kVelocity)));
   }
   return turns;
 }
@@ -137,6 +162,7 @@ double sense_of(const std::vector<Recording>& recordings, const System& system, 
   constexpr double kStep = kLongestDelay / kDelays, kUsual = prior::kUsualDelay;
   const double delayed =
       elementary::log(prior::kName / (1.0 - prior::kName) * kStep / (2.0 * kUsual));
+  const double reaction = elementary::log(prior::kReaction / (1.0 - prior::kReaction));
   double sense = 1.0, most = -1e300;
   for (int k = -kDelays; k <= kDelays; ++k) {
     LaggedSums sums;
@@ -148,7 +174,12 @@ double sense_of(const std::vector<Recording>& recordings, const System& system, 
     // Of a motion to and fro half a period later is the opposite: the shorter delay is likelier.
     const double prior = k == 0 ? 0.0 : delayed - kStep * std::abs(k) / kUsual;
     const double likely = -0.5 * turns * elementary::log(std::max(fit.left, 1e-12)) + prior;
-    if (likely > most) most = likely, sense = fit.sense;
+    if (likely <= most) continue;
+    most = likely;
+    // A drive has no drag or inertia below zero: without the term it leaves as much more.
+    const double left = std::max(fit.left, 1e-12);
+    const double against = 0.5 * turns * elementary::log((left + fit.more) / left);
+    sense = against + reaction > 0.0 ? fit.sense : 1.0;
   }
   return sense;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every prior of the diagnosis, in one table (docs/develop/priors.md says where each comes from).
 #pragma once
 
@@ -13,6 +14,8 @@ constexpr double kUsualDelay = 0.1;  ///< mean of a delay's size [s]; exponentia
 constexpr double kCommon = 0.5;
 constexpr double kUnknown = 0.12;   ///< of physics that no effect of the catalogue describes
 constexpr double kSlowNoise = 0.1;  ///< of noise that grows below the floor's band
+/// Of an axis whose reading is the reaction to its drive.
+constexpr double kReaction = 0.2;
 /// Density of a sensor's slow noise over its floor at most, in any octave.
 constexpr double kMostSlowNoise = 100.0;
 /// The same of noise of any spectrum, in any band, that depends on nothing.
