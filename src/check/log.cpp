@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/check/log.h"
 
 #include <algorithm>
@@ -5,13 +6,13 @@
 #include <numeric>
 
 #include "check/statistics.h"
+#include "data/clock.h"
 #include "data/near_names.h"
 
 namespace dcnn::check {
 namespace {
 
 using Names = std::vector<std::string>;
-constexpr double kGapSteps = 5.0;          // a longer step is a gap, as in every reader
 constexpr double kSmoothRatio = 0.05;      // of von Neumann's ratio, 2 for rows in any order
 constexpr std::size_t kFewestBursts = 20;  // whose lengths agree by chance next to never
 constexpr double kRegular = 0.9;           // of bursts that are of one length
@@ -107,7 +108,7 @@ Eigen::Index burst_of(const std::vector<Segment>& segments) {
 std::vector<Segment> segments_of(const Log& log) {
   std::vector<Segment> segments{{0, log.rows()}};
   for (Eigen::Index i = 1; i < log.t.size(); ++i) {
-    if (log.t[i] - log.t[i - 1] <= kGapSteps * log.step) continue;
+    if (!is_gap(log.t[i] - log.t[i - 1], log.step)) continue;
     segments.back().end = i;
     segments.push_back({i, log.rows()});
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "data/clock.h"
 
 #include <algorithm>
@@ -12,8 +13,8 @@ namespace dcnn {
 namespace {
 
 constexpr double kEpoch = 1e6;        // s; a larger t is a date, not a duration
-constexpr double kGap = 5.0;          // times dt
-constexpr double kOff = 0.2;          // of dt
+constexpr double kGap = 5.0;          // times dt, the longest step that is none
+constexpr double kOff = 0.2;          // of dt, by which jitter may be off
 constexpr double kTolerated = 0.01;   // of the steps
 constexpr double kMostLost = 0.1;     // of the rows; with more the median step is no clock's
 constexpr double kPoses = 1.0;        // s; between rows further apart a hand or an arm moves unseen
@@ -49,7 +50,7 @@ double step_of(const Eigen::VectorXd& t, double median) {
   double time = 0.0, ticks = 0.0;
   for (Index i = 1; i < t.size(); ++i) {
     const double step = (t[i] - t[i - 1]) / median, whole = std::max(1.0, std::round(step));
-    if (step > kGap || std::abs(step - whole) > kOff) continue;
+    if (is_gap(step, 1.0) || std::abs(step - whole) > kOff) continue;
     time += step;
     ticks += whole;
   }
@@ -69,7 +70,7 @@ double last_digit(const Eigen::Ref<const Eigen::VectorXd>& numbers) {
 std::vector<Segment> split_at_gaps(const Eigen::VectorXd& t, double dt) {
   std::vector<Segment> segments = {{0, t.size()}};
   for (Index i = 1; i < t.size(); ++i) {
-    if (t[i] - t[i - 1] <= kGap * dt) continue;
+    if (!is_gap(t[i] - t[i - 1], dt)) continue;
     segments.back().end = i;
     segments.push_back({i, t.size()});
   }
@@ -139,6 +140,8 @@ bool is_list_of_poses(const Recording& recording, double step, const std::string
 }
 
 }  // namespace
+
+bool is_gap(double step, double dt) { return step > (kGap + kOff) * dt; }
 
 std::optional<double> step_of_rounded(const Eigen::VectorXd& t) {
   constexpr Index kFewestRows = 20;

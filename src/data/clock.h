@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The clock of a recording: increasing, without gaps inside a segment, regular.
 #pragma once
 
@@ -11,6 +12,10 @@ namespace dcnn {
 /// fifth: that clock's step [s]. None of stamps that leave it by more than their last digit
 /// explains.
 std::optional<double> step_of_rounded(const Eigen::VectorXd& t);
+
+/// Whether a step of a clock [s] is a gap of the recording: longer than five of its usual steps `dt`
+/// and than what jitter makes of five.
+bool is_gap(double step, double dt);
 
 /// Checks column t (line = row + 2 in errors that name `file`), moves its origin where it is an
 /// epoch time, and fills dt and segments. A recording without t, and where `poses` one whose rows

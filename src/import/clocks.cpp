@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "import/clocks.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace dcnn {
 namespace {
 
 constexpr double kNoTime = std::numeric_limits<double>::quiet_NaN();
-constexpr double kGapSteps = 5.0, kOffStep = 0.2;  // as in recordings
+constexpr double kOffStep = 0.2;  // as in recordings
 
 /// Years 1990 to 2100 since 1970, s: a number in this range in exactly one of four units is a date.
 constexpr double kYear1990 = 6.3e8, kYear2100 = 4.1e9;
@@ -273,7 +274,7 @@ ClockFigures clock_figures(const std::vector<double>& times) {
   Index off = 0;
   for (const double step : steps) {
     if (rounded) break;  // even, but for the digits
-    figures.gaps += step > kGapSteps * figures.step;
+    figures.gaps += is_gap(step, figures.step);
     figures.repeats += step == 0.0;
     figures.backward += step < 0.0;
     off += std::abs(step - figures.step) > kOffStep * figures.step;

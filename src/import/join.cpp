@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streams of different clocks and rates on the rows of one.
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
+#include "data/clock.h"
 #include "data/spline.h"
 #include "data/text.h"
 #include "dcnn/core/error.h"
@@ -13,11 +15,9 @@
 namespace dcnn {
 namespace {
 
-constexpr double kGapInSteps = 5.0;  // as in recordings: a longer step is a gap
-
 /// Where the rows of one stream fall in another: the knot before each, -1 outside or in a gap.
 std::vector<Index> knots_before(const std::vector<double>& at, const std::vector<double>& t) {
-  const double gap = kGapInSteps * clock_figures(t).step;
+  const double step = clock_figures(t).step;
   std::vector<Index> knots;
   for (const double time : at) {
     const Index after = std::upper_bound(t.begin(), t.end(), time) - t.begin();
@@ -25,7 +25,7 @@ std::vector<Index> knots_before(const std::vector<double>& at, const std::vector
     const bool inside = after > 0 && after < static_cast<Index>(t.size());
     const bool whole =
         inside &&
-        t[static_cast<std::size_t>(after)] - t[static_cast<std::size_t>(after - 1)] <= gap;
+        !is_gap(t[static_cast<std::size_t>(after)] - t[static_cast<std::size_t>(after - 1)], step);
     knots.push_back(exact || whole ? after - 1 : -1);
   }
   return knots;

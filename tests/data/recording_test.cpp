@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/data/recording.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <iomanip>
 #include <numbers>
@@ -119,6 +121,15 @@ TEST(Recording, SplitsAtAGap) {
   EXPECT_EQ(recording.segments[1].begin, 60);
   EXPECT_EQ(recording.segments[1].end, 100);
   EXPECT_TRUE(noted(recording, "gap"));
+}
+
+// Four lost rows are a step of exactly five, which no rounding of stamps makes a gap.
+TEST(Recording, BridgesFourLostRows) {
+  const Recording recording = read(log_text([](Index i, auto& row) {
+    if (i >= 60) row[0] = std::round(1e6 * (row[0] + 0.008 + 1e-6)) / 1e6;
+  }));
+  ASSERT_EQ(recording.segments.size(), 1u);
+  EXPECT_TRUE(noted(recording, "4 rows are lost"));
 }
 
 TEST(Recording, LeavesOutTwoRowsBetweenGaps) {
