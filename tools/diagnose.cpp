@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <iostream>
 
@@ -62,16 +63,22 @@ Json with_check(const std::vector<Suspicion>& likely, const Json& report) {
   return out;
 }
 
-/// Of a description of axes; none of anything else, which is refused where it is read.
-std::vector<std::string> names_of_axes(const std::filesystem::path& system) {
+/// The links of a URDF for a description of axes, which says how the base is mounted; what is no
+/// such description is refused where it is read.
+Json arm_of(const std::filesystem::path& urdf, const std::string& tip,
+            const std::filesystem::path& system) {
   const Json json = read_json(system, Exit::kData);
+  const bool is_system = json.is_object() && json.contains("axes") && json["axes"].is_array();
   std::vector<std::string> names;
-  if (!json.is_object() || !json.contains("axes") || !json["axes"].is_array()) return names;
-  for (const Json& axis : json["axes"]) {
+  for (const Json& axis : is_system ? json["axes"] : Json::array()) {
     if (axis.is_object() && axis.contains("name") && axis["name"].is_string())
       names.push_back(axis["name"]);
   }
-  return names;
+  JointChain chain = read_urdf_chain(urdf, tip, names);
+  if (is_system) {
+    set_gravity(json.value("arm", Json()), system.string() + ": arm", Exit::kData, chain);
+  }
+  return to_json(chain);
 }
 
 /// What is likely; recordings that were likely zeroed are taken for such.
@@ -157,7 +164,7 @@ int main(int argc, char** argv) {
     request.read = read.options();
     request.read.part_of_wrench = true;
     if (!urdf.empty()) {
-      request.arm = to_json(read_urdf_chain(urdf, tip, names_of_axes(*request.system)));
+      request.arm = arm_of(urdf, tip, *request.system);
     }
     if (zeroed) request.zeroed = request.fit;
     if (zeroed)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/identification/arm.h"
 
 #include <algorithm>
@@ -137,6 +138,7 @@ JointChain chain_of(const ArmRequest& request) {
     std::vector<std::string> names;
     for (const Axis& axis : system.axes) names.push_back(axis.name);
     chain = read_urdf_chain(request.urdf, request.tip, names);
+    set_gravity(system.arm, request.system.string() + ": arm", Exit::kData, chain);
   } else {
     require(system.arm.is_object(), Exit::kData, request.system.string(),
             ": has no key 'arm' with the DH table; add it, or give --urdf robot.urdf");

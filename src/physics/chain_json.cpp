@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How an arm is written down in a system description.
 #include <algorithm>
 #include <cmath>
@@ -86,6 +87,12 @@ void add_table(const Json& dh, bool modified, const Options& options, JointChain
 }
 
 }  // namespace
+
+void set_gravity(const Json& arm, const std::string& where, Exit exit, JointChain& chain) {
+  if (!arm.is_object() || !arm.contains("gravity_mps2")) return;
+  Options options(Json{{"gravity_mps2", arm["gravity_mps2"]}}, where, exit);
+  chain.gravity = parse_numbers(options, "gravity_mps2", 3, {});
+}
 
 JointChain parse_chain(const Json& json, const std::string& where, Exit exit) {
   Options options(json, where, exit);

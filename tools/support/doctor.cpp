@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "support/doctor.h"
 
 #include <algorithm>
@@ -57,7 +58,9 @@ std::optional<JointChain> arm_of(const CheckRequest& request, const System& syst
   }
   std::vector<std::string> names;
   for (const check::Joint& joint : log.joints) names.push_back(joint.name);
-  return read_urdf_chain(request.urdf, request.tip, names);
+  JointChain chain = read_urdf_chain(request.urdf, request.tip, names);
+  set_gravity(system.arm, request.system.string() + ": arm", Exit::kData, chain);
+  return chain;
 }
 
 std::vector<std::filesystem::path> files_in(const std::vector<std::filesystem::path>& logs) {

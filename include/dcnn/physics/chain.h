@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A serial arm as a chain of joints with any axes, and its rigid body linear in the inertial
 // parameters.
 #pragma once
@@ -45,6 +46,9 @@ struct JointChain {
 /// Rz(theta)·Tz(d)·Tx(a)·Rx(alpha), theta = q + theta0; a link's frame has its z on the joint's
 /// axis in both, and the flange is the last row's frame.
 JointChain parse_chain(const Json& json, const std::string& where, Exit exit);
+/// The gravity that a description of an arm (`arm` of a System, or null) gives for a chain that was
+/// read elsewhere, as from a URDF: how its base is mounted. Its own where that gives none.
+void set_gravity(const Json& arm, const std::string& where, Exit exit, JointChain& chain);
 /// In the form with `joints`.
 Json to_json(const JointChain& chain);
 
