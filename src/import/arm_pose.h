@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pose of an arm's link from its joint angles.
 #pragma once
 

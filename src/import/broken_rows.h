@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows of a file that are no samples: cut telegrams, lines of another layout.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers in bytes that we do not trust: nothing is read beyond their end.
 #pragma once
 

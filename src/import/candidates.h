@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which of several columns of one meaning is taken.
 #pragma once
 

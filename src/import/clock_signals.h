@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a rigid tool's force is made of, from a pose, low-passed as the force is.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "import/column_units.h"
 
 #include <algorithm>
@@ -89,13 +90,6 @@ void guess_column_unit(const LogChannel& channel, ColumnRule* rule) {
   rule->assumed = !rule->unit.empty();
 }
 
-/// An axis may slide: then it has a force, a length and a velocity.
-bool is_of_sliding_axis(const std::string& to, const std::string& quantity) {
-  return (to.starts_with("tau:") && quantity == "force") ||
-         (to.starts_with("q:") && quantity == "length") ||
-         (to.starts_with("qd:") && quantity == "velocity");
-}
-
 /// A unit that is one of geometry or mechanics: what a converter gives may be gained to anything.
 bool has_dimension(const std::string& quantity) {
   return quantity != "counts" && quantity != "number" && quantity != "voltage" &&
@@ -145,6 +139,12 @@ void propose_unit(const ForeignLog& log, const ImportWishes& wishes, ColumnRule*
 }
 
 }  // namespace
+
+bool is_of_sliding_axis(const std::string& to, const std::string& quantity) {
+  return (to.starts_with("tau:") && quantity == "force") ||
+         (to.starts_with("q:") && quantity == "length") ||
+         (to.starts_with("qd:") && quantity == "velocity");
+}
 
 std::string quantity_of_column(const std::string& to) {
   const char first = to.empty() ? ' ' : to[0];

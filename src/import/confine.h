@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A process that reads bytes of others by somebody else's library.
 #pragma once
 

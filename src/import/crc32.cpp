@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The checksum of zlib and MCAP, by a table or, where the processor has it, by carry-less products
 // (Gopal et al., Fast CRC computation for generic polynomials using PCLMULQDQ, Intel 2009).
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compressed pieces of logs, with a bound on what they may become.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names that are the components of a frame by those that stand beside them.
 #pragma once
 

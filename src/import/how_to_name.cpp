@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What to type where no channel of a log is known by its name.
 #include <algorithm>
 #include <map>

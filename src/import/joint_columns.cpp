@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "import/joint_columns.h"
 
 #include <algorithm>
@@ -74,7 +75,6 @@ class JointFinder {
                              column->after;
       if (has(to)) continue;
       found_.push_back({.to = to, .stream = said.stream, .channel = name});
-      counted_on_.insert(to);
     }
   }
 
@@ -162,8 +162,8 @@ class JointFinder {
     }
   }
 
-  /// A channel that was counted on is a joint's where another channel is that joint's as well, as
-  /// it is of the joint that was said: a drive's other analog channels are no joints.
+  /// Beside joints that were said, of two channels and more, a channel is a joint's where another
+  /// one is that joint's as well: a drive's other analog channels are no joints.
   void leave_lone() {
     const auto joint_of = [](const std::string& to) { return to.substr(to.find(':') + 1); };
     std::map<std::string, int> known;
@@ -179,7 +179,7 @@ class JointFinder {
     });
     if (!together) return;
     std::erase_if(found_, [&](const ColumnRule& rule) {
-      return counted_on_.count(rule.to) > 0 && known[joint_of(rule.to)] == 1;
+      return is_joint(rule.to) && known[joint_of(rule.to)] == 1;
     });
   }
 
@@ -209,8 +209,7 @@ class JointFinder {
   const Names& use_;
   Proposal* proposal_;
   std::vector<ColumnRule> found_;
-  std::set<std::string> counted_on_;  ///< of them
-  Names twice_;                       ///< two streams that have one joint
+  Names twice_;  ///< two streams that have one joint
 };
 
 }  // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Columns of an arm's joints by their names.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Logs in JSON: one record a line, a list of records, or lists of numbers by name.
 #include "import/json_log.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cells that hold a list of numbers, as NumPy and pandas write them: "[0.1 0.2 0.3]".
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Collects rows of streams while a log is read.
 #pragma once
 

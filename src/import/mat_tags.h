@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The outline of a MATLAB file of version 5: where its variables begin and end.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers of ROS messages by their definitions: CDR (ROS 2) and the serialisation of ROS 1.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the numbers of a message lie: found once, and valid for every message with the same lengths
 // and names in it.
 #pragma once

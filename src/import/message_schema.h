@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Definitions of ROS messages: the text that bags carry.
 #pragma once
 

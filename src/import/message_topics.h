@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Topics of a bag: decoders by connection, and what cannot be decoded.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // NumPy's arrays (numpy.lib.format, versions 1 to 3), alone and in zip files.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Logs that are arrays of numbers: NumPy, MATLAB, JSON.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Orientations of other kinds as unit quaternions.
 #include <cmath>
 #include <functional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What rates in a log say of the clock of its rows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which reader a file is for, by its first bytes.
 #include <algorithm>
 #include <fstream>

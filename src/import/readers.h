@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Logs of ROS: MCAP (https://mcap.dev/spec), ROS 1 bags (format 2.0), rosbag2's SQLite files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The usual messages of ROS 2 as its packages define them (common_interfaces, Apache-2.0).
 #include <array>
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The offset between the clocks of two streams: from a log, in words and as a picture.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The columns that one stream gives to a recording, in SI, on its own clock.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/import/summary.h"
 
 #include <algorithm>
@@ -184,15 +185,22 @@ Json axes_of(const Table& table, const Recipe& recipe) {
   for (const std::string& column : table.columns) {
     const std::string name = column.substr(std::min<std::size_t>(4, column.size()));
     if (!column.starts_with("tau_") || (!has("q_" + name) && !has("qd_" + name))) continue;
-    const auto rule =
-        std::find_if(recipe.columns.begin(), recipe.columns.end(),
-                     [&](const ColumnRule& known) { return known.to == "tau:" + name; });
-    const auto unit = rule == recipe.columns.end() ? std::nullopt : find_unit(rule->unit);
-    const bool slides = unit && unit->quantity == std::string("force");
+    bool slides = false;  // as any of its columns tells
+    std::string electric;
+    for (const ColumnRule& rule : recipe.columns) {
+      const bool is_effort = rule.to == "tau:" + name;
+      if (!is_effort && rule.to != "q:" + name && rule.to != "qd:" + name) continue;
+      const auto unit = find_unit(rule.unit);
+      if (!unit) continue;
+      slides = slides || is_of_sliding_axis(rule.to, unit->quantity);
+      if (is_effort && unit->quantity == std::string("voltage")) electric = "V";
+      if (is_effort && unit->quantity == std::string("current")) electric = "A";
+    }
     Json axis = {{"name", name},
                  {"measured", column},
-                 {"unit", slides ? "N" : "N*m"},
+                 {"unit", electric.empty() ? (slides ? "N" : "N*m") : electric},
                  {"base", Json::array()}};
+    if (!electric.empty()) axis["position_unit"] = slides ? "m" : "rad";
     if (has("q_" + name)) axis["position"] = "q_" + name;
     if (has("qd_" + name)) axis["velocity"] = "qd_" + name;
     axes.push_back(std::move(axis));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is worth its memory while nothing is decided yet.
 #include <algorithm>
 

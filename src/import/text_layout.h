@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The dialect of a text of numbers, found from its first lines.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Text of any dialect as a log of one stream.
 #pragma once
 

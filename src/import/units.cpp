@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "import/units.h"
 
 #include <algorithm>
@@ -68,6 +69,8 @@ const std::array kUnits = {UnitRow{"s", "time"},
                            UnitRow{"deg/s", "rate", kRadian},
                            UnitRow{"dps", "rate", kRadian},
                            UnitRow{"rpm", "rate", std::numbers::pi / 30.0},
+                           UnitRow{"rev", "angle", 2.0 * std::numbers::pi},
+                           UnitRow{"rev/s", "rate", 2.0 * std::numbers::pi},
                            UnitRow{"m/s2", "acceleration"},
                            UnitRow{"mm/s2", "acceleration", 1e-3},
                            UnitRow{"g", "acceleration", kGravity},

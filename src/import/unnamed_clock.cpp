@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Clocks that no name tells.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Columns of forces, positions and orientations by the names of a log's channels.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pose of a link by a URDF against the product of its turns.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Logs written by the libraries of their formats come back to the last bit.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The offset between the clocks of a force and a pose, from a simulated rigid tool.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a library may do in the process that reads a file with it.
 #include "import/confine.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The checksum against its definition, bit by bit.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Orientations of every kind, wrenches in other frames, streams of other clocks.
 #include <gtest/gtest.h>
 

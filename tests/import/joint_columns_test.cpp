@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Arms as others log them: names of joints in words of any order, one file per quantity.
 #include <gtest/gtest.h>
 
@@ -154,6 +155,40 @@ TEST(JointColumns, OtherChannelsOfARecorderAreNoJoints) {
   EXPECT_EQ(axes["axes"][0]["unit"], "N");
   EXPECT_EQ(axes["axes"][0]["velocity"], "qd_1");
   EXPECT_FALSE(axes["axes"][0].contains("position"));
+}
+
+// Joints are counted from one here and from zero there: what is known by its name alone would make
+// a joint of one channel.
+TEST(JointColumns, BesideJointsThatAreSaidOneChannelIsNoJoint) {
+  std::string text = "t,q[0],q[1],tau_measured[0],tau_measured[1],tau_feedback[0]\n";
+  for (int k = 0; k < 20; ++k) {
+    text += std::to_string(0.01 * k) + ",0.5,0.25,1.5,1.6,3\n";
+  }
+  ImportWishes wishes;
+  wishes.map = {{"q:1", "q[0]"}, {"tau:1", "tau_measured[0]"}};
+  const Imported imported = import_text(text, wishes);
+  EXPECT_EQ(cell(imported, "tau_2", 3), 1.6);
+  EXPECT_FALSE(has_column(imported, "tau_0"));
+}
+
+// What the position is counted in tells that an axis slides; what drives it has its own unit.
+TEST(JointColumns, UnitsSayWhatAnAxisIs) {
+  std::string text = "t,q1,tau1\n";
+  for (int k = 0; k < 20; ++k) text += std::to_string(0.01 * k) + ",0.5,1.5\n";
+  const TemporaryFolder folder;
+  spill(folder / "log.csv", text);
+  const auto axis = [&](const std::map<std::string, std::string>& units) {
+    ImportWishes wishes;
+    for (const auto& [column, unit] : units) wishes.units[column] = unit;
+    const Imported imported = import_text(text, wishes);
+    return Json(axes_of(imported.table,
+                        propose(read_log({folder / "log.csv"}, {}), wishes).recipe)["axes"][0]);
+  };
+  EXPECT_EQ(axis({})["unit"], "N*m");
+  EXPECT_EQ(axis({{"q:1", "mm"}})["unit"], "N");
+  const Json motor = axis({{"q:1", "rev"}, {"tau:1", "V"}});
+  EXPECT_EQ(motor["unit"], "V");
+  EXPECT_EQ(motor["position_unit"], "rad");
 }
 
 TEST(JointColumns, OfALogOfOneJointNeedNoNumber) {

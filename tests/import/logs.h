@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Logs as others write them, and what becomes of them.
 #pragma once
 

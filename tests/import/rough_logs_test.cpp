@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Logs of controllers as they are: clocks without a unit, packets read from the wrong byte.
 #include <gtest/gtest.h>
 

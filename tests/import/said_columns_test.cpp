@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the user says, and what is said to him: --map and what follows, keys of options, streams.
 #include <gtest/gtest.h>
 

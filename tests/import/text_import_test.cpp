@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Texts of every dialect of the table in docs/use/import.md become the same recording.
 #include <gtest/gtest.h>
 
