@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A drawn arm: its limbs, its motion, what is hidden in it, and what its logs hold.
 #pragma once
 

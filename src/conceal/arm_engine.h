@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Torques of a serial arm by d'Alembert's principle on point masses: no inertia tensors, no
 // recursion.
 #pragma once

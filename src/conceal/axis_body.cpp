@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sizes of axes as machines have them, and which effects can be told of them.
 #include <algorithm>
 #include <cmath>
@@ -28,13 +29,15 @@ double mean_square(const std::vector<AxisPath>& paths, Eigen::VectorXd AxisPath:
 AxisBody draw_axis_body(const std::vector<std::string>& effects, Rng& rng) {
   constexpr double kRadians = 2.0 * std::numbers::pi;
   AxisBody b;
-  b.kind = one_of<std::string>(rng, {"joint", "motor", "motor", "linear", "oscillator"});
+  const bool hangs = holds_any(effects, "gravity_load");  // on an axis that turns, in rad
+  b.kind = hangs ? one_of<std::string>(rng, {"joint", "motor"})
+                 : one_of<std::string>(rng, {"joint", "motor", "motor", "linear", "oscillator"});
   b.hz = logarithmic(rng, 0.1, 2.0);
   if (b.kind == "joint") {
     b.unit = "N*m", b.position_unit = "rad", b.turn = kRadians;
-    b.reach = logarithmic(rng, 0.1, 2.5), b.effort = logarithmic(rng, 0.05, 300.0);
+    b.reach = logarithmic(rng, hangs ? 0.8 : 0.1, 2.5), b.effort = logarithmic(rng, 0.05, 300.0);
   } else if (b.kind == "motor") {
-    const bool turns = rng.uniform() < 0.3;
+    const bool turns = rng.uniform() < 0.3 && !hangs;
     b.unit = "A", b.position_unit = turns ? "turn" : "rad", b.turn = turns ? 1.0 : kRadians;
     b.reach = b.turn * logarithmic(rng, 0.2, 25.0), b.effort = logarithmic(rng, 0.01, 30.0);
   } else if (b.kind == "linear") {
@@ -65,7 +68,8 @@ void set_rigid(AxisBody& b, const std::string& form, const std::string& left_out
   b.wide = 0.5 * (high - low), b.middle = 0.5 * (high + low);
   const double viscous = rng.uniform() < 0.5 ? rng.uniform(0.2, 0.8) : 0.0;
   const double chance = b.kind == "joint" ? 0.6 : (b.kind == "motor" ? 0.15 : 0.0);
-  const double gravity = rng.uniform() < chance ? rng.uniform(0.3, 2.0) : 0.0;
+  const double drawn = rng.uniform() < chance ? rng.uniform(0.3, 2.0) : 0.0;
+  const double gravity = has(left_out, "gravity") ? 0.0 : drawn;
   const double stiff = b.kind == "oscillator" ? rng.uniform(0.3, 2.0) : 0.0;
   b.phase = rng.uniform(-3.0, 3.0);
   if (form == "constant") {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "conceal/axis_draw.h"
 
 #include <algorithm>
@@ -156,6 +157,7 @@ std::string left_out_of(const AxisRequest& request, const std::string& form) {
   for (const std::string& e : request.effects) {
     if (form == "base" && e == "viscous_friction") list += " viscous";
     if (form == "base" && e == "cable_spring") list += " stiffness";
+    if (form == "base" && e == "gravity_load") list += " gravity";
   }
   return list;
 }

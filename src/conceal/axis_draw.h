@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A drawn axis: its machine, the log that its drive keeps, and what is hidden in it.
 #pragma once
 

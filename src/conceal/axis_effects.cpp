@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The catalogue of an axis: what each effect is, its shapes drawn, its strength set.
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,7 @@ const std::vector<AxisEffect>& axis_effect_list() {
       {"quadratic_spring", "spring", "k2_nprad2"},
       {"cubic_spring", "spring", "k3_nprad3"},
       {"cogging", "ripple", "amp_n"},
+      {"gravity_load", "ripple", "amp_n"},
       {"flexible_resonance", "mode", "fraction", 0.9},
       {"creep", "lag", "a", 0.8},
       {"lowpass", "lag", "tau_s", 0.05},
@@ -118,6 +120,9 @@ void draw_axis_place(const AxisBody& b, Rng& rng, Hidden& h) {
     p = {{"amp_n", b.effort},
          {"order", draw_order(b, 12.0 * b.hz, rng)},
          {"phase_rad", rng.uniform(-3.0, 3.0)}};
+  }
+  if (h.effect == "gravity_load") {
+    p = {{"amp_n", b.effort}, {"rest_rad", rng.uniform(-3.0, 3.0)}};
   }
 }
 

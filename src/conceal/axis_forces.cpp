@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an axis' drive needs more for each force of the catalogue, and what its sensor makes of it.
 #include <algorithm>
 #include <cmath>
@@ -28,6 +29,7 @@ double force_now(const Hidden& h, double q, double v, double a, double rigid) {
   if (id == "cogging") {
     return p.at("amp_n") * elementary::sin(p.at("order") * q + p.at("phase_rad"));
   }
+  if (id == "gravity_load") return p.at("amp_n") * elementary::sin(q - p.at("rest_rad"));
   if (id == "load_friction") {
     return p.at("mu") * std::abs(rigid) * elementary::tanh(v / p.at("v0_mps"));
   }
@@ -41,7 +43,8 @@ double force_now(const Hidden& h, double q, double v, double a, double rigid) {
 bool is_force(const std::string& id) {
   return has(
       "coulomb_friction viscous_friction stribeck_friction quadratic_drag asymmetric_friction "
-      "load_friction gear_friction inertia cable_spring quadratic_spring cubic_spring cogging",
+      "load_friction gear_friction inertia cable_spring quadratic_spring cubic_spring cogging "
+      "gravity_load",
       id);
 }
 

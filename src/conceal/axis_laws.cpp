@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws of drives that no catalogue has, written in the terms of machines. Forces have unit size;
 // what a sensor or a belt makes of the effort is a share `size` of the whole change.
 #include <algorithm>

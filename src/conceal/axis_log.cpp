@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the drive of an axis logs: an encoder, a noisy effort, a clock that is not perfect.
 #include <algorithm>
 #include <cmath>

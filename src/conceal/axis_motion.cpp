@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Motions of an axis as machines make them, twice differentiable.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The axis of a machine: its body, its motion at a high rate, and what its drive then shows.
 #pragma once
 

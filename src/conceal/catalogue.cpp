@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <set>
 
@@ -56,7 +57,7 @@ std::string undriven(const std::string& id) {
 
 const std::vector<std::string>& axis_effects() {
   static const std::vector<std::string> ids{"gear_friction", "quadratic_spring",
-                                            "asymmetric_friction"};
+                                            "asymmetric_friction", "gravity_load"};
   return ids;
 }
 

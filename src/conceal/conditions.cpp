@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a family of scenarios adds to the plain conditions: tremor, noise, clocks.
 #include <cmath>
 #include <numbers>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws that no catalogue has, with numbers, directions and places drawn: what a discovery is judged
 // by. Written in the terms of machines, not of any search.
 #include <algorithm>

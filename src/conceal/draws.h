@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Steps of draw(): which effect, how strong, on which motion, read with which noise.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of a faulty log: which clean one it begins as, and what is done to it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws of the hidden effects along a high-rate path, written from their published equations.
 #pragma once
 

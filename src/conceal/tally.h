@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counting: rates with Wilson intervals, medians and quantiles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a sensor of force and torque reads of the tool: a cloud of point masses, and the levers of
 // hidden forces.
 #include <cmath>

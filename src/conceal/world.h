@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Motion and forces at a high rate: own rotations, differences and integrators.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The hidden arms' own mechanics, against closed forms and against the recursion of the physics
 // room.
 #include "conceal/arm_engine.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What counts as right of an axis: aliases, what the log itself does, laws without a name,
 // confidence.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Single axes: their drawn logs, the hidden forces against closed forms, and the seal.
 #include "dcnn/conceal/axis.h"
 
@@ -76,6 +77,13 @@ TEST(Axis, DrawnForcesAreTheirClosedForms) {
                        return p.at("amp_n") * std::sin(p.at("order") * q(t) + p.at("phase_rad"));
                      }),
             1e-9);
+  const Hidden load = draw_axis_effect("gravity_load", sine_body(), rng);
+  EXPECT_LT(error_of(load,
+                     [&](double t) {
+                       const auto& p = load.parameters;
+                       return p.at("amp_n") * std::sin(q(t) - p.at("rest_rad"));
+                     }),
+            1e-9);
   const Hidden inertia = draw_axis_effect("inertia", sine_body(), rng);
   EXPECT_LT(
       error_of(inertia, [&](double t) { return inertia.parameters.at("delta_inertia_kg") * a(t); }),
@@ -149,7 +157,8 @@ TEST(Axis, EveryMotionIsTheIntegralOfItsDerivatives) {
 TEST(Axis, ThePlanHidesEveryEffectThatTheDiagnosisLooksForOnAnAxis) {
   Case study;
   auto plan = std::make_shared<AxisPlan>();
-  plan->system.axes.emplace_back();  // that slides: no load hangs on it
+  plan->system.axes.emplace_back();
+  plan->system.axes.front().position_unit = "rad";
   study.axis = plan;
   std::set<std::string> catalogue;
   for (const EffectKind* kind : effect_kinds()) {

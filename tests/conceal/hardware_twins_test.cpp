@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The generator's laws of hardware against those of the catalogue: two codes, two integrators, one
 // law.
 #include <gtest/gtest.h>

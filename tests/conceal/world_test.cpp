@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The generator's physics against closed forms, on motions that can be written down.
 #include "conceal/world.h"
 
