@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/experiment/train.h"
 
 #include <chrono>
@@ -54,7 +55,8 @@ class Observer {
     return {[] { return interrupted(); },
             [this](const std::string& text) {
               bar_.line(text);
-              last_.clear();  // of another model, where several are tried
+              bar_.restart();  // another model, where several are tried
+              last_.clear();
             },
             [this](const TrainingProgress& p) { show(p); }};
   }
@@ -120,10 +122,12 @@ std::string size_of_model(const Json& summary) {
   return size + (size.empty() ? "" : " beside a ") + "simulator" + effects;
 }
 
-void print_summary(const Json& summary) {
+/// First whether the model is of use at all, then what the check of its recordings found.
+void print_summary(const Json& summary, const std::vector<std::string>& check) {
   for (const Json& warning : summary.value("warnings", Json::array())) {
     std::cout << warning.get<std::string>() << "\n";
   }
+  for (const std::string& line : check) std::cout << line << "\n";
   if (summary.contains("choice")) std::cout << summary["choice"]["why"].get<std::string>() << "\n";
   std::cout << "model       " << summary["file"].get<std::string>() << " ("
             << size_of_model(summary) << ")\n"
@@ -238,8 +242,7 @@ int main(int argc, char** argv) {
     if (tool.common().json) {
       Tool::print(outcome.summary);
     } else {
-      for (const std::string& line : check) std::cout << line << "\n";
-      print_summary(outcome.summary);
+      print_summary(outcome.summary, check);
     }
     ranks.print_times();
     return Exit::kDone;

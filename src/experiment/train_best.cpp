@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // --model auto: the best of several identifiers on rows that none was fitted to.
 #include <algorithm>
 #include <optional>
@@ -15,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPhysics = "physics";
+constexpr const char* kReference = "rigid tool";
 constexpr const char* kTried[] = {"rigid", kPhysics, "mlp", "dcnn"};
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;  // of a model file
 
@@ -38,6 +40,14 @@ void copy_model(const fs::path& from, const fs::path& to) {
   if (fs::exists(from)) write_file(to, read_file(from, kMostBytes, Exit::kModel));
 }
 
+/// The two rigid ones told apart: one is trained like the others, the other is their reference.
+std::string told_apart(const Tried& one) {
+  if (one.model == "rigid") return "rigid (trained like the others)";
+  if (one.model != kReference) return one.model;
+  return one.model + " (the reference, " +
+         form_in_words({one.summary["targets"], one.summary["units"]}) + ")";
+}
+
 Json choice(const std::vector<Tried>& tried, const Tried& best) {
   Json rows = Json::array();
   std::string words;
@@ -46,13 +56,13 @@ Json choice(const std::vector<Tried>& tried, const Tried& best) {
                     {"relative_error", one.error},
                     {"validation_rmse", one.summary["validation_rmse"]}});
     if (one.model != best.model) {
-      words +=
-          (words.empty() ? "" : ", ") + one.model + " " + significant(100.0 * one.error, 3) + " %";
+      words += (words.empty() ? "" : ", ") + told_apart(one) + " " +
+               significant(100.0 * one.error, 3) + " %";
     }
   }
   return {{"model", best.model},
           {"tried", rows},
-          {"why", "chosen: " + best.model + ", whose error on the validation rows is " +
+          {"why", "chosen: " + told_apart(best) + ", whose error on the validation rows is " +
                       significant(100.0 * best.error, 3) +
                       " % of that of predicting zero (mean over the targets); " + words}};
 }
@@ -97,7 +107,7 @@ std::optional<Tried> rigid_tool(const TrainingRequest& request, const Tried& lik
   const fs::path file = rigid_file(like.file);
   const Json& rmse = like.summary["references"]["rigid"];
   if (request.configuration.online || rmse.is_null() || !fs::exists(file)) return std::nullopt;
-  Tried tool{"rigid tool", file, like.summary};
+  Tried tool{kReference, file, like.summary};
   tool.summary["model"] = "rigid";
   tool.summary["validation_rmse"] = rmse;
   tool.summary["parameters"] = read_identifier(file).model->parameter_count();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "support/progress.h"
 
 #include <unistd.h>
@@ -13,8 +14,6 @@ namespace {
 constexpr double kRedrawSeconds = 0.1;
 constexpr double kPlainSeconds = 10.0;  // a log file is no place for a bar
 constexpr int kBarWidth = 24;
-// Before so much is done, or so much time has passed, a time left would be a guess.
-constexpr double kLeastShare = 0.02, kLeastSeconds = 10.0;
 
 bool plain_terminal() {
   const char* term = std::getenv("TERM");
@@ -42,15 +41,13 @@ Progress::~Progress() { clear(); }
 void Progress::update(double done, const std::string& text) {
   if (quiet_) return;
   const auto now = Clock::now();
-  if (first_done_ < 0.0) {
-    first_done_ = done;
-    if (!terminal_) drawn_at_ = now;  // short work says nothing in a log
-  }
-  const std::chrono::duration<double> since = now - drawn_at_, run = now - start_;
+  const auto left =
+      left_.update(done, std::chrono::duration<double>(now.time_since_epoch()).count());
+  if (!begun_ && !terminal_) drawn_at_ = now;  // short work says nothing in a log
+  begun_ = true;
+  const std::chrono::duration<double> since = now - drawn_at_;
   if (since.count() < (terminal_ ? kRedrawSeconds : kPlainSeconds)) return;
-  const double gained = done - first_done_;
-  const bool measured = gained > kLeastShare || (gained > 0.0 && run.count() > kLeastSeconds);
-  const std::string eta = measured ? clock_text(run.count() * (1.0 - done) / gained) : "-:--";
+  const std::string eta = left ? clock_text(*left) : "-:--";
   char percent[8];
   std::snprintf(percent, sizeof percent, "%3.0f %%", 100.0 * done);
   if (terminal_) {

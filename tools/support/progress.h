@@ -1,8 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Progress on stderr: a bar with ETA on a terminal, plain lines elsewhere, nothing with --quiet.
 #pragma once
 
 #include <chrono>
 #include <string>
+
+#include "support/time_left.h"
 
 namespace dcnn {
 
@@ -11,19 +14,22 @@ class Progress {
   explicit Progress(bool quiet);
   ~Progress();
 
-  /// `done` in [0, 1]; `text` stands behind the bar. Redraws a few times a second at most.
+  /// `done` in [0, 1]; `text` stands behind the bar. Redraws a few times a second at most. The time
+  /// left is that of the work at hand: where `done` falls back, other work begins.
   void update(double done, const std::string& text);
   /// A line that stays (an epoch's result): on a terminal above the bar.
   void line(const std::string& text);
+  /// Other work begins: the time left is measured anew.
+  void restart() { left_.restart(); }
   /// Removes the bar.
   void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool quiet_, terminal_, drawn_ = false;
-  Clock::time_point start_ = Clock::now(), drawn_at_{};
-  double first_done_ = -1.0;  // a resumed run starts in the middle
+  bool quiet_, terminal_, drawn_ = false, begun_ = false;
+  Clock::time_point drawn_at_{};
+  TimeLeft left_;
 };
 
 /// "1:05" or "2:03:04".
