@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/experiment/evaluate.h"
 
 #include <algorithm>
@@ -119,18 +120,18 @@ void note_beyond(Evaluation& evaluation, const std::string& file) {
   }
 }
 
-/// The rigid tool beside a model and the noise; after the model's own predictions.
-void add_references(const std::filesystem::path& model, const EvaluationRequest& request,
+/// The rigid tool beside a model; after the model's own predictions.
+void add_rigid_tool(const std::filesystem::path& model, const EvaluationRequest& request,
                     RecordingCache& recordings, Evaluation& evaluation) {
-  EvaluationReferences& references = evaluation.references;
   const auto file = rigid_file(model);
-  if (references.rigid || !std::filesystem::exists(file)) return;
+  if (!std::filesystem::exists(file)) return;
   const Identifier rigid = read_identifier(file);
   if (rigid.targets.names != evaluation.targets.names) return;
   const TestSet set = thinned(make_test_set(rigid, recordings.get(rigid.layout)), request.every);
-  references.rigid = score(predict_every(*rigid.model, set.stream, request.every) + set.base,
-                           set.wanted, rigid.targets);
-  references.rigid_file = file.string();
+  evaluation.references.rigid.push_back(
+      {file.string(), to_json(rigid.layout.spec.derivative),
+       score(predict_every(*rigid.model, set.stream, request.every) + set.base, set.wanted,
+             rigid.targets)});
 }
 
 /// Noise on features does not reach a simulator, which is computed from the pose.
@@ -163,8 +164,10 @@ Evaluation evaluate(const EvaluationRequest& request,
   int per_model = 0, done = 0;
   for (const auto& level : request.levels) per_model += level ? request.runs : 1;
 
+  std::vector<Json> derivatives;  // of the models
   for (const auto& path : request.models) {
     const Identifier identifier = read_identifier(path, request.precision);
+    derivatives.push_back(to_json(identifier.layout.spec.derivative));
     check_targets(evaluation, identifier, path.string());
     const auto& data = recordings.get(identifier.layout);
     const TestSet set = thinned(make_test_set(identifier, data), request.every);
@@ -207,8 +210,9 @@ Evaluation evaluate(const EvaluationRequest& request,
     note_beyond(evaluation, file);
     note_base_without_noise(request, identifier, file, evaluation);
     if (identifier.layout.dt > 0.0) evaluation.references.noise = white_noise(set.unfiltered);
-    add_references(path, request, recordings, evaluation);
+    add_rigid_tool(path, request, recordings, evaluation);
   }
+  judge_by_rigid_tools(request.models, derivatives, evaluation);
   note_missing_rigid(request.models, evaluation);
   add_warnings(evaluation);
   for (const auto& path : request.data) evaluation.data.push_back(path.filename().string());

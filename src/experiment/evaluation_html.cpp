@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An evaluation as a page people look at.
 #include <algorithm>
 #include <cstdio>
@@ -11,6 +12,7 @@
 #include "experiment/evaluation_table.h"
 #include "experiment/levels.h"
 #include "experiment/markup.h"
+#include "experiment/references.h"
 #include "experiment/report_words.h"
 
 namespace dcnn {
@@ -52,7 +54,6 @@ Chart level_chart(const Evaluation& evaluation, const std::string& title, const 
 std::string answer(const Evaluation& evaluation) {
   const EvaluationSummary& s = evaluation.summary.front();
   const std::string unit = unit_text(evaluation.targets.units.front());
-  const auto& beside = evaluation.references;
   if (!s.overall) return s.file + " on " + std::to_string(evaluation.samples) + " samples.";
   std::string text = s.file + " predicts " + evaluation.data.front() + " with an RMSE of " +
                      significant(s.overall->mean, 3) + " " + unit + " (" + level_name(s.snr_db) +
@@ -61,8 +62,8 @@ std::string answer(const Evaluation& evaluation) {
     text += "; without identification it is " + significant(*evaluation.unidentified.overall, 3) +
             " " + unit;
   }
-  if (beside.rigid && beside.rigid->overall) {
-    text += ", with the rigid tool " + significant(*beside.rigid->overall, 3) + " " + unit;
+  if (const Score* rigid = rigid_of(s, evaluation); rigid && rigid->overall) {
+    text += ", with the rigid tool " + significant(*rigid->overall, 3) + " " + unit;
   }
   return text + ".";
 }
@@ -104,7 +105,9 @@ void add_table(HtmlReport& page, const Evaluation& evaluation) {
     rows.push_back(row);
   };
   const auto& beside = evaluation.references;
-  if (beside.rigid) reference("rigid tool", beside.rigid->rmse, beside.rigid->overall);
+  for (const ShownRigid& rigid : shown_rigid_tools(evaluation)) {
+    reference(rigid.name, rigid.score.rmse, rigid.score.overall);
+  }
   reference("no identification", evaluation.unidentified.rmse, evaluation.unidentified.overall);
   reference("white noise of the sensor", beside.noise, std::nullopt);
   page.table(header, rows);
@@ -115,8 +118,8 @@ void add_table(HtmlReport& page, const Evaluation& evaluation) {
       unit +
       ". Largest error: over these targets; "
       "R²: 1 - squared error / variance of the target, the least over all targets; both of the "
-      "first draw. The rigid tool was fitted to the training rows of the first model; no model "
-      "can be better than the white noise of the sensor.");
+      "first draw. A rigid tool was fitted to the training rows of its model, with the model's "
+      "derivative; no model can be better than the white noise of the sensor.");
 }
 
 std::vector<double> values(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
@@ -258,7 +261,8 @@ void add_settings(HtmlReport& page, const Evaluation& evaluation,
         "Configuration of " + path.filename().string() +
         ", as dcnn-train --config takes it (sigma_floor is the least deviation that an "
         "input is divided by, as a share of the largest of its unit; drop_factor is what "
-        "the learning rate is multiplied by after every drop_period epochs):");
+        "the learning rate is multiplied by after every drop_period epochs; the derivative sg is a "
+        "Savitzky-Golay filter, sg_causal the same without look-ahead):");
     page.preformatted(read_identifier(path).configuration.dump(2));
   }
 }
@@ -267,8 +271,8 @@ void add_settings(HtmlReport& page, const Evaluation& evaluation,
 
 std::string to_html(const Evaluation& evaluation, const EvaluationRequest& request) {
   HtmlReport page("Tool dynamics identification: evaluation");
-  page.paragraph(answer(evaluation));
   for (const auto& warning : evaluation.references.warnings) page.paragraph(warning);
+  page.paragraph(answer(evaluation));
   add_picture(page, evaluation);
   add_table(page, evaluation);
   add_traces(page, evaluation);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "experiment/evaluation_table.h"
 
 #include <optional>
@@ -21,8 +22,7 @@ std::vector<int> column_decimals(const Evaluation& evaluation) {
     for (const Spread& axis : s.rmse) means.push_back(axis.mean);
     add(means, s.overall ? std::optional(s.overall->mean) : std::nullopt);
   }
-  if (evaluation.references.rigid)
-    add(evaluation.references.rigid->rmse, evaluation.references.rigid->overall);
+  for (const auto& rigid : evaluation.references.rigid) add(rigid.score.rmse, rigid.score.overall);
   add(evaluation.unidentified.rmse, evaluation.unidentified.overall);
   add(evaluation.references.noise, std::nullopt);
   std::vector<int> decimals;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An evaluation as JSON for machines and as a table for people.
 #include <algorithm>
 #include <cstdio>
@@ -7,6 +8,7 @@
 #include "experiment/evaluation_table.h"
 #include "experiment/levels.h"
 #include "experiment/markup.h"
+#include "experiment/references.h"
 
 namespace dcnn {
 namespace {
@@ -40,6 +42,7 @@ Json summary_json(const EvaluationSummary& s, const Score& unidentified) {
     json["rmse_overall_torque_std"] = s.overall_torque->deviation;
   }
   if (s.beyond) json["share_beyond_training"] = *s.beyond;
+  if (!s.rigid_file.empty()) json["rigid_file"] = s.rigid_file;
   json["max_abs_error"] = s.first.max_abs;
   json["r2"] = s.first.r2;
   json["vector_rmse"] = or_null(s.first.vector_rmse);
@@ -81,11 +84,18 @@ Json to_json(const Evaluation& evaluation) {
     json["summary"].push_back(summary_json(s, evaluation.unidentified));
   }
   const EvaluationReferences& beside = evaluation.references;
+  const RigidReference* rigid = beside.rigid.empty() ? nullptr : &beside.rigid.front();
   json["references"] = {{"none", evaluation.unidentified.rmse},
-                        {"rigid", beside.rigid ? Json(beside.rigid->rmse) : Json()},
-                        {"rigid_overall", beside.rigid ? or_null(beside.rigid->overall) : Json()},
-                        {"rigid_file", beside.rigid ? Json(beside.rigid_file) : Json()},
+                        {"rigid", rigid ? Json(rigid->score.rmse) : Json()},
+                        {"rigid_overall", rigid ? or_null(rigid->score.overall) : Json()},
+                        {"rigid_file", rigid ? Json(rigid->file) : Json()},
                         {"white_noise", beside.noise}};
+  for (const RigidReference& one : beside.rigid) {
+    json["references"]["rigid_tools"].push_back({{"file", one.file},
+                                                 {"derivative", one.derivative},
+                                                 {"rmse", one.score.rmse},
+                                                 {"rmse_overall", or_null(one.score.overall)}});
+  }
   json["warnings"] = beside.warnings;
   json["unidentified"] = {{"rmse", evaluation.unidentified.rmse},
                           {"rmse_overall", or_null(evaluation.unidentified.overall)}};
@@ -101,6 +111,8 @@ std::string to_text(const Evaluation& evaluation) {
   const std::vector<int> decimals = column_decimals(evaluation);
   std::size_t width = std::string(kUnidentified).size() + 2;
   for (const auto& s : evaluation.summary) width = std::max(width, s.file.size() + 2);
+  const std::vector<ShownRigid> rigid_tools = shown_rigid_tools(evaluation);
+  for (const ShownRigid& rigid : rigid_tools) width = std::max(width, rigid.name.size() + 4);
   std::string text;
   for (const auto& warning : evaluation.references.warnings) text += warning + "\n";
   text += padded("file", width) + padded("SNR [dB]", 10) + padded("runs", 6);
@@ -129,7 +141,9 @@ std::string to_text(const Evaluation& evaluation) {
     text += (overall ? fixed(*overall, decimals.back()) : "-") + "\n";
   };
   const auto& beside = evaluation.references;
-  if (beside.rigid) reference("(rigid tool)", beside.rigid->rmse, beside.rigid->overall);
+  for (const ShownRigid& rigid : rigid_tools) {
+    reference("(" + rigid.name + ")", rigid.score.rmse, rigid.score.overall);
+  }
   reference(kUnidentified, evaluation.unidentified.rmse, evaluation.unidentified.overall);
   reference("(white noise)", beside.noise, std::nullopt);
   for (const auto& row : evaluation.unfiltered) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a model's error must be seen beside: predicting zero, the rigid tool, the sensor's noise.
 #pragma once
 
@@ -8,6 +9,7 @@
 
 #include "dcnn/core/json.h"
 #include "dcnn/data/recording.h"
+#include "dcnn/experiment/metrics.h"
 #include "dcnn/models/identifier.h"
 
 namespace dcnn {
@@ -32,14 +34,32 @@ Identifier fit_rigid(const Identifier& like, const Samples& training, const Samp
 /// Where dcnn-train keeps it, in a model's run directory.
 std::filesystem::path rigid_file(const std::filesystem::path& model);
 
-/// One line for each target that is predicted worse than by zero, then whether the model is worse
-/// than the rigid tool; empty where nothing is wrong.
+/// Which of the two forms of --model rigid stands beside a model, in words.
+std::string form_in_words(const Targets& targets);
+
+/// One line that names the targets that are predicted worse than by zero, then whether the model is
+/// worse than the rigid tool; empty where nothing is wrong.
 std::vector<std::string> warnings(const std::string& model, const std::vector<double>& rmse,
                                   const References& references, const Targets& targets);
 
 struct Evaluation;
-/// Says that no rigid tool is shown because the run directory is not beside the first model, and
-/// how to get it; nothing where the rigid tool itself is evaluated.
+struct EvaluationSummary;
+/// Gives every summary the rigid tool that it is judged by: that of its own model or, where its
+/// file is missing, one with the same derivative, since a causal derivative costs accuracy.
+/// `derivatives` are those of `models`, whose summaries follow one another.
+void judge_by_rigid_tools(const std::vector<std::filesystem::path>& models,
+                          const std::vector<Json>& derivatives, Evaluation& evaluation);
+/// A rigid tool as a table shows it: "rigid tool", of several each with its folder.
+struct ShownRigid {
+  std::string name;
+  const Score& score;
+};
+/// Those whose errors differ.
+std::vector<ShownRigid> shown_rigid_tools(const Evaluation& evaluation);
+/// The one that a summary is judged by; nullptr without one.
+const Score* rigid_of(const EvaluationSummary& summary, const Evaluation& evaluation);
+/// Says of which model no rigid tool is shown because its run directory is not beside it, and how
+/// to get it; nothing where the rigid tool itself is evaluated.
 void note_missing_rigid(const std::vector<std::filesystem::path>& models, Evaluation& evaluation);
 /// What an evaluation says first: the warnings() of models whose clean error is above a
 /// reference's.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // RMSE of trained identifiers over levels of input noise.
 #pragma once
 
@@ -46,14 +47,22 @@ struct EvaluationSummary {
   Score first;  ///< of run 0: largest error, R^2
   /// Share of the rows whose motion is unlike the training (Model::novelty() above 1), of run 0.
   std::optional<double> beyond;
+  /// The rigid tool that it is judged by, as RigidReference::file; empty where there is none.
+  std::string rigid_file = {};
+};
+
+/// A rigid tool that dcnn-train fitted beside a model, on the model's own features.
+struct RigidReference {
+  std::string file;
+  Json derivative;  ///< of these features
+  Score score;
 };
 
 /// What the errors must be seen beside, on the same rows without added noise.
 struct EvaluationReferences {
-  std::string rigid_file;        ///< the rigid tool that dcnn-train fitted beside the first model
-  std::optional<Score> rigid;    ///< none where its file is not there
-  std::vector<double> noise;     ///< white noise of the measured targets
-  std::vector<std::string> warnings;  ///< models worse than the rigid tool or than nothing
+  std::vector<RigidReference> rigid;  ///< of the models in their order, where its file is there
+  std::vector<double> noise;          ///< white noise of the measured targets
+  std::vector<std::string> warnings;  ///< models worse than their rigid tool or than nothing
 };
 
 /// What a model said on the first recording without noise: for figures.
@@ -82,7 +91,8 @@ struct Evaluation {
 Evaluation evaluate(const EvaluationRequest& request,
                     const std::function<void(int done, int total)>& progress);
 
-/// Measured and predicted forces of the first trace as CSV: columns t, the targets, the targets with
+/// Measured and predicted forces of the first trace as CSV: columns t, the targets, the targets
+/// with
 /// `_hat`; evenly thinned to at most 4096 rows.
 void write_trace(const std::filesystem::path& file, const Evaluation& evaluation);
 
