@@ -11,6 +11,10 @@
  * Units: s, m, N, N*m. Frames: B robot base, E the frame whose pose the robot reports, S the sensor. A wrench is
  * (fx, fy, fz, tx, ty, tz), torque about the origin of S.
  * Threads: calls for one handle one after the other, from any thread; different handles at the same time.
+ * Handles: one that was closed must not be used again, nor closed a second time. NULL is no handle, and no function
+ * fails for it: dcnn_step() and dcnn_miss() return -1, questions 0 or "none".
+ * Texts: what dcnn_version(), dcnn_state_name() and dcnn_reason() return is constant and stays valid as long as the
+ * library is loaded, also after dcnn_close(); it is not to be freed.
  * Real time: dcnn_step() and the questions below it allocate, lock and throw nothing and make no system call.
  * ABI: libdcnn.so.0 keeps every function and constant of this header as it is; additions are new functions.
  */
@@ -41,11 +45,12 @@ const char* dcnn_version(void);
 /* Opens `model`: a file of `dcnn-train --online` (.dcnn), or a simulator (.json) such as the model.json of
  * dcnn-diagnose. `fallback`: a simulator that steps in for a trained model, or NULL. `calibration`: the mounting
  * of the sensor from dcnn-calibrate, or NULL for that of the model. NULL on failure, with one line of text in
- * `error` (at most `error_size` bytes with the end; `error` may be NULL). */
+ * `error` (at most `error_size` bytes with the end; `error` may be NULL). On success `error` stays as it was: look at
+ * the handle, not at the text. The files are read here, whole: they may be replaced or removed afterwards. */
 dcnn_tool* dcnn_open(const char* model, const char* fallback, const char* calibration, char* error,
                      size_t error_size);
 
-/* NULL is nothing to close. */
+/* Ends the handle, which nothing may use after it. NULL is nothing to close. */
 void dcnn_close(dcnn_tool* handle);
 
 /* One sample. `t` [s] on the robot's clock, `position[3]` of the origin of E in B [m], `quaternion[4]` (w, x, y, z)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <iomanip>
 #include <iostream>
 #include <numbers>
@@ -79,25 +80,18 @@ ForcePairs load(const Input& input, const ReadOptions& read, bool with_bias) {
 }
 
 /// Signs, axes and the mounting are what a calibration finds itself; not a force that is in another
-/// frame than the sensor's in every pose, or without the weight.
-void check_recordings(const Tool& tool, const Doctor& doctor, const Input& input,
-                      const ReadOptions& read) {
+/// frame than the sensor's in every pose, or without the weight. What is likely, a line each.
+std::vector<std::string> check_recordings(const Tool& tool, const Doctor& doctor,
+                                          const Input& input, const ReadOptions& read) {
   CheckRequest logs{{}, read, "", ""};
   for (const auto& path : {input.loaded, input.unloaded, input.poses}) {
     if (!path.empty()) logs.logs.push_back(path);
   }
-  doctor.examine(tool, logs,
-                 {"reaction", "force_sign", "force_axes", "mounting", "inverse_pose", "angle_sign",
-                  "euler_order", "force_unit"});
-}
-
-/// Whether a file holds an earlier answer: it is replaced, for it is made again in no time.
-bool is_calibration(const std::filesystem::path& file) {
-  try {
-    return read_json(file, Exit::kData).contains("rotation_es");
-  } catch (const Error&) {
-    return false;
-  }
+  const std::vector<std::string> own{"reaction",     "force_sign", "force_axes",  "mounting",
+                                     "inverse_pose", "angle_sign", "euler_order", "force_unit"};
+  std::vector<std::string> lines;
+  for (const Suspicion& one : doctor.examine(tool, logs, own).likely) lines.push_back(one.line);
+  return lines;
 }
 
 void print(const Calibration& c, const std::filesystem::path& out) {
@@ -137,7 +131,7 @@ int main(int argc, char** argv) {
   tool.flag("--with-bias", options.with_bias, "the sensor has a constant offset: find it");
   tool.option("--nominal", nominal, "mounting as designed: rx ry rz [rad]")
       .values(3, "numbers rx ry rz [rad]");
-  tool.output("--out", out, "calibration.json to write").required().replaces(is_calibration);
+  tool.output("--out", out, "calibration.json to write").required();
   tool.output("--report", page, "page to write (HTML): what each pair leaves");
   const ReadFlags read(tool);
   const Doctor doctor(tool);
@@ -146,13 +140,13 @@ int main(int argc, char** argv) {
     if (!nominal.empty()) {
       options.nominal = rotation_from_euler({nominal[2], nominal[1], nominal[0]});
     }
-    check_recordings(tool, doctor, input, read.options());
+    const auto warnings = check_recordings(tool, doctor, input, read.options());
     const ForcePairs pairs = load(input, read.options(), options.with_bias);
     const Calibration result = calibrate(pairs, options);
     const Json json = to_json(result);
     FileSet files(out.parent_path());
     write_file(out, json.dump(2) + "\n");
-    if (!page.empty()) write_file(page, to_html(result, pairs));
+    if (!page.empty()) write_file(page, to_html(result, pairs, warnings));
     files.commit();
     for (const auto& note : result.notes) tool.note(note);
     if (tool.common().json) {

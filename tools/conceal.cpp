@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <iostream>
 
 #include "dcnn/conceal/arm.h"
@@ -27,6 +28,8 @@ constexpr const char* kExamples =
     "                                       # scenario, with one more recording, on that motion\n"
     "  dcnn-conceal --score --out set --seal set.sealed.json    # set/scores.json, "
     "set/report.html\n";
+
+constexpr int kMostScenarios = 9999;  // their folders are s0001 to s9999
 
 Exit print(const Tool& tool, std::size_t scenarios, std::uint64_t seed, const std::string& digest,
            const std::filesystem::path& seal) {
@@ -115,26 +118,31 @@ int main(int argc, char** argv) {
   std::string fault;
   std::vector<std::filesystem::path> on;
   conceal::Injection injection;
-  auto many = tool.option("--scenarios", scenarios, "how many, of every group its share");
+  auto many = tool.option("--scenarios", scenarios, "how many, of every group its share")
+                  .between(1, kMostScenarios);
   tool.option("--scenario", ids, "these, as a sealed file names them under `drawn`").excludes(many);
   tool.option(
           "--rates", rounds,
           "rounds of a table of rates: of each 75 nulls, every effect alone at 1, 0.3 and 0.1 or "
           "0.05 of the noise, and some of every other group (8: 1,600 scenarios)")
+      .between(1, kMostScenarios)
       .excludes(many);
   const Option whole_arms =
       tool.option("--arms", arms,
                   "so many arms of 6 or 7 joints: payloads, effects in their joints")
+          .between(1, kMostScenarios)
           .excludes(many);
   const Option single_axes =
       tool.option("--axes", axes,
                   "so many single axes (joints, motors, slides, oscillators) with the logs of "
                   "their drives: effects of an axis, alone and together, and laws that no "
                   "catalogue has")
+          .between(1, kMostScenarios)
           .excludes(many)
           .excludes(whole_arms);
   tool.option("--laws", laws,
               "so many laws that no catalogue has, in turn, at 1, 3 and 10 times the noise")
+      .between(1, kMostScenarios)
       .excludes(many);
   tool.option(
           "--family", family,
@@ -193,6 +201,10 @@ int main(int argc, char** argv) {
   const SeedFlag seed_flag(tool);
 
   return tool.run(argc, argv, [&] {
+    if (list && tool.common().json) {
+      Tool::print({{"faults", conceal::faulty_kinds()}});
+      return Exit::kDone;
+    }
     if (list) {
       for (const std::string& kind : conceal::faulty_kinds()) std::cout << kind << "\n";
       return Exit::kDone;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/identification/identify.h"
 
 #include <iostream>
@@ -45,17 +46,21 @@ struct Command {
   std::vector<std::string> formats, reading;  ///< reading: the options of ReadFlags
 };
 
-void export_payload(const Command& command, const ToolModel& model,
+/// The files that it writes, and what these numbers are not sure of.
+Json export_payload(const Command& command, const ToolModel& model,
                     const std::vector<std::string>& assumed, const Tool& tool) {
   PayloadBody payload = payload_of(model);
   payload.assumed = assumed;
+  Json files = Json::array();
   for (const std::string& format : command.formats) {
     const Path file = command.export_to / payload_file(format);
     write_file(file, payload_text(format, payload));
     tool.note("payload     " + file.string());
+    files.push_back({{"format", format}, {"file", file.string()}});
   }
   const std::string caution = not_identified(payload);
   if (!caution.empty() && !tool.common().json) std::cout << caution << "\n";
+  return {{"payloads", files}, {"caution", caution.empty() ? Json() : Json(caution)}};
 }
 
 /// The command that goes on from what was found; the logs are read as they were here.
@@ -102,12 +107,14 @@ Exit identify(Command& command, const Doctor& doctor, const Tool& tool) {
   if (!guesses.empty()) simulator["tool"]["assumed"] = guesses;
   write_file(command.out, simulator.dump(2) + "\n");
   write_report(command, result);
-  if (!command.formats.empty()) export_payload(command, result.model, guesses, tool);
+  Json exported;
+  if (!command.formats.empty()) exported = export_payload(command, result.model, guesses, tool);
   files.commit();
   for (const auto& note : result.notes) tool.note(note);
   const std::string next = diagnosis_of(command, "--sim", command.out, command.request.logs);
   if (tool.common().json) {
     Json json = to_json(result);
+    if (!exported.is_null()) json.update(exported);
     json["next"] = next;
     Tool::print(json);
   } else {
@@ -194,9 +201,9 @@ int main(int argc, char** argv) {
             "fit no friction, lag, cable or sensor fault beside the tool");
   tool.option("--export", command.formats, "write the payload for others")
       .one_of(payload_formats());
-  std::vector<std::string> files;
-  for (const auto& format : payload_formats()) files.push_back(payload_file(format));
-  tool.output("--export-to", command.export_to, "folder for what --export writes", files);
+  std::vector<std::string> payloads;
+  for (const auto& format : payload_formats()) payloads.push_back(payload_file(format));
+  tool.output("--export-to", command.export_to, "folder for what --export writes", payloads);
   const auto system = tool.option("--system", command.arm.system,
                                   "a whole arm: joints' columns and DH table (JSON, \"kind\": "
                                   "\"axes\")")
@@ -217,8 +224,11 @@ int main(int argc, char** argv) {
               "--from takes --export and --export-to, and no recordings");
       const Simulator simulator = read_simulator(command.from);
       const Json body = read_json(command.from, Exit::kData)["tool"];
-      export_payload(command, simulator.model, body.value("assumed", std::vector<std::string>{}),
-                     tool);
+      FileSet files(command.export_to);
+      const Json exported = export_payload(command, simulator.model,
+                                           body.value("assumed", std::vector<std::string>{}), tool);
+      files.commit();
+      if (tool.common().json) Tool::print(exported);
       return Exit::kDone;
     }
     require(logs.given() && out.given(), Exit::kUsage,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <iostream>
 
@@ -50,6 +51,18 @@ std::vector<std::vector<Path>> recordings_of(const Request& request) {
   return recordings;
 }
 
+/// What the command line alone tells, before a folder is made.
+void check_request(const Request& request) {
+  require(!request.logs.empty(), Exit::kUsage, "name a log; see dcnn-import --help");
+  for (const Path& log : request.logs) {
+    require(log != "-", Exit::kUsage, "a log is read twice: write standard input to a file first");
+    const FileKind kind = kind_of_file(log);
+    if (kind != FileKind::kJson) expect_kind("dcnn-import", log, {FileKind::kRecording});
+  }
+  require(request.dry_run || request.out, Exit::kUsage,
+          "say where recordings are written: --out DIR, or --dry-run");
+}
+
 void demand_answers(const Proposal& proposal, bool assume, const std::string& file) {
   std::vector<std::string> open = proposal.questions;
   if (!assume) open.insert(open.end(), proposal.guesses.begin(), proposal.guesses.end());
@@ -100,16 +113,7 @@ class Importer {
       : tool_(tool), request_(request), flags_(flags) {}
 
   Exit run() {
-    for (const Path& log : request_.logs) {
-      require(log != "-", Exit::kUsage,
-              "a log is read twice: write standard input to a file first");
-      const FileKind kind = kind_of_file(log);
-      if (kind != FileKind::kJson) expect_kind("dcnn-import", log, {FileKind::kRecording});
-    }
-    require(!request_.logs.empty(), Exit::kUsage, "name a log; see dcnn-import --help");
     const auto recordings = recordings_of(request_);
-    require(request_.dry_run || request_.out, Exit::kUsage,
-            "say where recordings are written: --out DIR, or --dry-run");
     if (request_.recipe) {
       proposal_.recipe = read_recipe(*request_.recipe);
     } else {
@@ -270,6 +274,7 @@ int main(int argc, char** argv) {
               {"*.csv", "import.json", "system.json", "clock-offset.svg"});
   const ImportFlags flags(tool, recipe);
   request.command = command_for_more(argc, argv);
+  tool.check([&] { check_request(request); });
 
   return tool.run(argc, argv, [&] { return Importer(tool, request, flags).run(); });
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/teleop/live.h"
 
 #include <iostream>
@@ -53,6 +54,10 @@ int main(int argc, char** argv) {
   tool.option("--controller", sensor.peer, "the controller's address").with_default();
   tool.output("--out", out, "folder for the controller's report.html, SVG and CSV",
               {"report.html", "teleop.json", "live.csv"});
+  tool.check([&] {
+    if (role == "sensor") expect_addresses(identifier.listen, identifier.peer);
+    expect_addresses(sensor.listen, sensor.peer);
+  });
   const SeedFlag seed_flag(tool);
 
   return tool.run(argc, argv, [&] {

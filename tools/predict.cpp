@@ -1,5 +1,5 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cctype>
-#include <fstream>
 #include <iostream>
 
 #include "dcnn/core/file.h"
@@ -81,13 +81,6 @@ bool is_simulator(const std::filesystem::path& model) {
   return byte == '{';
 }
 
-/// Whether a file holds an earlier prediction: it is replaced, for it is made again in no time.
-bool is_prediction(const std::filesystem::path& file) {
-  std::string header;
-  std::getline(std::ifstream(file), header);
-  return (header + ",").find("_hat,") != header.npos;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -99,9 +92,8 @@ int main(int argc, char** argv) {
       .holds({FileKind::kModel, FileKind::kSimulator, FileKind::kMachine, FileKind::kSystem});
   tool.option("--data", data, "recording").holds({FileKind::kRecording});
   tool.output(
-          "--out", out,
-          "CSV to write: the input columns, <target>_hat, and novelty from models that measure it")
-      .replaces(is_prediction);
+      "--out", out,
+      "CSV to write: the input columns, <target>_hat, and novelty from models that measure it");
   tool.output("--onnx", onnx,
               "write the model as ONNX: features in SI units to targets in theirs, for other "
               "runtimes");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
 #include <cmath>
@@ -114,6 +115,12 @@ int main(int argc, char** argv) {
   key.needs(listen);
   in.excludes(listen).excludes(rehearse_option);
   listen.excludes(rehearse_option);
+
+  tool.check([&] {
+    require(!is_standard_output(make_key), Exit::kUsage,
+            "--make-key makes a file that its owner alone may read, and - is standard output; name "
+            "a file");
+  });
 
   return tool.run(argc, argv, [&] {
     if (!make_key.empty()) {

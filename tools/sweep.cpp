@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -133,7 +134,8 @@ int main(int argc, char** argv) {
   std::string shard, emit, projected;
   bool status = false;
   tool.option("description", description,
-              "settings, seeds, recordings, models and the commands (JSON)");
+              "settings, seeds, recordings, models and the commands (JSON)")
+      .holds({FileKind::kSweep});
   tool.option("--plan", folder, "folder of the plan and its results").required().called("DIR");
   auto jobs = tool.option("--jobs", work.jobs, "cells at a time").between(1, 1024).with_default();
   auto share = tool.option("--shard", shard, "run share i of n, such as 3/40").called("I/N");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/teleop/teleop.h"
 
 #include <iostream>
@@ -13,8 +14,8 @@ namespace {
 using namespace dcnn;
 
 constexpr const char* kExamples =
-    "  dcnn-teleop --out teleop                              # ideal, none (no feedback), ns "
-    "(raw)\n"
+    "  dcnn-teleop --out teleop                              # tool known, no feedback, raw "
+    "force\n"
     "  dcnn-train --online --train train.csv --out m.dcnn\n"
     "  dcnn-teleop --model m.dcnn --out teleop               # the model in the loop\n"
     "  dcnn-teleop --corrected report/model.json --calibration c.json --out teleop\n"
@@ -78,11 +79,12 @@ int main(int argc, char** argv) {
     std::vector<TeleopResult> results;
     for (Variant& variant : variants) {
       progress.update(static_cast<double>(results.size()) / static_cast<double>(variants.size()),
-                      variant.name);
+                      name_of_variant(variant.name));
       TeleopTrace trace = run_teleop(config, variant, R_ES, seed);
       Json row = summarise(trace, config, variant.name);
       if (!row["stable"].get<bool>()) {
-        tool.note(variant.name + ": the contact is not stable (the slave leaves the wall " +
+        tool.note(name_of_variant(variant.name) +
+                  ": the contact is not stable (the slave leaves the wall " +
                   row["bounces"].dump() + " times); set link.passivity, or less feedback.scale");
       }
       results.push_back({variant.name, std::move(trace), std::move(row)});

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // File descriptors: closed when they end, calls completed where a signal interrupts them.
 #pragma once
 

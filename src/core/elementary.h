@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Elementary functions whose values are the same on every processor. The C library chooses among
 // variants of its own when a program starts (with and without fused multiply-add), whose last bits
 // differ. These are made of additions, multiplications, divisions and square roots, which IEEE 754

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/core/file.h"
 
 #include <fcntl.h>
@@ -142,6 +143,7 @@ void prepare(const fs::path& folder) {
 
 FolderLock::FolderLock(const fs::path& folder) {
   if (!is_first_rank()) return;
+  made_ = missing_folders(folder);
   make_folder(folder);
   folder_ = completed([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
   check_call(folder_ >= 0, Exit::kFailure, folder, "cannot open this folder");
@@ -161,7 +163,11 @@ FolderLock::FolderLock(const fs::path& folder) {
 }
 
 FolderLock::~FolderLock() {
-  if (folder_ >= 0) ::close(folder_);
+  if (folder_ < 0) return;
+  for (const fs::path& made : made_) {
+    if (::rmdir(made.c_str()) != 0) break;  // it holds something
+  }
+  ::close(folder_);
 }
 
 }  // namespace dcnn

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The names that a set of files changes, one after the other, and the way back.
 #pragma once
 

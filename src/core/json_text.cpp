@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The text of JSON: parsed and printed by nlohmann-json, which no other file names.
 #include <nlohmann/json.hpp>
 #include <ostream>

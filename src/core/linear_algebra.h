@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Linear systems by Eigen's decompositions, compiled once: each costs every file that names it
 // seconds.
 #pragma once

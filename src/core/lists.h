@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lists of numbers in JSON and of words in a line.
 #pragma once
 

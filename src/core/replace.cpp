@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/replace.h"
 
 #include <fcntl.h>
@@ -20,10 +21,28 @@ void check_call(bool ok, Exit exit, const fs::path& path, const char* what) {
   if (!ok) fail(exit, path.string(), ": ", what, ": ", std::strerror(errno));
 }
 
+fs::path real_folder(const fs::path& folder) {
+  const fs::path plain = folder.has_filename() ? folder : folder.parent_path();
+  std::error_code error;
+  const bool dangles = fs::is_symlink(plain, error) && !fs::exists(plain, error);
+  return dangles ? target_of(plain).file : plain;
+}
+
+std::vector<fs::path> missing_folders(const fs::path& folder) {
+  std::vector<fs::path> missing;
+  std::error_code error;
+  for (fs::path at = real_folder(folder);
+       !at.empty() && !fs::exists(fs::symlink_status(at, error)) && at != at.parent_path();
+       at = at.parent_path()) {
+    missing.push_back(at);
+  }
+  return missing;
+}
+
 void make_folder(const fs::path& folder) {
   if (folder.empty()) return;
   std::error_code error;
-  fs::create_directories(folder, error);
+  fs::create_directories(real_folder(folder), error);
   require(!error, Exit::kFailure, folder.string(), ": cannot make this folder: ", error.message());
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How files come to their names: bytes on the disk under a name of their own, then rename.
 #pragma once
 
@@ -5,6 +6,7 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 #include "dcnn/core/error.h"
 
@@ -14,8 +16,12 @@ namespace dcnn {
 /// may come before.
 void check_call(bool ok, Exit exit, const std::filesystem::path& path, const char* what);
 
+/// What a path to a folder names: where it is a link to nothing, the folder that the link asks for.
+std::filesystem::path real_folder(const std::filesystem::path& folder);
 /// Makes it and its parents; nothing for an empty path.
 void make_folder(const std::filesystem::path& folder);
+/// Those of a folder and its parents that are not there, the innermost first.
+std::vector<std::filesystem::path> missing_folders(const std::filesystem::path& folder);
 
 /// A name in the folder lasts only once the folder is on the disk. Not every file system can, and
 /// not every folder may be read.

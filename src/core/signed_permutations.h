@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ways of exchanging and turning three axes by right angles.
 #pragma once
 

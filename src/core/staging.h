@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What write_file() and read_file() do while a set of files lives (file_set.h).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Upper tails of counts and of the normal distribution. Terms of counts are those of Loader (2000),
 // "Fast and accurate computation of binomial probabilities": deviances instead of differences of
 // large logarithms; relative error below 1e-12 up to some hundred events, 1e-14 per event beyond.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scales of a chart: from values to places, with round ticks.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A bench as JSON, as a table beside the paper's Table I, and as a page.
 #include <algorithm>
 #include <array>
@@ -60,10 +61,13 @@ std::string time_text(double seconds) {
   return seconds < 1.0 ? significant(1e3 * seconds, 3) + " ms" : significant(seconds, 3) + " s";
 }
 
+/// What a call is given: features or, with the derivative filter in the call, poses.
+std::string begins_at(const BenchRow& row) { return row.features_included ? "pose" : "features"; }
+
 std::vector<std::string> cells(const BenchRow& row) {
   const PaperRow* paper = paper_row(row);
   return {row.file,
-          row.features_included ? "pose" : "X",
+          begins_at(row),
           std::to_string(row.length),
           std::to_string(row.calls),
           micro(row.call.mean) + " ± " + micro(row.call.deviation),
@@ -77,8 +81,9 @@ std::vector<std::string> cells(const BenchRow& row) {
 }
 
 const std::vector<std::string> kHeader{
-    "file",     "from",     "L",        "calls",           "call [µs]",      "total [s]",
-    "p50 [µs]", "p99 [µs]", "max [µs]", "per sample [µs]", "paper call [s]", "paper total [s]"};
+    "file",           "from",           "samples a call", "calls",    "call [µs]",
+    "total [s]",      "p50 [µs]",       "p99 [µs]",       "max [µs]", "per sample [µs]",
+    "paper call [s]", "paper total [s]"};
 
 Chart sample_chart(const Bench& bench) {
   Chart chart;
@@ -87,7 +92,7 @@ Chart sample_chart(const Bench& bench) {
   chart.y_label = "time per sample [µs]";
   chart.log_y = true;
   for (const BenchRow& row : bench.rows) {
-    const std::string label = row.file + (row.features_included ? ", from the pose" : ", from X");
+    const std::string label = row.file + ", from the " + begins_at(row);
     auto series = std::find_if(chart.series.begin(), chart.series.end(),
                                [&](const Series& s) { return s.label == label; });
     if (series == chart.series.end()) {
@@ -113,16 +118,19 @@ void add_calls(HtmlReport& page, const Bench& bench, const BenchRequest& request
   std::vector<std::vector<std::string>> rows;
   for (const BenchRow& row : bench.rows) rows.push_back(cells(row));
   page.table(kHeader, rows);
-  page.paragraph(
-      "Mean ± standard deviation over " + std::to_string(request.repetitions) +
-      " repetitions, one pinned thread, monotonic clock, after " + std::to_string(request.warm_up) +
-      " warm-up calls; p50, p99 and max are of single calls. 'X': the call begins at the features; "
-      "'pose': it also makes them with the causal derivative filter. Input: " +
-      bench.source + ".");
+  page.heading("How it was measured");
+  page.paragraph("Mean ± standard deviation over " + std::to_string(request.repetitions) +
+                 " repetitions, one pinned thread, monotonic clock, after " +
+                 std::to_string(request.warm_up) +
+                 " warm-up calls; p50, p99 and max are of single calls. 'features': the call "
+                 "begins at the features; "
+                 "'pose': it also makes them with the causal derivative filter. Input: " +
+                 bench.source + ".");
+  page.heading("Beside the paper's Table I");
   page.paragraph(kPaperNote);
   page.paragraph(
-      "In the paper's table the DCNN is the fastest network at L = 1 alone: at 5 and 10 FFNN-S is "
-      "faster, and CF always is.");
+      "In the paper's table the DCNN is the fastest network at one sample a call alone: at 5 and "
+      "10 FFNN-S is faster, and CF always is.");
 }
 
 }  // namespace

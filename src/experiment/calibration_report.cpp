@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/experiment/calibration_report.h"
 
 #include <algorithm>
@@ -64,6 +65,7 @@ void add_numbers(const Calibration& c, HtmlReport& page) {
         {"angle to the nominal mounting", fixed(kDegrees * *c.nominal_angle, 2) + "°", ""});
   }
   page.table({"from the sensor's frame to the robot's", "value", "standard deviation"}, rows);
+  page.heading("What these numbers are");
   page.paragraph(
       "r = R_ES·s + offset, with s as the sensor reads it and r in the pose frame E. Standard "
       "deviations of turns are about the sensor's axes, from the residuals of the pairs. A gain "
@@ -81,13 +83,16 @@ std::string headline(const Calibration& c) {
          " pairs agree with that to " + significant(c.residual_rms, 2) + " N rms.";
 }
 
-std::string to_html(const Calibration& c, const ForcePairs& pairs) {
+std::string to_html(const Calibration& c, const ForcePairs& pairs,
+                    const std::vector<std::string>& warnings) {
   HtmlReport page("Calibration: the sensor's frame and the robot's");
   page.paragraph(headline(c));
+  for (const auto& warning : warnings) page.paragraph(warning);
   page.chart(residual_chart(pair_residuals(c, pairs)),
              "A single pair far from zero was taken wrongly; a wave over the pairs is a turn or an "
              "offset that changed meanwhile.");
   add_numbers(c, page);
+  if (!c.notes.empty()) page.heading("Notes of the fit");
   for (const auto& note : c.notes) page.paragraph(note);
   return page.html();
 }

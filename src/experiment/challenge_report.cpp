@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/experiment/challenge_report.h"
 
 #include <algorithm>
@@ -44,7 +45,7 @@ void add_rates(HtmlReport& page, const Json& table, const std::string& key,
     rates.y.push_back(rate["rate"]);
     rates.middle.push_back(0.5 * (low + high));
     rates.error.push_back(0.5 * (high - low));
-    chart.categories.push_back(label);
+    chart.categories.push_back(words_of_effect(label));
   }
   chart.series = {rates};
   if (!rates.x.empty()) page.chart(chart, "Bars: Wilson's 95 % intervals.");
@@ -68,9 +69,10 @@ Chart holdout_chart(const Json& table) {
     for (const auto& [effect, summary] : table.items()) {
       const Json ratio = summary.value(key, Json());
       if (ratio.is_null()) continue;
-      const auto known = std::find(chart.categories.begin(), chart.categories.end(), effect);
+      const std::string words = words_of_effect(effect);
+      const auto known = std::find(chart.categories.begin(), chart.categories.end(), words);
       series.x.push_back(static_cast<double>(known - chart.categories.begin()));
-      if (known == chart.categories.end()) chart.categories.push_back(effect);
+      if (known == chart.categories.end()) chart.categories.push_back(words);
       series.y.push_back(ratio["median"]);
     }
     chart.series.push_back(series);

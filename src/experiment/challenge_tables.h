@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the text and the page of a sealed challenge share.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The diagnosis on a terminal: the words and units of the page.
 #include <sstream>
 

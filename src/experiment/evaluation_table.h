@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers of an evaluation's table, in text and on the page.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A finding of report.json in words, for the page and the terminal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which mark is whose: rows of entries from left to right.
 #pragma once
 

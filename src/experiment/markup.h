@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Text for SVG and HTML, the same under every locale.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "experiment/page_assets.h"
 
 // The assembler copies a file's bytes between two symbols.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files that become parts of every page, compiled into the library.
 #pragma once
 

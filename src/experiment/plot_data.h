@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The numbers of a chart for the plot that is drawn over its SVG where the page runs scripts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What reports call things: effects, axes and parameters in words, numbers in units people use.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The folder of one training: configuration, metrics, best and last model, checkpoint; every file
 // is replaced as a whole, so a kill at any moment leaves the last good state.
 #pragma once

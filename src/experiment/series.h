@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a series of a chart shows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recordings to rows to learn from and rows to validate on.
 #pragma once
 

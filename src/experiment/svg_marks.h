@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The marks a chart is made of, as SVG elements. Looks are numbered: the k-th series has the k-th
 // look.
 #pragma once

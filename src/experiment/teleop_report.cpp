@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/experiment/teleop_report.h"
 
 #include <map>
@@ -26,39 +27,33 @@ Chart time_chart(const std::string& title, const std::string& y_label) {
 std::vector<Chart> figure_six(const TeleopResult& result, const TeleopConfig& config) {
   const TeleopTrace& trace = result.trace;
   const auto t = list_of(trace.t);
+  const std::string name = name_of_variant(result.name);
   std::vector<Chart> rows;
   const Eigen::MatrixXd master = 1e3 * config.position_scale * trace.master;
   for (Index k = 0; k < 3; ++k) {
-    Chart chart = time_chart(result.name + ": " + "xyz"[k], std::string(1, "xyz"[k]) + " [mm]");
+    Chart chart = time_chart(name + ": " + "xyz"[k], std::string(1, "xyz"[k]) + " [mm]");
     chart.series.push_back({"master, scaled", t, list_of(master.col(k)), {}});
     chart.series.push_back({"slave", t, list_of(1e3 * trace.slave.col(k)), {}});
     rows.push_back(chart);
   }
-  Chart error = time_chart(result.name + ": error norm", "error [mm]");
+  Chart error = time_chart(name + ": error norm", "error [mm]");
   const Eigen::VectorXd norm =
       1e3 * (trace.slave - config.position_scale * trace.master).rowwise().norm();
   error.series.push_back({"error", t, list_of(norm), {}});
   rows.push_back(error);
-  Chart force = time_chart(result.name + ": force along the wall's normal", "force [N]");
+  Chart force = time_chart(name + ": force along the wall's normal", "force [N]");
   force.series.push_back({"true contact", t, list_of(trace.contact.col(2)), {}});
   force.series.push_back({"on the hand", t, list_of(trace.felt.col(2)), {}});
   rows.push_back(force);
   return rows;
 }
 
-/// What stands in the place of a variant's name in legends and tables.
-std::string name_of_variant(const std::string& name) {
-  static const std::map<std::string, std::string> kNames{
-      {"ideal", "tool known"}, {"none", "no feedback"}, {"ns", "raw force"}};
-  const auto known = kNames.find(name);
-  return known == kNames.end() ? name : known->second;
-}
-
 std::string words_of_variant(const std::string& name) {
   static const std::map<std::string, std::string> kWords{
       {"ideal", "where the tool's own force is known exactly"},
       {"none", "without force feedback"},
-      {"ns", "with the sensor's raw force"}};
+      {"ns", "with the sensor's raw force"},
+      {"live", "in the live run"}};
   const auto known = kWords.find(name);
   return known == kWords.end() ? "with " + name : known->second;
 }
@@ -135,13 +130,20 @@ std::string teleop_answer(const std::vector<TeleopResult>& results) {
 
 }  // namespace
 
+std::string name_of_variant(const std::string& name) {
+  static const std::map<std::string, std::string> kNames{
+      {"ideal", "tool known"}, {"none", "no feedback"}, {"ns", "raw force"}, {"live", "live run"}};
+  const auto known = kNames.find(name);
+  return known == kNames.end() ? name : known->second;
+}
+
 std::string teleop_line(const Json& row) {
   const Json& contact = row["contact_interval_s"];
   const std::string text = contact.is_null() ? "no contact"
                                              : "contact from " + fixed(contact[0], 1) + " to " +
                                                    fixed(contact[1], 1) + " s, at most " +
                                                    cell(row["force_max_n"], 1) + " N";
-  return row["name"].get<std::string>() + ": " + text + "; the master drifts by " +
+  return name_of_variant(row["name"].get<std::string>()) + ": " + text + "; the master drifts by " +
          cell(row["master_drift_m"], 1e3) + " mm";
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Noise on what a model is evaluated on.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which points of a long line are drawn.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The physical model among those that --model auto tries.
 #pragma once
 

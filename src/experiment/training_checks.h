@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a training refuses or says of its recordings before it learns from them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/runtime/udp.h"
 
 #include <arpa/inet.h>
@@ -49,6 +50,18 @@ Address resolve(const std::string& text) {
   return {found, &::freeaddrinfo};
 }
 
+/// Of two that speak with each other.
+std::pair<Address, Address> resolve_both(const std::string& listen, const std::string& peer) {
+  Address here = resolve(listen), there = resolve(peer);
+  require(here->ai_family == there->ai_family, Exit::kUsage, "'", listen, "' and '", peer,
+          "' are addresses of different kinds; give two of IPv4 or two of IPv6");
+  require(here->ai_addrlen != there->ai_addrlen ||
+              std::memcmp(here->ai_addr, there->ai_addr, here->ai_addrlen) != 0,
+          Exit::kUsage, "'", listen, "' and '", peer,
+          "' are one address, which would hear itself; give the peer's own");
+  return {std::move(here), std::move(there)};
+}
+
 /// Room for what comes while the process waits for a core: at 100,000 packets a second the usual
 /// 200 KiB are full after 3 ms, and right packets are lost with wrong ones.
 void make_room(int socket) {
@@ -66,14 +79,12 @@ double monotonic_seconds() noexcept {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+void expect_addresses(const std::string& listen, const std::string& peer) {
+  resolve_both(listen, peer);
+}
+
 UdpSocket::UdpSocket(const std::string& listen, const std::string& peer) {
-  const Address here = resolve(listen), there = resolve(peer);
-  require(here->ai_family == there->ai_family, Exit::kUsage, "'", listen, "' and '", peer,
-          "' are addresses of different kinds; give two of IPv4 or two of IPv6");
-  require(here->ai_addrlen != there->ai_addrlen ||
-              std::memcmp(here->ai_addr, there->ai_addr, here->ai_addrlen) != 0,
-          Exit::kUsage, "'", listen, "' and '", peer,
-          "' are one address, which would hear itself; give the peer's own");
+  const auto [here, there] = resolve_both(listen, peer);
   socket_ = ::socket(here->ai_family, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   require(socket_ >= 0, Exit::kFailure, "cannot open a socket: ", std::strerror(errno));
   const char* step = "listen at ";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Arms as a user has them: a URDF, torques simulated and diagnosed by it.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // dcnn-bench as a user runs it, on a model small enough to be quick.
 #include "dcnn/experiment/bench.h"
 
@@ -46,7 +47,11 @@ TEST(Bench, TimesEveryLengthFromFeaturesAndFromThePose) {
   }
   EXPECT_EQ(json["rows"][0]["features_included"], false);
   EXPECT_EQ(json["rows"][1]["features_included"], true);
-  test::expect_usable_page(test::slurp(out / "bench.html"));
+  const std::string page = test::slurp(out / "bench.html");
+  test::expect_usable_page(page);
+  for (const char* words : {"<nav>", "samples a call", "m.dcnn, from the features"}) {
+    EXPECT_NE(page.find(words), page.npos) << words;
+  }
   EXPECT_EQ(test::run("bench", {model, "--lengths", "0"}).exit_code, 2);
   EXPECT_EQ(test::run("bench", {(folder / "none.dcnn").string()}).exit_code, 4);
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // dcnn.h from C and from Python gives what dcnn-run gives, and exports nothing else.
 #include <gtest/gtest.h>
 
@@ -89,6 +90,37 @@ TEST_F(CInterface, OfC90GivesWhatRunsOnline) {
   const auto [error, refused] = shell(run + "none.dcnn 2>&1 < /dev/null");
   EXPECT_EQ(refused, 1);
   EXPECT_NE(error.find("none.dcnn"), error.npos) << error;
+}
+
+/// The header's words on texts, files, `error` and NULL.
+TEST_F(CInterface, KeepsWhatItsHeaderPromises) {
+  std::ofstream(folder_ / "promises.c") << R"(
+#include <stdio.h>
+#include <string.h>
+#include "dcnn.h"
+int main(int argc, char** argv) {
+  char error[64] = "as it was";
+  const double zero[3] = {0, 0, 0}, unturned[4] = {1, 0, 0, 0};
+  const char *reason, *state;
+  dcnn_tool* tool = dcnn_open(argv[argc - 1], NULL, NULL, error, sizeof error);
+  if (!tool || strcmp(error, "as it was") != 0) return 1;
+  if (remove(argv[argc - 1]) != 0) return 2;
+  if (dcnn_step(tool, 0, zero, unturned, NULL, NULL, NULL) < 0) return 3;
+  reason = dcnn_reason(tool);
+  state = dcnn_state_name(DCNN_PHYSICS);
+  dcnn_close(tool);
+  if (strlen(reason) == 0 || strcmp(state, "PHYSICS") != 0) return 4;
+  if (dcnn_miss(NULL, NULL) != -1 || strcmp(dcnn_reason(NULL), "none") != 0) return 5;
+  return dcnn_sample_time(NULL) != 0.0 || dcnn_contact(NULL) || dcnn_has_torque(NULL) ? 6 : 0;
+}
+)";
+  const std::string model = folder_ / "gone.json";
+  std::filesystem::copy_file(kSim, model);
+  const auto [text, code] =
+      shell("cc -std=c90 -I" DCNN_SOURCE_DIR "/include " + (folder_ / "promises.c").string() + " " +
+            kLibrary + " -o " + program_ + " 2>&1 && LD_LIBRARY_PATH=" DCNN_BINARY_DIR "/lib " +
+            program_ + " " + model);
+  EXPECT_EQ(code, 0) << text;
 }
 
 TEST_F(CInterface, OfPythonGivesWhatRunsOnline) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // dcnn-calibrate as a user runs it.
 #include <gtest/gtest.h>
 
@@ -30,8 +31,9 @@ TEST(CalibrateTool, StaticPosesOfTheSimulatorGiveTheirMountingBack) {
   const Eigen::Vector3d bias =
       -read_calibration(out).R_ES.transpose() * read_calibration(out).offset;
   EXPECT_LT((bias - Eigen::Vector3d(0.6, -0.4, 1.1)).norm(), 0.06);
-  const auto mirrored = run("calibrate", {"--static", (folder / "static.csv").string(),
-                                          "--with-bias", "--force-sign", "-1", "--out", out});
+  const auto mirrored =
+      run("calibrate", {"--static", (folder / "static.csv").string(), "--with-bias", "--force-sign",
+                        "-1", "--force", "--out", out});
   EXPECT_EQ(mirrored.exit_code, 3);
   EXPECT_TRUE(contains(mirrored.err, "swapped sign")) << mirrored.err;
 }

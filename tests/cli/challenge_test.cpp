@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tools/challenge with the programs of this build: made, sealed, diagnosed, scored, resumed.
 #include <gtest/gtest.h>
 
@@ -48,6 +49,13 @@ TEST(ChallengeScript, RunsFromASeedToAReport) {
   for (const Json& s : scores["scenarios"]) EXPECT_GT(s["seconds"].get<double>(), 0.0);
   const std::string page = test::slurp(set / "report.html");
   test::expect_usable_page(page);
+  for (const Json& s : scores["scenarios"]) {
+    for (const Json& id : s["hidden"]) {
+      const std::string name = id.get<std::string>();
+      if (name.find('_') == name.npos) continue;
+      EXPECT_EQ(page.find(">" + name + "<"), page.npos) << name << ": figures name it in words";
+    }
+  }
 
   // Nothing that the diagnosis could see tells what is hidden.
   const Json answers = read_json(set.string() + ".sealed.json", Exit::kData);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // dcnn-check, and the check that other tools run first, as a user runs them.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The identifiers without gradient descent as a user runs them.
 #include <gtest/gtest.h>
 
@@ -48,7 +49,8 @@ TEST_F(ClosedFormTools, LearnFromPosesAtRestAndLeaveARunDirectory) {
     EXPECT_EQ(std::count(metrics.begin(), metrics.end(), '\n'), 1);
     const auto scored = run("eval", {out, "--data", poses_, "--snr", "clean", "--json"});
     ASSERT_EQ(scored.exit_code, 0) << scored.err;
-    const auto predicted = run("predict", {out, "--data", poses_, "--out", at("predicted.csv")});
+    const auto predicted =
+        run("predict", {out, "--data", poses_, "--out", at("predicted.csv"), "--force"});
     EXPECT_EQ(predicted.exit_code, 0) << predicted.err;
   }
 }

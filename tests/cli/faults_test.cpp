@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every system call of a command fails once: the previous result is intact and one line says why,
 // or the result is right. By default each call fails with one of its errors; DCNN_ALL_FAULTS=1
 // tries all of them.

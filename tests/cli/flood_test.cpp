@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // dcnn-run while its peer's address sends packets under a wrong key: none of them is acted on.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From a log of an oscillator to a simulator that moves like it, by the programs.
 #include <gtest/gtest.h>
 

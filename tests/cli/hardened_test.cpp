@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The programs are hardened as SECURITY.md says, read from the programs themselves.
 #include <elf.h>
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One table of options: --help, manual page and completions of every program say the same.
 #include <gtest/gtest.h>
 

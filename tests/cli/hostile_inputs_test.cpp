@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an attacker or a broken logger writes: one line that says what is wrong, and nothing that a
 // terminal obeys.
 #include <gtest/gtest.h>

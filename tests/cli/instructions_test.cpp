@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How many instructions one prediction takes, counted by valgrind: a slow-down is seen without a
 // clock. Valgrind knows no AVX-512, so these are the kernels for AVX2.
 #include <gtest/gtest.h>

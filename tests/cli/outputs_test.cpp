@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Results and inputs survive every command line (docs/use/outputs.md).
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -117,6 +118,9 @@ const Case kCases[] = {
     {"eval", {"m.dcnn", "--data", "@a.csv", "--out", "@r", "--trace", "@r/"}, "a.csv", kBoth},
     {"identify", {"@a.csv", "--out", "@r/identify.json", "--report", "@r"}, "a.csv", kBoth},
     {"sweep", {"--plan", "p", "--jobs", "1", "--merge", "@t.jsonl"}, "t.jsonl", kKept},
+    {"run", {"--make-key", "-"}, "a.csv", "- is standard output; name a file"},
+    {"predict", {"m.dcnn", "--data", "@a.csv", "--out", "@new/"}, "a.csv", "is a folder; name a"},
+    {"predict", {"m.dcnn", "--data", "@a.csv", "--out", "@d"}, "d/a.csv", "is a folder; name a"},
     {"run", {"--make-key", "@key"}, "key", "never replaced"},
     {"run", {"--make-key", "@key", "--force"}, "key", "never replaced"},
 };
@@ -133,13 +137,15 @@ TEST_F(Outputs, OfACommandThatIsJudgedByACopyOfWhatItLearnsFrom) {
   EXPECT_NE(result.err.find("b.csv: is a copy of"), std::string::npos) << result.err;
 }
 
-TEST_F(Outputs, OfAPredictionAreReplacedByANewerOneLinksFollowedStreamsWritten) {
+TEST_F(Outputs, OfAPredictionAreKeptLinksFollowedStreamsWritten) {
   std::filesystem::create_symlink("p.csv", at("link.csv"));
-  for (int k = 0; k < 2; ++k) {
-    const auto result =
-        test::run("predict", {kShippedTool, "--data", kLog, "--out", at("link.csv")});
-    ASSERT_EQ(result.exit_code, 0) << result.err;
-  }
+  Arguments again{kShippedTool, "--data", kLog, "--out", at("link.csv")};
+  ASSERT_EQ(test::run("predict", again).exit_code, 0);
+  const auto refused = test::run("predict", again);
+  EXPECT_EQ(refused.exit_code, 2) << refused.err;
+  EXPECT_NE(refused.err.find(kKept), std::string::npos) << refused.err;
+  again.emplace_back("--force");
+  EXPECT_EQ(test::run("predict", again).exit_code, 0);
   EXPECT_TRUE(std::filesystem::is_symlink(at("link.csv")));
   const std::string rows = test::slurp(at("p.csv"));
   const auto piped =
@@ -150,6 +156,25 @@ TEST_F(Outputs, OfAPredictionAreReplacedByANewerOneLinksFollowedStreamsWritten) 
   EXPECT_EQ(test::run("predict", {kShippedTool, "--data", kLog, "--out", "/dev/null"}).exit_code,
             0);
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST_F(Outputs, OfALinkToAFolderThatIsStillToBeMadeGoWhereItPoints) {
+  std::filesystem::create_symlink("named", at("link"));
+  const auto result = test::run(
+      "sim", {"--config", DCNN_SOURCE_DIR "/configs/sim/static.json", "--out", at("link")});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(at("named/sim.json")));
+  EXPECT_TRUE(std::filesystem::is_symlink(at("link")));
+}
+
+TEST_F(Outputs, OnAFullDeviceAreAFailureAlsoOfHelp) {
+  for (const char* word : {"--help", "--version"}) {
+    const auto full =
+        test::Process("predict", {word}, {.wrapper = {"bash", "-c", R"("$0" "$@" > /dev/full)"}});
+    const auto result = full.wait();
+    EXPECT_EQ(result.exit_code, 1) << word;
+    EXPECT_EQ(result.err, "dcnn-predict: standard output: cannot write\n");
+  }
 }
 
 TEST_F(Outputs, OfACommandThatReadsStandardInputSeveralTimes) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // dcnn-bench --peers, with no library beside it and with those that are here.
 #include <gtest/gtest.h>
 #include <sys/wait.h>

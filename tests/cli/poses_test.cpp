@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lists of poses at rest, of a tool and of an arm's joints, as a user learns from them.
 #include <gtest/gtest.h>
 

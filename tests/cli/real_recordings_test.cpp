@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ready configurations on real recordings, which are not part of the repository: skipped
 // without them.
 #include <gtest/gtest.h>

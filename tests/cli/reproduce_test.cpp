@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // dcnn-reproduce on a small scene: what it writes, that finished work is not redone, and how the
 // report looks to a browser.
 #include <gtest/gtest.h>

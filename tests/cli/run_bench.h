@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What tests of dcnn-run start from: a recording, the simulator that made it, models trained on it.
 #pragma once
 

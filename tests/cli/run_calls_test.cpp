@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What dcnn-run does after start-up: it waits, receives, sends and reads the clock; nothing else.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // dcnn-run as a user and as an attacker run it.
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // dcnn-sweep as users, schedulers and misfortunes run it.
 #include <gtest/gtest.h>
 

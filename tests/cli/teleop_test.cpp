@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // dcnn-teleop as a user runs it.
 #include <gtest/gtest.h>
 
@@ -63,6 +64,8 @@ TEST(TeleopTool, AModelInTheLoopTakesMostOfTheWeightOffTheHand) {
   EXPECT_LT(rows[5]["master_drift_m"].get<double>(), 1e-3);
   const std::string page = test::slurp(out / "report.html");
   EXPECT_TRUE(contains(page, "Fig. 6, with rigid") && contains(page, "robot base B"));
+  EXPECT_TRUE(contains(page, "tool known: error norm")) << "names are words, no codes";
+  EXPECT_FALSE(contains(page, ">ideal: ") || contains(page, ">ns: "));
   test::expect_usable_page(page);
   for (const char* file : {"teleop.json", "frames.svg", "comparison_0.svg", "rigid.csv"}) {
     EXPECT_TRUE(std::filesystem::exists(out / file)) << file;

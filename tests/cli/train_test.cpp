@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // dcnn-sim, dcnn-train, dcnn-eval and dcnn-predict as a user runs them.
 #include <gtest/gtest.h>
 

@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the programs say to a file of the wrong kind, a number out of range, and --json.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <fstream>
+#include <sstream>
 
 #include "dcnn/core/json.h"
 #include "support/process.h"
@@ -79,6 +81,8 @@ TEST(FileOfAnotherKind, IsCalledByItsNameByEveryProgram) {
                {"--from needs a simulator"});
   expect_words(refusal("reproduce", {"--scene", sim, "--plan"}), {"--scene needs a scene"});
   expect_words(refusal("calibrate", {"--static", sim, "--out", out}, 3), {"--static needs a rec"});
+  expect_words(refusal("sweep", {sim, "--plan", out}),
+               {"sim.json: is a simulator", "dcnn-sweep needs a description of cells"});
   expect_words(refusal("design", {"--report", out, "--limits", sim, "--out", out}),
                {"--limits needs the limits of a robot", "configs/limits/wrist.json"});
   EXPECT_FALSE(std::filesystem::exists(out));
@@ -123,6 +127,28 @@ TEST(SealOfNothing, IsNotMadeWhereItShouldBeRead) {
   EXPECT_FALSE(std::filesystem::exists(set));
 }
 
+TEST(RefusedCommand, LeavesNoFolder) {
+  const test::TemporaryFolder folder;
+  const std::string out = folder / "out/below", seal = folder / "seal.json",
+                    log = folder / "short.csv";
+  for (const char* count : {"0", "-3", "99999999"}) {
+    for (const char* what : {"--scenarios", "--arms", "--axes", "--laws", "--rates"}) {
+      expect_words(refusal("conceal", {what, count, "--out", out, "--seal", seal}),
+                   {what, std::string(count) + " is not between 1 and 9999"});
+    }
+  }
+  expect_words(refusal("import", {"-", "--out", out}), {"a log is read twice"});
+  std::istringstream rows(test::slurp(kSampleFolder + "train.csv"));
+  std::ofstream few(log);
+  std::string line;
+  for (int k = 0; k < 300 && std::getline(rows, line); ++k) few << line << "\n";
+  few.close();
+  expect_words(
+      refusal("rivals", {"--sim", kSampleFolder + "sim.json", "--fit", log, "--out", out}, 3),
+      {"shorter than 5 s"});
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
 TEST(WrongCountOfValues, IsToldInWords) {
   expect_words(refusal("reproduce", {"--data", "a.csv"}),
                {"--data takes 2 recordings, one to train on and one to test on, and got 1"});
@@ -152,6 +178,14 @@ TEST(NumberOutOfRange, IsRefusedWithItsBounds) {
   expect_words(refusal("run", {"--model", sim, "--listen", "5301", "--peer", "127.0.0.1:5301",
                                "--key-file", key}),
                {"'5301' and '127.0.0.1:5301' are one address"});
+  for (const char* port : {"70000", "0"}) {  // at once, though nobody answers as dcnn-run
+    expect_words(refusal("live", {"--role", "sensor", "--key-file", key, "--sensor", port}),
+                 {std::string("port ") + port + " is not between 1 and 65535"});
+    expect_words(refusal("live", {"--role", "controller", "--key-file", key, "--out", folder / "o",
+                                  "--controller", port}),
+                 {std::string("port ") + port + " is not between 1 and 65535"});
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "o"));
   expect_words(refusal("run", {"--model", sim, "--stdin", "--plot", "65536"}),
                {"port 65536 is not between 1 and 65535"});
   expect_words(refusal("run", {"--model", sim, "--stdin", "--average", "17"}),
@@ -205,7 +239,9 @@ TEST(JsonAlone, IsOneDocumentOnStandardOutput) {
       {"train", {"--model", "rigid", "--train", csv, "--out", model}},
       {"eval", {model, "--data", csv, "--snr", "clean"}},
       {"predict", {model, "--data", csv, "--out", folder / "p.csv"}},
-      {"predict", {model, "--data", csv, "--out", folder / "p.csv"}},
+      {"predict", {model, "--data", csv, "--out", folder / "p.csv", "--force"}},
+      {"identify", {"--from", sim, "--export", "ur", "urdf", "--export-to", folder / "payload"}},
+      {"conceal", {"--list-faults"}},
       {"run", {"--make-key", folder / "key"}}};
   for (auto [verb, arguments] : commands) {
     SCOPED_TRACE(verb);

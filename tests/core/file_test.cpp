@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/core/file.h"
 
 #include <gtest/gtest.h>
@@ -62,6 +63,32 @@ TEST(FolderLock, IsHeldByOneAtATime) {
     EXPECT_THROW(FolderLock(folder / "out"), Error);
   }
   EXPECT_NO_THROW(FolderLock(folder / "out"));
+}
+
+TEST(FolderLock, LeavesNoFolderThatItMadeAndNobodyWroteTo) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "there");
+  { const FolderLock lock(folder / "new/deep/"); }
+  EXPECT_FALSE(std::filesystem::exists(folder / "new"));
+  {
+    const FolderLock lock(folder / "new/deep");
+    write_file(folder / "new/x", "x");
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "new/deep"));
+  EXPECT_EQ(test::slurp(folder / "new/x"), "x");
+  { const FolderLock lock(folder / "there"); }
+  EXPECT_TRUE(std::filesystem::exists(folder / "there")) << "it was there before";
+}
+
+TEST(FolderLock, FollowsALinkToAFolderThatIsStillToBeMade) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_symlink("named/by/it", folder / "link");
+  {
+    const FolderLock lock(folder / "link");
+    write_file(folder / "link/x", "x");
+  }
+  EXPECT_EQ(test::slurp(folder / "named/by/it/x"), "x");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
 }
 
 /// Who can write into the folder could foresee PATH.tmp<process> and put a link there.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Claims judged from made-up tables in which the answer is known.
 #include "experiment/reproduction/claims.h"
 

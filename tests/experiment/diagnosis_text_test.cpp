@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What dcnn-diagnose prints: words and units, and no name of the code.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pages as people use them: zoom, values under the pointer, series, sorting, dark mode, narrow
 // screens, a million samples.
 #include "support/page.h"
@@ -108,6 +109,18 @@ class Pages : public ::testing::Test {
 TEST_F(Pages, OfADiagnosisAndACalibrationAreUsable) {
   test::expect_usable_page(to_html(example_diagnosis(4000)));
   test::expect_usable_page(to_html(example_calibration(), example_pairs()));
+}
+
+TEST(CalibrationPage, HasItsWarningsBelowTheAnswerAndAListOfContents) {
+  const std::string html =
+      to_html(example_calibration(), example_pairs(),
+              {"likely: st.csv: base_frame: the force is in the base's frame"});
+  const auto answer = html.find("The sensor is turned by"), doubt = html.find("likely: st.csv");
+  ASSERT_NE(doubt, html.npos);
+  EXPECT_LT(answer, doubt);
+  EXPECT_LT(doubt, html.find("<figure>"));
+  EXPECT_NE(html.find("<nav>"), html.npos);
+  test::expect_answer_first(html);
 }
 
 TEST_F(Pages, OfADiagnosisBeginWithItsAnswer) {

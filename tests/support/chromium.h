@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A page in headless Chromium: what it does when somebody uses it.
 #pragma once
 

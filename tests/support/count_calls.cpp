@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Preloaded into a program: counts what a real-time loop must not do, between its COUNT_FROM-th
 // read (read or recv that brought data) and its COUNT_TO-th one or the end of its input, and writes
 // "reads allocations locks" to the file COUNT_FILE.

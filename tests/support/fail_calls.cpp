@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Preloaded into a program: the FAIL_AT-th call of FAIL_CALL (open, openat, fopen, read, pread,
 // write, fsync, rename, renameat2, link, unlink, mkdir, mmap, flock, ftruncate, socket, bind,
 // connect, recv, send, ppoll) fails with the number

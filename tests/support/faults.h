@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // System calls of a program that fail once: tests/support/fail_calls.cpp does it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A robot at 500 Hz whose address somebody else floods with packets under a wrong key:
 // dcnn_flood SERVER ROBOT KEY-FILE SECONDS RATE [PRIORITY]. Prints as JSON how many samples were
 // answered within their cycle and later, and the packets that the flood sent.

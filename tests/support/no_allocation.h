@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a piece of code asked of the heap and of locks: real-time code must ask nothing.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every page of results must do: asked of each kind where its program is tested.
 #pragma once
 
@@ -15,8 +16,11 @@ constexpr const char* kUse = R"js(
   out.cut = Array.from(document.querySelectorAll('.wide')).filter(box => box.scrollWidth > box.clientWidth + 1)
     .map(box => box.textContent.trim().slice(0, 60));
   const pictures = Array.from(document.querySelectorAll('figure > svg'));
-  out.cut.push(...pictures.map(svg => svg.parentElement).filter(box => box.scrollWidth > box.clientWidth + 1)
+  out.cut.push(...pictures.map(svg => svg.parentElement)
+    .filter(box => box.scrollWidth > box.clientWidth + 1 && getComputedStyle(box).overflowX !== 'auto')
     .map(box => 'picture: ' + box.textContent.trim().slice(0, 60)));
+  out.letters = pictures.filter(svg => svg.viewBox.baseVal.width > 0 && svg.getBoundingClientRect().width > 0)
+    .map(svg => svg.getBoundingClientRect().width / svg.viewBox.baseVal.width).reduce((a, b) => Math.min(a, b), 1);
   out.pictures = document.querySelectorAll('figure svg').length;
   out.titles = document.querySelectorAll('figure svg rect > title, figure svg path > title, figure svg polyline > title').length;
   const group = [...groups.values()][0];
@@ -104,6 +108,7 @@ inline void expect_usable_page(const std::string& html) {
   expect_worked(browse(html, kUse), 1000);
   const Json narrow = browse(html, kUse, 400, "--blink-settings=preferredColorScheme=0");
   expect_worked(narrow, 400);
+  EXPECT_GT(narrow["letters"].get<double>(), 0.7) << "letters of figures shrink on a telephone";
   EXPECT_EQ(narrow["background"].get<std::string>(), "rgb(22, 24, 27)");
 }
 

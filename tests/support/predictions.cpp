@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Predictions of one network for tests/cli/instructions_test.cpp: predictions (valid | same |
 // lstm). What predict() does is counted; the first one, which also chooses the instructions, is
 // not.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Long loops are shorter, and allocations uncounted, where a sanitizer watches every access.
 #pragma once
 

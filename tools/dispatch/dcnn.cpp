@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `dcnn <verb> …` is `dcnn-<verb> …`; alone it lists the verbs.
 #include <unistd.h>
 
@@ -89,6 +90,14 @@ void list() {
   for (const std::string& verb : others) std::cout << row(verb);
 }
 
+/// The exit code where standard output has taken everything, or not.
+int written() {
+  std::cout.flush();
+  if (std::cout.good()) return static_cast<int>(Exit::kDone);
+  std::cerr << "dcnn: standard output: cannot write\n";
+  return static_cast<int>(Exit::kFailure);
+}
+
 int run(const std::string& verb, char** arguments) {
   std::string path = program(verb);
   arguments[0] = path.data();
@@ -103,9 +112,12 @@ int main(int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "--help";
   if (first == "--version") {
     std::cout << "dcnn " DCNN_VERSION "\n";
-    return 0;
+    return written();
   }
-  if (first == "--help" || first == "-h" || (first == "help" && argc == 2)) return list(), 0;
+  if (first == "--help" || first == "-h" || (first == "help" && argc == 2)) {
+    list();
+    return written();
+  }
   const std::string verb = first == "help" ? argv[2] : first;
   const auto known = verbs();
   if (std::find(known.begin(), known.end(), verb) == known.end()) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // dcnn-peer-libtorch: libtorch beside dcnn-bench, predictions and training epochs.
 #include <torch/torch.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Training epochs of src/experiment/peers/training.h with libtorch.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // dcnn-peer-onednn: oneDNN beside dcnn-bench. Every primitive chooses its own layouts, weights are
 // reordered once, ReLU and tanh are part of the primitive before them.
 #include <omp.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every helper dcnn-peer-<library> does between its library and dcnn-bench: the protocol of
 // src/experiment/peers/child.h.
 #pragma once

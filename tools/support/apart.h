@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recordings to judge by are none of those that were learned from.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Completions of a command for bash, zsh and fish.
 #include <algorithm>
 

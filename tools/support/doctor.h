@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The check that tools which learn from recordings run first.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One line and an exit code for whatever ends a command.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "support/file_kind.h"
 
 #include <algorithm>
@@ -45,6 +46,8 @@ constexpr std::array kKindWords{
               "such as configs/limits/wrist.json"},
     KindWords{FileKind::kRecipe, "the recipe of an import", "--recipe takes it",
               "import.json of dcnn-import"},
+    KindWords{FileKind::kSweep, "a description of cells", "dcnn-sweep takes it",
+              "commands and what they run over, docs/use/cluster.md"},
     KindWords{FileKind::kRecording, "a recording",
               "options such as --data, --train and --fit take it",
               "CSV: a header row, then one row per sample"},
@@ -68,6 +71,7 @@ FileKind kind_of_json(const Json& json) {
     return has("effects") ? FileKind::kTruth : FileKind::kScene;
   if (has("master") || has("slave") || has("wall")) return FileKind::kTeleop;
   if (has("import")) return FileKind::kRecipe;
+  if (has("commands") || has("cells")) return FileKind::kSweep;
   if (has("position_m") || has("speed_mps")) return FileKind::kLimits;
   if (has("tool")) {
     return json["tool"].is_object() && json["tool"].contains("tool") ? FileKind::kTeleop
@@ -122,6 +126,7 @@ Exit exit_without(FileKind wanted) {
     case FileKind::kTeleop:
     case FileKind::kLimits:
     case FileKind::kRecipe:
+    case FileKind::kSweep:
       return Exit::kUsage;
     default:
       return Exit::kData;

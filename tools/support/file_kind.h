@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What kind of file a path names, so that a file given in another's place is called by its name.
 #pragma once
 
@@ -22,6 +23,7 @@ enum class FileKind {
   kTraining,
   kLimits,
   kRecipe,
+  kSweep,
   kRecording,
 };
 

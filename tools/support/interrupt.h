@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ctrl-C as a wish: the first one lets the work save its state, the second one ends it.
 #pragma once
 

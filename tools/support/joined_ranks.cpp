@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "support/joined_ranks.h"
 
 #ifdef DCNN_WITH_MPI

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The processes that mpirun started, as ranks of one training.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // man(7) text of a command.
 #include "support/option_table.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What our tools use of CLI11's options, compiled once: in every program its headers cost seconds.
 #pragma once
 

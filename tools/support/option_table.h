@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a command takes: the one table from which --help, manual pages and completions are made.
 #pragma once
 

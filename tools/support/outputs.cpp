@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "support/outputs.h"
 
 #include <fnmatch.h>
@@ -133,8 +134,8 @@ bool Outputs::take_standard_output() const {
 
 void Outputs::claim_file(const Output::Rule& rule, bool keep) {
   const Path path = when_made(rule.path());
-  require(path == "-" || !fs::is_directory(path), Exit::kFailure, path.string(),
-          ": is a folder; name a file");
+  require(path == "-" || (!fs::is_directory(path) && path.has_filename()), Exit::kUsage,
+          path.string(), ": is a folder; name a file");
   if (is_stream(path)) return;
   if (rule.held && !any_given(rule.unless)) names_.emplace_back(path);
   const auto existing = replaced_file(path);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a command writes, and what it must not destroy: the rule of docs/use/outputs.md.
 #pragma once
 

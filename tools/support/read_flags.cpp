@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How recordings are read: what every tool that takes them offers.
 #include <numbers>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // --recipe of a tool that reads recordings as they are otherwise.
 #pragma once
 

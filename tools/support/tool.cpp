@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "support/tool.h"
 
 #include <CLI/CLI.hpp>
@@ -230,7 +231,11 @@ std::string command_line(int argc, char** argv) {
 
 int Tool::run(int argc, char** argv, const std::function<Exit()>& body) {
   add_common();
-  if (const auto answered = answer(argc, argv)) return *answered;
+  if (const auto answered = answer(argc, argv)) {
+    std::cout.flush();
+    if (std::cout.good()) return *answered;
+    return fail_line(name_, "standard output: cannot write", Exit::kFailure);
+  }
   if (const int done = parse(argc, argv); done >= 0) return done;
   set_threads(threads_);
   fix_blocking();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every dcnn-<verb> shares: common flags, the table of options, one-line errors, exit codes.
 #pragma once
 

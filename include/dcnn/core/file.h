@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files that are whole or not there at all.
 #pragma once
 
@@ -6,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "dcnn/core/error.h"
 
@@ -27,16 +29,19 @@ void write_file(const std::filesystem::path& path, std::string_view bytes);
 std::optional<std::filesystem::path> replaced_file(const std::filesystem::path& path);
 
 /// A folder, made where there is none, that one process alone writes to: flock() on the folder
-/// itself, so no file of it stays. Throws Error(kUsage) where another process holds it.
+/// itself, so no file of it stays. Throws Error(kUsage) where another process holds it. A folder
+/// that it made and nothing was written to goes with it.
 class FolderLock {
  public:
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
-  FolderLock(FolderLock&& other) noexcept : folder_(std::exchange(other.folder_, -1)) {}
+  FolderLock(FolderLock&& other) noexcept
+      : folder_(std::exchange(other.folder_, -1)), made_(std::exchange(other.made_, {})) {}
   FolderLock& operator=(FolderLock&&) = delete;
 
  private:
   int folder_ = -1;
+  std::vector<std::filesystem::path> made_;  // the innermost first
 };
 
 }  // namespace dcnn

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Time that predictions take, in calls of a few samples (Table I of the paper).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a sealed challenge came to, as text and as a page.
 #pragma once
 

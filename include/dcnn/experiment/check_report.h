@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What dcnn-check writes: check.json and check.html.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From a preset, a configuration file and flags to one resolved configuration, with
 // defaults for all that none of them says.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The files a diagnosis writes (docs/use/diagnose.md).
 #pragma once
 

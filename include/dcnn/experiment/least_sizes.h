@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From which size on an effect that was not found would have been, in its own unit.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How well forces are predicted (spec section 3).
 #pragma once
 

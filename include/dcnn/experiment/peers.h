@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Predictions and training epochs beside those of other libraries, in turns in one run.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a page comes from: what a program tells about its own run, and every page shows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a network makes of the force that a simulator leaves: it fits, and names nothing.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reports people look at: one self-contained HTML file, figures as inline SVG, no network.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paper's experiments from data to one report (docs/results/paper.md): Fig. 5, Table I, C1 to
 // C5.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page and pictures of the bilateral demonstration.
 #pragma once
 
@@ -15,7 +16,10 @@ struct TeleopResult {
   Json row;  ///< summarise()
 };
 
-/// "ideal: contact from 69.8 to 75.0 s, at most 5.01 N; the master drifts by 0.00876 mm".
+/// What stands in the place of a variant's name in legends, tables and lines: "tool known".
+std::string name_of_variant(const std::string& name);
+
+/// "tool known: contact from 69.8 to 75.0 s, at most 5.01 N; the master drifts by 0.00876 mm".
 std::string teleop_line(const Json& row);
 
 /// Writes teleop.json, report.html, Fig. 6 of every variant as SVG with its signals as CSV, and

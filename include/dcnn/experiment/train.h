@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Training an identifier from recordings, in a run directory that survives anything.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One UDP socket with one peer, and a robot's end of the conversation with dcnn-run.
 #pragma once
 
@@ -13,6 +14,10 @@ namespace dcnn {
 
 /// Seconds on the monotonic clock.
 double monotonic_seconds() noexcept;
+
+/// Error(kUsage) where a socket from one to the other cannot be: before anything else is waited
+/// for.
+void expect_addresses(const std::string& listen, const std::string& peer);
 
 /// Bound to one address and connected to another: the kernel drops what comes from elsewhere.
 class UdpSocket {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is compared: networks and samples, as files for the helpers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A helper program dcnn-peer-<library>: one line asked, one JSON line answered.
 #pragma once
 

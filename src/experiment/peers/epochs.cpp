@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "experiment/peers/epochs.h"
 
 #include <algorithm>

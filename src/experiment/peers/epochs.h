@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Training epochs, ours and another library's in turns.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The helper programs of the libraries that are there.
 #pragma once
 

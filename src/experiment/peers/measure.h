@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Turns of several libraries on one network at one number of samples per call.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The comparison as JSON, as tables and as charts.
 #include <algorithm>
 #include <cstdio>

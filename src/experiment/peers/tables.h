@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the printed comparison and the page have in common.
 #pragma once
 

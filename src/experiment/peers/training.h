@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One epoch of the networks as the paper trains them: what benchmarks time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the paper leaves open and how it was decided (spec section 9): printed with every result.
 #pragma once
 

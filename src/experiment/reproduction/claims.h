@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paper's claims C1 to C5 (spec section 6), judged from numbers.
 #pragma once
 

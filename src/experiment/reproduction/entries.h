@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rows of the comparison: model kinds, some of them in several readings of the paper.
 #pragma once
 

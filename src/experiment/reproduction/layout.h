@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where everything of a reproduction lies under its output folder: cells by their names, plans of
 // cells by their stages.
 #pragma once

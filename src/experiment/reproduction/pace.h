@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far a run of several stages is, from the times that were planned and those measured.
 #pragma once
 

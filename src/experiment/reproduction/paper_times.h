@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Table I of the paper: mean time per call and total, in seconds (MATLAB 2018b, i7 2.80 GHz).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a preset does: models, training protocols, noise modes, draws, timing.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The numbers of a reproduction, read back from the files its steps wrote.
 #pragma once
 

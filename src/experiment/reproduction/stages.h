@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The long work of a reproduction as cells, which dcnn-sweep runs as well.
 #pragma once
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* outputs = dcnn_call(LIBRARY, FUNCTION, arguments…): the functions that examples/predict.m calls, by their names in the
  * library; the result and every argument as it is after the call. Handles are uint64. */
 #include <dcnn.h>
