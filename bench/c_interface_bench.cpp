@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A sample through dcnn.h beside the same sample through the C++ call: both are the best of many
 // short stretches, taken in turns, so that what other programs take of a shared machine hardly
 // counts. `more` is what the C call costs more, as a share.

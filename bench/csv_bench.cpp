@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reading a recording: MB/s of CSV, samples/s of features.
 #include <benchmark/benchmark.h>
 #include <unistd.h>

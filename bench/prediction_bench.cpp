@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // dcnn_bench: one prediction after another through the plan that runs online, in multiply-adds per
 // second and as a share of what one thread of the machine can do. Both are the best of many short
 // stretches, taken in turns: what other programs take of a shared machine then hardly counts. The

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // dcnn_bench: an epoch of training and a single prediction, in multiply-adds per second and as a
 // share of what the machine can do; an iteration of Levenberg and Marquardt.
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The C interface: no exception and no C++ type crosses it.
 #include "dcnn.h"
 

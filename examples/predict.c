@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: Apache-2.0 */
 /* The external force from C: reads "t x y z qw qx qy qz fx fy fz" lines, writes "t state fx fy fz".
  *   cc predict.c -ldcnn && ./a.out sim.json < samples.txt */
 #include <dcnn.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a robot's control loop uses dcnn-run (docs/use/run.md): the robot is a mock that swings a tool
 // and touches something after a second. Put your robot's calls in place of the class MockRobot.
 //   robot_loop SECRET.key [OWN_ADDRESS DCNN_RUN_ADDRESS [SECONDS]]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A control loop with the model in the robot's own process (docs/use/run.md), beside
 // robot_loop.cpp, which asks dcnn-run: the loop that keeps real time calls step(), which allocates,
 // locks and throws nothing. Put your robot's calls in place of read() and use().

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recordings: the first byte chooses the options, the rest is the file.
 #include "dcnn/data/recording.h"
 #include "fuzz/support.h"

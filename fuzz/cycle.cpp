@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cycles of dcnn-run behind the packets: any numbers, clocks, silences, overruns and rearms. The
 // force put out is finite, within its limit and its slew, in all of them.
 #include <cmath>

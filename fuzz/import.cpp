@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Logs of other programs: text of any dialect, MCAP, ROS 1 bags, rosbag2, NumPy, MATLAB, JSON. What
 // is read is proposed as a recording and assembled, as dcnn-import does without options; the recipe
 // is read again as it was written.

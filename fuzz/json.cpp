@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // JSON documents: the first byte chooses what reads it.
 #include "dcnn/calibration/calibration.h"
 #include "dcnn/data/features.h"

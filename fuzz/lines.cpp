@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows on the standard input of dcnn-run: any bytes are answered, and every number put out is
 // finite and bounded.
 #include <fcntl.h>

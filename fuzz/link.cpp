@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What comes back to a robot from dcnn-run, and to dcnn-run from a robot: welcomes and results as
 // they come, and the same under a right tag; the robot's own packets, changed on the way.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Model files whose checksum is made right, so that everything behind it is read.
 #include "dcnn/models/identifier.h"
 #include "fuzz/support.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Datagrams as they come, and the same under a right tag, as the holder of the key could send them.
 #include "dcnn/runtime/packet.h"
 

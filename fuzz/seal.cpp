@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sealed answers and a report, parted by a NUL byte: a seal whose SHA-256 is right, which nobody of
 // ours wrote.
 #include "dcnn/conceal/challenge.h"

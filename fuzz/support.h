@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every fuzz target shares: foreign bytes are read, or refused by an Error of one line;
 // nothing else comes out.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -62,19 +63,19 @@ struct Source {
   std::string room, text;
 };
 
-std::vector<Source> sources() {
+std::vector<Source> sources(const std::vector<std::string>& folders = {"include/dcnn", "src",
+                                                                       "tools"}) {
   std::vector<Source> found;
   const fs::path root = DCNN_SOURCE_DIR;
-  for (const auto* folder : {"include/dcnn", "src", "tools"}) {
+  for (const auto& folder : folders) {
     for (const auto& file : fs::recursive_directory_iterator(root / folder)) {
       const auto extension = file.path().extension();
       if (extension != ".h" && extension != ".cpp" && extension != ".def") continue;
       std::ostringstream text;
       text << std::ifstream(file.path()).rdbuf();
       const auto inside = fs::relative(file.path(), root / folder);
-      found.push_back({file.path(),
-                       folder == std::string("tools") ? "tools" : inside.begin()->string(),
-                       text.str()});
+      found.push_back(
+          {file.path(), folder == "tools" ? "tools" : inside.begin()->string(), text.str()});
     }
   }
   return found;
@@ -146,6 +147,12 @@ TEST(Layering, NoTwoFilesDefineATypeOfOneName) {
     }
   }
   EXPECT_GT(defined.size(), 200U);
+}
+
+TEST(Layering, EveryFileNamesItsLicence) {
+  for (const auto& source : sources({"include", "src", "tools", "c", "tests", "fuzz", "bench"})) {
+    EXPECT_LT(source.text.find("SPDX-License-Identifier: Apache-2.0"), 8U) << source.path;
+  }
 }
 
 TEST(Layering, NoFileIsLongerThan300Lines) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One cell at work: its folder, its commands, what they cost and left.
 #pragma once
 

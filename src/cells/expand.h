@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A description of cells, written out.
 #pragma once
 

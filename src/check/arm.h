@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An arm whose links are described (URDF), fitted to the torques of a log under one reading of it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Units and the sign of forces, all at once: where two or three are wrong, mending one of them may
 // explain no more than mending none.
 #pragma once

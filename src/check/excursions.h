@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Short excursions of a channel: a few rows, all moved alike, between neighbours that are alike.
 #pragma once
 

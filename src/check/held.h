@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Values that a slower source holds from one row to the next.
 #pragma once
 

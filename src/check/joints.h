@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Joints of which no links are described: their motion, what their torque may consist of, and what
 // rates and torques say of the units of angle and clock.
 #pragma once

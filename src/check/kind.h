@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every fault of faults.def supplies.
 #pragma once
 

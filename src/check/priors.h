@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every number of the check that is neither a probability with a distribution, a physical bound nor
 // a numerical tolerance.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a logged rate may be beside the derivative of its position.
 #pragma once
 

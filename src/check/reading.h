@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A reading: what the numbers of a log mean. The log as declared is one, each fault of units,
 // signs, axes, frames and orders is another; they are compared by how well a rigid tool explains
 // them.

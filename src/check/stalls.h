@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Several columns of one source that keep their values together for a while.
 #pragma once
 

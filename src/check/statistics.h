@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small robust statistics of one channel.
 #pragma once
 

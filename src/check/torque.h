@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The torque of a rigid tool, fitted to a wrist's torques under one reading of them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The log posterior of a reading, but for a constant.
 #include <algorithm>
 #include <cmath>

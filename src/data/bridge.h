@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows that a log lost, on the even clock that spectra and filters need.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows that were taken when their stamps say, off an even clock by parts of a step.
 #pragma once
 

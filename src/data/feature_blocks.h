@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rows a feature set can have: blocks that are there as a whole or left out.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers beyond which no recording and no model file goes: what a file says may not decide how much
 // memory or time is taken.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines of a text file in blocks of fixed size: a recording of any length needs the memory of one
 // line.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a logged pose must satisfy before anything is computed from it.
 #pragma once
 

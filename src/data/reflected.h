@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A signal made continuous around the circle, for its transform: what its ends and a reflection do.
 #pragma once
 

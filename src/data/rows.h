@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Work on the rows of a recording that do not depend on one another.
 #pragma once
 

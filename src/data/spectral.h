@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Zero-phase smoothing and differentiation in the frequency domain.
 #pragma once
 

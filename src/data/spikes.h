@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Single rows far off their neighbours: a bit that flipped, a reading that was lost.
 #pragma once
 

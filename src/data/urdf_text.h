@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Descriptions of robots in XML (URDF), before a parser sees them.
 #pragma once
 

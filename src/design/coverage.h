@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a motion would show of a law that nobody has named.
 #pragma once
 

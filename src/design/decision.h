@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // With which probability a recording decides between structures.
 #pragma once
 

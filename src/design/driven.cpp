@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Limits from recordings, and the next motion within them.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "design/joints.h"
 
 #include "dcnn/data/rotation.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pose and its derivatives of an arm whose joints move.
 #pragma once
 

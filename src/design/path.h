@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Motions as uniform B-splines of degree 5: control points in, what the robot does out.
 #pragma once
 

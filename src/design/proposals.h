@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Motions to be judged: control points drawn at random, and changed at random.
 #pragma once
 

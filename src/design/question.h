@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a report leaves open: the structures that may be true, as probable as the report says.
 #pragma once
 

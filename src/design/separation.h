@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far apart structures are on a motion, once the rival's numbers have been fitted to the
 // other's forces.
 #pragma once

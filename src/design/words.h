@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A designed motion in words.
 #pragma once
 

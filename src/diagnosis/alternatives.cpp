@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Other names for the same numbers: what the recordings cannot exclude.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an arm's joints recorded, as rows of one regression.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which joints of an arm measure their drive's torque, and which its reaction.
 #pragma once
 

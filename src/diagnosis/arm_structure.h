@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a given arm leaves, as bodies that all joints share beside terms of single joints.
 #pragma once
 

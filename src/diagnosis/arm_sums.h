@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One regression for all joints of an arm, and what it predicts of pieces of time that were left
 // out.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The joints of a machine and a whole arm in words.
 #pragma once
 

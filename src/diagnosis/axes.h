@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The diagnosis of one case, and of a machine as one case per axis.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cases of the axes of other machines: one axis each.
 #pragma once
 

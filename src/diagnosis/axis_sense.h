@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether what is measured on an axis drives it, or is the reaction to that.
 #pragma once
 

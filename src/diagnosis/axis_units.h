@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Units of an axis of a machine, which may be of any size.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/axis_words.h"
 
 #include "dcnn/diagnosis/diagnose.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Findings on an axis of a machine in words.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/base_errors.h"
 
 #include "dcnn/data/filter.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a base simulator that is known may be off.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // In which state a cable or a sensor was when the recordings began.
 #pragma once
 

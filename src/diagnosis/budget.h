@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Of what kind of physics a difference is made, before any law is named.
 #pragma once
 

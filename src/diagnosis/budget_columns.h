@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The columns of which budget() makes its parts.
 #pragma once
 

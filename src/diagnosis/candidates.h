@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which effects are tried, and where in their shapes a search for them begins.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a diagnosis is about: recordings, the simulator at hand, and the quantities both give.
 #pragma once
 

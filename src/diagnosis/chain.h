@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Predictions of a case's recordings under a set of effects, with what effects do not touch cached.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Columns of a regression: solved for, joined, made orthonormal.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A second beginning on a machine: beside the laws that nearly every machine has.
 #include <algorithm>
 

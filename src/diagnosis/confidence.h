@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How likely each name is, in the light of what was held out.
 #pragma once
 

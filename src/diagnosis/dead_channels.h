@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Channels that read one number whatever the machine does: no law explains them.
 #pragma once
 

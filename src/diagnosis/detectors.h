@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tests for what has no column in a linear model: rounding, clipping, impacts, lines above the
 // blocks' band.
 #pragma once

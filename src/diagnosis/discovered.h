@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws for what no effect of the catalogue explains, as part of the corrected model and its report.
 #pragma once
 

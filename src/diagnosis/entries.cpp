@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Effects of several numbers (a gain for each axis, a matrix of crosstalk) of which the recordings
 // tell some alone: the others are held at zero. And levers that they do not tell.
 #include <algorithm>

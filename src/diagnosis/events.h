@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What happens at a time: a contact, a step of the offset.
 #pragma once
 

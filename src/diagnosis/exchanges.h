@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names that took the place of others, and what was said for it.
 #pragma once
 

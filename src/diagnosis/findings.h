@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a finished search found, and what it could not have found, as report.json has it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The density of a floor, and what it integrates to.
 #include <algorithm>
 #include <cmath>

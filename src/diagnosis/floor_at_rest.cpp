@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The noise of poses at rest.
 #include <algorithm>
 #include <cmath>

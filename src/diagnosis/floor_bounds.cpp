@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // No noise exceeds what the model leaves.
 #include <algorithm>
 #include <cmath>

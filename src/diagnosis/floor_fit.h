@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The shape of a floor that is likeliest under the density of its quiet band (Whittle 1953).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Polynomial terms in what no effect of the catalogue explains.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How often in a turn the dry friction of an axis varies.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An arm whose simulator is given (simulated torques, or links whose bodies are described): whether
 // a body at its flange is missing, or the links are others than those described.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is added to a model, and what is left out again.
 #include <algorithm>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Effects that detectors found (detectors.h, impacts.h), judged by held-out data.
 #pragma once
 

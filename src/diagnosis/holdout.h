@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The error on recordings, or blocks of time, that nothing was decided on.
 #pragma once
 

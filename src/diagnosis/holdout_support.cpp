@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What held-out data say of two predictions, over all channels and in each.
 #include <cmath>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All members of a model fitted together through the exact chain.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a model that was found may be believed: what it leaves, how constant its members are, how
 // well their numbers are known, and what could stand in their place.
 #pragma once

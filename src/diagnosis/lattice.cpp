@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lattices on which readings lie: a coarse sensor's, and the decimals of the log.
 #include <algorithm>
 #include <cmath>

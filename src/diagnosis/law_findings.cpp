@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws of the fit as findings, and what held-out data say of them.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The residual of a fit as a problem of the discoverer.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws without a name, as members of a fit.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a member of a model helps where it was not fitted.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a simulator and recordings differ, before anything is named.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An effect with numbers: what is in a model, or tried for it.
 #pragma once
 

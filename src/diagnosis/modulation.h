@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether the strength of a member depends on what its law does not know of.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How fast a motion is, read from the positions that were logged.
 #pragma once
 

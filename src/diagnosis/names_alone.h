@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The model of names alone, to which a search of laws may come back.
 #pragma once
 

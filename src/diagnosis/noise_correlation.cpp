@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The correlation of the noise of channels, as strain gauges that share a bridge have it.
 #include <algorithm>
 #include <cmath>

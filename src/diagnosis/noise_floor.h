@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sensor's noise, from the band above the motion, and the noise that smoothed poses carry.
 #pragma once
 

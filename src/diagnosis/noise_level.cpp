@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How the level of each channel's noise varies over a recording: with the force it reads, and in
 // bursts.
 #include <algorithm>

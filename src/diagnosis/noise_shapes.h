@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shapes of coloured noise over frequency.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The corrected simulator where it runs sample by sample.
 #pragma once
 

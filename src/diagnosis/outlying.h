@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Stretches of a recording in which far more is left than anywhere else.
 #pragma once
 

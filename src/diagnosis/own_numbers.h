@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The simulator's own numbers against what was found one by one, on what was held out.
 #pragma once
 

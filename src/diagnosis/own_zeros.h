@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A sensor's zero that is another one in each recording.
 #pragma once
 

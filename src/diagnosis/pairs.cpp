@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Two members at once, against one or two others: what a greedy search cannot see.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What delays and low-passes make of a machine's linear base simulator.
 #pragma once
 

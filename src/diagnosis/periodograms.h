@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Spectra of windows of a signal, and their density.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Findings as a reader wants them: one line for the friction of one axis, no numbers that mean
 // nothing. report.json keeps every finding as it was found.
 #pragma once

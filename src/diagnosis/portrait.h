@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Findings in the coordinates in which their laws are curves.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the pose's own noise puts into the prediction.
 #include <algorithm>
 #include <cmath>

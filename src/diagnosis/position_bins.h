@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A signal in bins of the position, and the orders (periods a turn, or a metre) of lines in it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the noise of an axis' logged motion puts into the prediction: drawn, passed through filter
 // and model, and read off as a spectrum.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What one more effect would gain, everything already in the model refitted beside it.
 #pragma once
 

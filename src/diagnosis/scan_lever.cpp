@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where torques are measured: the lever at which a force acts, fitted beside its amplitudes.
 #include "diagnosis/scan.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rigid body of an arm, for all its joints at once.
 #pragma once
 

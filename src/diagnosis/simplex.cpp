@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Minimisation without derivatives (Nelder and Mead 1965).
 #include <algorithm>
 

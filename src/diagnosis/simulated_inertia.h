@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What forces that somebody else simulated hold.
 #pragma once
 

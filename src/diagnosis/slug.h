@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The motion of a load between two stops, from the field that acts on it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The zero-phase smoother of the pose, chosen on the force (never on the pose: on slow scans motion
 // lies below the pose's noise that still stands in the force).
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines in the spectrum of what is left.
 #pragma once
 

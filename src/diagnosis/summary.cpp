@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The diagnosis in a sentence.
 #include <algorithm>
 #include <cmath>

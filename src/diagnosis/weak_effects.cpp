@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/weak_effects.h"
 
 #include <algorithm>

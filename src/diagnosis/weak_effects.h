@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Effects too faint for the fitted poses alone, which held-out poses bear out.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The structures that the judgement leaves: the members, each without some of them, with and
 // without an unknown.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From signals at the log's rate to independent numbers of unit variance.
 #pragma once
 

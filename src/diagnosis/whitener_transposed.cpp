@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transpose of the whitening, which scores many columns at once.
 #include "diagnosis/whitener.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Findings in plain words.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a diagnosis has computed, counted the same for any number of threads.
 #pragma once
 

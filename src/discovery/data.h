@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coordinates and directions of a problem's recordings, and the whitened columns of laws.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a search for a law begins: factors with numbers, without a direction.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The numbers of a sketch that a fit changes, each on a scale of its own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a law may be believed: coloured residuals, held-out folds, blocks of time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From the best of the dictionary to the law itself: changes of its form, each fitted.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Directions with numbers of their own: oblique axes, and points that forces point away from.
 #pragma once
 

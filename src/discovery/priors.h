@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every prior and level of the discovery, in one table. Chi-square throughout.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Changes of a law that are tried: other shapes, further factors, memories.
 #include <cmath>
 #include <numbers>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The numbers of sketches fitted to the residual, and what that gains.
 #pragma once
 

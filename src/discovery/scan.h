@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The best of the dictionary along every direction, by one matrix product.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A law while it is being searched for: its numbers by factor, ready to be changed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One regression for all joints of an arm.
 #pragma once
 

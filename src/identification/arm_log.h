@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recordings of an arm as the rows of one regression.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers of the tool in S, their intervals, and what the motion shows of them.
 #pragma once
 

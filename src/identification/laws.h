@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What may act beside the rigid tool, as columns of its regression.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "identification/normal_equations.h"
 
 #include "core/linear_algebra.h"

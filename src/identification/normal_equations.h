@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Normal equations of a fit to several logs.
 #pragma once
 

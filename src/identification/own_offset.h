@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a list of poses at rest has an offset of its own.
 #pragma once
 

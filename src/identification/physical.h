@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Draws of the parameters from their distribution, restricted to bodies that can exist.
 #pragma once
 

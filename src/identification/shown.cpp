@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the motion does not show, and which motion would.
 #include <cmath>
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The base of a robot on a wall or a ceiling: where its gravity points.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coloured noise: an autoregression for every channel of a log, by which rows become white.
 #pragma once
 

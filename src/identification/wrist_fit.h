@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Maximum likelihood of the rigid tool behind a mounting, under coloured noise.
 #pragma once
 

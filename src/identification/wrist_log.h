@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recordings of a wrist as the rows of a regression: low-passed to the motion's band and thinned.
 #pragma once
 

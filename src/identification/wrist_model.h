@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rigid tool behind an unknown mounting as a regression.
 //
 // In E, the frame whose pose is logged, with the field f = R_BE^T (g - a_o), angular velocity w and

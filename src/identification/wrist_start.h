@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the fit begins: mounting and mass from the force alone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Training noise for models that see all rows at once.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The JSON header of a model file, in the one spelling that encode() gives it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ten inertial parameters of a tool and the sensor's bias from force and torque.
 #pragma once
 

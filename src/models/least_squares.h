@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Linear least squares over any number of rows in fixed memory.
 #pragma once
 

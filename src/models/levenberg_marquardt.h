@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Levenberg-Marquardt as the toolbox runs it (Hagan and Menhaj 1994).
 #pragma once
 

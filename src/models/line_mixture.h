@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Line fits of several windows mixed into one estimate of each channel, by how noisy it is now.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Identifiers that are linear in known terms: force = weights^T · terms of the motion.
 #pragma once
 

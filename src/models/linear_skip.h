@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The linear part of a network: ridge regression on the network's own inputs.
 #pragma once
 

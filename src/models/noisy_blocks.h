@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which level of noise each training row has.
 #pragma once
 

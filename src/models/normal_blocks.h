@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // J^T J and J^T e of a shallow network without its Jacobian.
 #pragma once
 

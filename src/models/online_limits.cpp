@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/models/online_limits.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streams of random numbers that one seed feeds: no two uses in a model may share a number.
 #pragma once
 

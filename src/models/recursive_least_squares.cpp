@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/recursive_least_squares.h"
 
 #include <cassert>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Online least squares with exponential forgetting, in square-root information form.
 #pragma once
 

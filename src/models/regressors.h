@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The terms in which the closed-form identifiers are linear: force = weights^T · terms.
 #pragma once
 

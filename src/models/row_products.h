@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Products of the values of a row, row by row, and their sums over rows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Five columns of every channel in the sensor frame: what DCNN+ and DCNN-T see instead of Eq. 7.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paper's four networks trained by Levenberg-Marquardt (Su et al. 2020): 383, 225, 428 and 387
 // parameters on 15 inputs.
 #include "models/shallow_model.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The shallow networks as identifiers: trained by Levenberg-Marquardt.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Feed-forward and cascade-forward networks with hidden tanh layers and linear outputs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Predictions of the shallow networks: feed-forward ones in single precision, as the other
 // networks, cascades, which are no chain of layers, in double.
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The errors of a shallow network over rows, for Levenberg-Marquardt.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Between tensors and the container of a file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/trainer.h"
 
 #include <algorithm>
@@ -24,8 +25,7 @@ std::vector<NamedTensor> copies(const std::vector<NamedTensor>& tensors) {
 
 void assign(const std::vector<NamedTensor>& to, const std::vector<NamedTensor>& from) {
   for (std::size_t i = 0; i < to.size(); ++i) {
-    const auto values = from[i].tensor.values();
-    std::copy(values.begin(), values.end(), to[i].tensor.data());
+    std::ranges::copy(from[i].tensor.values(), to[i].tensor.data());
   }
 }
 

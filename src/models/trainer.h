@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One training of a NetworkModel: epochs of Adam that can stop anywhere and go on to the same
 // bytes.
 #pragma once

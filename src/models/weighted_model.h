@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A model that adds to a simulator, weighted by how far it proved itself where it did not learn.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The network of the paper, for tests and benchmarks.
 #pragma once
 

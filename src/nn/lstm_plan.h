@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An LSTM as a step of a plan (dcnn/nn/plan.h).
 #pragma once
 

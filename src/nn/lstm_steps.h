@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The steps of an LSTM over the samples of one piece, there and back.
 #pragma once
 

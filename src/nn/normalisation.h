@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Batch normalisation piece by piece, so that a convolution can do it to what is still in the
 // cache.
 #pragma once

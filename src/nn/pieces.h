@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Work on a batch, piece by piece: what every layer shares.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "physics/axis_law.h"
 
 #include "dcnn/physics/law.h"

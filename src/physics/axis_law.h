@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A discovered law in the model.json of a machine: told in the terms of its axis.
 #pragma once
 

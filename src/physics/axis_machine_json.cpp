@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a corrected machine is written down: published names, units and signs of an axis.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A signal as it was some time ago, between samples by a cubic.
 #pragma once
 

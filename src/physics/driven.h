@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A law whose strength follows a logged signal s: a + slope·s(t - lag) in place of a.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/physics/first_order.h"
 
 #include "core/elementary.h"

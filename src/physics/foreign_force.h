@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How much of a measured force is not the tool's.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The numbers of an effect that was found, for the words of its row in the catalogue.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The shape that all friction laws share: a force -law(v)·n against the velocity along an axis.
 #pragma once
 

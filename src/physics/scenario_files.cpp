@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/core/file.h"
 #include "dcnn/core/file_set.h"
 #include "dcnn/physics/scenario.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of sim.json that parse_tool_model and parse_simulator share.
 #pragma once
 

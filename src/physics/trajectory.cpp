@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/physics/trajectory.h"
 
 #include <cmath>

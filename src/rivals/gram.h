@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Least squares on a subset of columns, from sums of products.
 #pragma once
 

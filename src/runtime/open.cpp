@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/runtime/open.h"
 
 #include "dcnn/calibration/calibration.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reports of loops in words.
 #include "dcnn/core/number.h"
 #include "dcnn/runtime/serve.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One direction of the network: packets of three numbers, late, out of order or lost.
 #pragma once
 

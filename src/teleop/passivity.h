@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Time-domain passivity at the master's port (Hannaford and Ryu 2002), per axis.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The two ends of the link: hand and master, slave and wall with its force sensor.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // calibration.json as dcnn-run reads it: a rotation that is none would turn every force.
 #include <gtest/gtest.h>
 

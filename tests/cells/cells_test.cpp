@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plans, packs, runs and merges of cells, with commands of the system.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Logs with nothing wrong in them that a check may take for faulty ones.
 #include <gtest/gtest.h>
 

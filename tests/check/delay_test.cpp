@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Delays of the force beside physics that acts along one axis.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An arm's log beside the description of its links.
 #include <gtest/gtest.h>
 

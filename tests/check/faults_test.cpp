@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every fault of the generator is the first that the check names; clean logs stop nothing.
 #include <gtest/gtest.h>
 

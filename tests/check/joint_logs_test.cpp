@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Faults of joints' channels in logs that end with the drives off, and drives that turn many times.
 #include <gtest/gtest.h>
 

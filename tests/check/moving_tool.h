@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A tool on a motion that never rests, as logs of tests begin.
 #pragma once
 

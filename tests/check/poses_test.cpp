@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Poses that are those of something else.
 #include <gtest/gtest.h>
 

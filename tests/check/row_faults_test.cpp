@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Faults of a few rows or of one column: what was misread, held, lost or rounded.
 #include <gtest/gtest.h>
 

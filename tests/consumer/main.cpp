@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a stranger's program does with the installed library.
 #include <dcnn/models/container.h>
 

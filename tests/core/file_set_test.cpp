@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Several files are replaced as one, whatever fails and wherever the process ends.
 #include "dcnn/core/file_set.h"
 

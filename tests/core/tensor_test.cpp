@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "dcnn/core/tensor.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rows whose stamps jitter: taken when the stamps say, or evenly beside stamps that are noise.
 #include "data/even_clock.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recordings of real machines, where they are beside the checkout.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Stamps that were written with few digits.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A recording on slow sines whose derivatives are known, at any rate.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Single rows that are no reading: found, mended, and told from noise and from impacts.
 #include "data/spikes.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // dcnn-diagnose on anything: whatever the recordings are, a verdict or one line, in bounded time
 // and memory, and no confident name for a channel that is dead. DCNN_ANY_CASES and DCNN_ANY_SEED
 // make a longer run (tools/fuzz).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a given arm leaves: one body or terms of single joints, whichever is likelier.
 #include "diagnosis/arm_structure.h"
 

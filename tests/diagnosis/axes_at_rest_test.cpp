@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Axes of a machine at rest: positions and efforts without a clock.
 #include <gtest/gtest.h>
 

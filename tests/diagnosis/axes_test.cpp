@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The diagnosis of axes of other machines, on axes simulated here.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names and laws without a name, together; and names that held-out data refute.
 #include <gtest/gtest.h>
 

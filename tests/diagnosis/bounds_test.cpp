@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers at a bound of their range, against the integral over what is left of the likelihood.
 #include "diagnosis/evidence/bounds.h"
 

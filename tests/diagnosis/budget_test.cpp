@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which kind of physics a difference is made of, before anything is named.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws side by side: two of one kind that look like one, and a listed one beside an unknown one.
 #include <gtest/gtest.h>
 

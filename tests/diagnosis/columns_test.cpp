@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Columns of a regression against what linear algebra says of them.
 #include "diagnosis/columns.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The diagnosis on simulated recordings in which an effect of the catalogue was hidden.
 #include "dcnn/diagnosis/diagnose.h"
 

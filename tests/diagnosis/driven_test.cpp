@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws whose strength follows a logged signal, on an axis and on a wrist.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Axes whose motion is read by an encoder: its steps, differentiated, are noise of the prediction.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ends of recordings, where a smoother passes fast motion in part: nothing is judged there.
 #include <gtest/gtest.h>
 

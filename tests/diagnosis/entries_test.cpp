@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Effects of several numbers of which the recordings tell some alone, and the simulator's own
 // numbers before faults of the sensor that change the same forces.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every effect that the diagnosis looks for is named when it is hidden alone.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The evidence against direct computation with whole covariances, and its noise against simulation.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Effects too faint for a few fitted poses, which held-out poses bear out.
 #include <gtest/gtest.h>
 

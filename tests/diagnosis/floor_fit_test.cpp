@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The shape of a floor, from the density of its quiet band.
 #include "diagnosis/floor_fit.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Arms whose simulator is given: a payload is found, and nothing is where nothing is.
 #include "diagnosis/given_arm.h"
 

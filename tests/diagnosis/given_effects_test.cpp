@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A simulator that has effects already, as model.json of an earlier diagnosis.
 #include <gtest/gtest.h>
 

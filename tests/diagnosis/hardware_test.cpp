@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws that hardware has, found on an axis whose position is logged with noise and nothing else of
 // its motion; and not found where plain ones act.
 #include <gtest/gtest.h>

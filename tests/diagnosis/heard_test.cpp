@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What was found by tests of its own, judged by recordings that decided nothing.
 #include <gtest/gtest.h>
 

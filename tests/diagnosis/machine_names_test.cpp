@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is a name on a machine: laws that all machines have, that its base has, that nobody
 // commands.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Noise that channels share: its estimate against simulation, and the whitening beside it.
 #include <gtest/gtest.h>
 

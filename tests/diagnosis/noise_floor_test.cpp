@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Floors against simulated noise of a known spectrum.
 #include "diagnosis/noise_floor.h"
 

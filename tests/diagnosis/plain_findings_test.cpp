@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a reader is told of several findings along one axis, and of numbers that mean nothing.
 #include "diagnosis/plain_findings.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recordings that the spectra and detectors of the diagnosis must not read beyond.
 #include <gtest/gtest.h>
 

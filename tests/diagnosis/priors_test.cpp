@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of priors in the docs is the one in the code.
 #include <gtest/gtest.h>
 

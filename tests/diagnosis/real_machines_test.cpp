@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ready configurations on real machines, whose recordings are not part of the repository.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws that look like a listed one without being it, and listed ones where something else is loud.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Machines that stand still most of the time, and motors that turn fast.
 #include <gtest/gtest.h>
 

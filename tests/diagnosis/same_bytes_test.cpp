@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A report does not depend on the processor: neither on its caches nor on the instructions that the
 // C library chooses for it.
 #include <gtest/gtest.h>

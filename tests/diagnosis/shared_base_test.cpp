@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An arm's rigid body is one for all its joints.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Slow noise of a known spectrum: its estimate, and names beside it.
 #include <gtest/gtest.h>
 

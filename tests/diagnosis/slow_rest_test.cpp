@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is named where something is left that no effect explains, and what only looks like it.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines in simulated noise: their frequency beside lost rows, and how often noise alone makes one.
 #include "diagnosis/spectral_lines.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulated recordings in which effects are hidden, and their diagnosis.
 #pragma once
 

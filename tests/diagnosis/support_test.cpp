@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What held-out data say of two models, against the likelihood ratio and against simulation.
 #include "diagnosis/evidence/support.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Drifts whose time constant the recordings tell, and drifts whose they do not.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Effects whose signs are weak, bent or hidden behind a stronger one, and noise that looks like
 // one.
 #include <gtest/gtest.h>

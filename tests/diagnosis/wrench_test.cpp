@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recordings with torques: where on the tool a force acts.
 #include <gtest/gtest.h>
 

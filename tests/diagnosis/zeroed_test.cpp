@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sensors as they are used: zeroed for each recording, or with a payload's weight subtracted.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws without a short formula: tables, switches, delays, products of three.
 #include <gtest/gtest.h>
 

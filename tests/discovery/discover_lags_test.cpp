@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws with a memory, and the parts that a law loses.
 #include <gtest/gtest.h>
 

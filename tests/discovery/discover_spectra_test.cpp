@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws whose memory has many sizes, and a contact in the plane that gives way before it slides.
 #include <gtest/gtest.h>
 

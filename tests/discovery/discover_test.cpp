@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws that no catalogue has are found in residuals, and none in noise.
 #include <gtest/gtest.h>
 

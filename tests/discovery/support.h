@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Residuals with a law in them, for the tests of the discovery.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every command of docs/use and of the README runs as it stands there, or has its reason here.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Analytic gradients against central differences: the truth every layer is held to.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every registered layer: its gradient is that of its forward pass.
 #include <gtest/gtest.h>
 

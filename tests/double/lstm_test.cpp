@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The LSTM against PyTorch's.
 #include <gtest/gtest.h>
 

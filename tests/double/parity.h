@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Comparing tensors with the numbers of another program.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The network against two independent programs: a scalar one of this repository, and PyTorch.
 #include "double/parity.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole arms from simulated joint torques.
 #include "dcnn/identification/arm.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The chain's regressor against the DH form, and against orocos-kdl where it is installed.
 #include <gtest/gtest.h>
 

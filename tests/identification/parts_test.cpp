@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parts of the identification against finite differences, closed forms and a known body.
 #include <gtest/gtest.h>
 

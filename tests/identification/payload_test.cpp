@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Payloads for others, read back: by urdfdom, libsdformat and PyYAML where they are installed.
 #include "dcnn/identification/payload.h"
 

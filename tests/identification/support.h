@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulated recordings of a known tool, as files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every kind of model in models.def must do, on one small problem.
 #include <gtest/gtest.h>
 

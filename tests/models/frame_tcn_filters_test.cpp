@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The block means that frame-tcn sees and the filters on them, against closed forms.
 #include <gtest/gtest.h>
 

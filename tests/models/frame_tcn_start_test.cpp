@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The first rows of a segment where derivatives look back alone: their window holds the first
 // sample many times.
 #include <gtest/gtest.h>

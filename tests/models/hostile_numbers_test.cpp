@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A model file with a right checksum and wrong numbers is refused, or loaded and run, in bounded
 // memory and time.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A model file behind its checksum: parts that do not belong together are refused.
 #include "dcnn/models/identifier.h"
 

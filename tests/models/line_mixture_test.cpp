@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Line fits mixed by the level of noise, against what is known of white noise and of single lines.
 #include "models/line_mixture.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ONNX files taken apart again: the wire format, the graph, and weights where they belong.
 #include "dcnn/models/onnx.h"
 

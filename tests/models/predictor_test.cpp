@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What runs online predicts what Model::predict() does, row by row and without the heap.
 #include "dcnn/models/predictor.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Several processes that train one network: the bytes of one process.
 #include "dcnn/core/ranks.h"
 

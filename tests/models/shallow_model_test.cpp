@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The four networks of Levenberg and Marquardt as identifiers.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small identification problems with a known answer for the tests of the models room.
 #pragma once
 

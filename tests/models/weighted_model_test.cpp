@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is added to a simulator is weighted by what validation rows show of it.
 #include "models/weighted_model.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Plans in 16-bit integers: within their bound of an exact reference, by every instruction set.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every instruction set this machine has computes the same network.
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A plan computes what its network does, by every instruction set this machine has.
 #include "dcnn/nn/plan.h"
 

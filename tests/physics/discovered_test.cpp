@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws as data: closed forms, files, units and words.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws whose strength follows a logged signal, against their closed form.
 #include <gtest/gtest.h>
 

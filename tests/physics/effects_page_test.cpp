@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // docs/use/effects.md has a row for every effect, in the words of the catalogue.
 #include <gtest/gtest.h>
 

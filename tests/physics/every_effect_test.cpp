@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every effect of the catalogue owes: the tests loop over effect_kinds(), not over a copy of
 // it.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forces on the tool against their closed forms.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Motions that a drive makes: closed forms, another integrator, and numbers refined on them.
 #include "dcnn/physics/forward.h"
 

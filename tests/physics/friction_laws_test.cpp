@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each friction law against its closed form.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Laws that hardware has beside the simplest ones, each against its closed form.
 #include <gtest/gtest.h>
 

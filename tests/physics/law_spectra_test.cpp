@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // States of a law that are means of many, and the presliding of a direction: closed forms.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The torque of forces that act away from the sensor's origin.
 #include <gtest/gtest.h>
 

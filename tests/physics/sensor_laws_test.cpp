@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Resonance, sensor and tool effects against their closed forms.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recordings of a swinging tool for the tests of the physics room.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Selectors against closed forms, and on two columns of twenty in little noise.
 #include "dcnn/rivals/selectors.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a compensator forgets, and when: after a gap, at the operator's word, and of the memory it
 // is made in.
 #include <gtest/gtest.h>

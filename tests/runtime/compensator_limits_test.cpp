@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a compensator may be made of, and what its options change: warm-up, torques, contact,
 // limits.
 #include <gtest/gtest.h>

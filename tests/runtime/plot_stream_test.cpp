@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every cycle as JSON to a plotting program, from a ring that never holds the loop up.
 #include "dcnn/runtime/plot_stream.h"
 

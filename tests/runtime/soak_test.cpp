@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hours of cycles with faults drawn at random: no output leaves its limit or its slew, and good
 // samples always end in service again. DCNN_SOAK_HOURS=24 is a day of simulated time.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A model without motion, a standing robot: what the compensator itself does with them can be
 // computed by hand.
 #pragma once

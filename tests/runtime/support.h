@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small tool in motion, a model of it and a compensator for the tests of the runtime room.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sensor frame to robot frame from pairs of one force seen in both (Wahba 1965).
 #pragma once
 

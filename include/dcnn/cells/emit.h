@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scripts by which other engines run the cells of a plan.
 #pragma once
 

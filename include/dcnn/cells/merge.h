@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the cells of a plan came to, whoever ran them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Results of cells in files that only grow: one for each process that runs cells, any number of
 // cells in it.
 #pragma once

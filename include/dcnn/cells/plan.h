@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Long work cut into cells: commands whose results depend on nothing but their declared inputs, so
 // that any engine may run them, in any order, and finished ones are never run again.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How long cells like those that have run would take elsewhere.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs the cells of a plan, or a share of them, on this machine.
 #pragma once
 

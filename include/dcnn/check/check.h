@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The data doctor: what is wrong with a log, how sure that is, and what mends it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A log as it is written, before anything is believed about it: columns, roles, rows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Arms with concealed effects: a payload at the flange, and effects in their joints.
 #pragma once
 

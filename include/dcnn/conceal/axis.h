@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Single axes of machines with concealed effects: a joint, a motor, a linear axis or a small
 // oscillator, with the log that its drive keeps.
 #pragma once

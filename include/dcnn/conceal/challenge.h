@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A challenge: many concealed scenarios, their answers sealed, and what a diagnosis made of them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Logs with one fault each, as people's loggers make them: what dcnn-check is measured on.
 #pragma once
 

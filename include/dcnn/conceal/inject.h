@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Effects concealed in recordings that somebody measured: real motion, real noise.
 #pragma once
 

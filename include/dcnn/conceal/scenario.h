@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenarios with concealed effects: an independent world that shares no physics with the fitter.
 #pragma once
 

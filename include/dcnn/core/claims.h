@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names that a command keeps for itself from its first look at them until it has written.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SHA-256: checksums of model files, identities of data and of finished work.
 #pragma once
 

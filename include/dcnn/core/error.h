@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The only exception this project throws: what went wrong, where, and what to do about it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Several files as one: all new or all as they were, whatever fails and whenever the process ends.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Long work that is given up where that is wished.
 #pragma once
 

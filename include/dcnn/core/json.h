@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // JSON as this project reads and writes it: keys keep their order, input is parsed strictly.
 // A value type of a few members stands in front of nlohmann-json, which parses and prints in one
 // file: named in every file it was a seventh of the time to compile the library.

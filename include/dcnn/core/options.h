@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reading a JSON object key by key: defaults, types, and an error for every key nobody asked for.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Work in fixed pieces: the pieces, and so every sum over them, do not depend on the threads.
 #pragma once
 

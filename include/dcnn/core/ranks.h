@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Processes that train one network together: each works on its share of the pieces of a batch
 // (core/parallel.h), and all hold the whole before it is used, so that sums over pieces are added
 // in the same order and have the same bytes as in one process.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tensor and reverse-mode differentiation.
 #pragma once
 

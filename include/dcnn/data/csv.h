@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tables of numbers as CSV: strict, locale-free, streaming.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Four estimators: first and second derivatives of sampled signals, length
 // preserved.
 #pragma once

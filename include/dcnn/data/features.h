@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Feature vectors from recordings: `pose`, the paper's 15; `body`, 15 in the sensor
 // frame without singularity; `axes`, those of a system description.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The zero-phase low-pass that measured, simulated and base columns share.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Eq. 7: every feature x becomes one row [x, x - mean, (x - mean)/sd, |x|, x^2].
 #pragma once
 

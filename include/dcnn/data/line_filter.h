@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The newest value of a straight line through the last samples: a causal filter that has no lag on
 // anything that moves evenly.
 #pragma once

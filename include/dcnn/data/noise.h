@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gaussian noise on the feature vector, before Eq. 7 (spec section 4). Forces are never perturbed.
 #pragma once
 

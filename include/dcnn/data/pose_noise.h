@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // White noise on the pose BEFORE it is differentiated: what an encoder or a tracker would add.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A recording: named columns on one clock. A simulated and a measured one are the same type.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Orientation: R_BE = Rz(alpha)·Ry(beta)·Rx(gamma) maps E to B.
 #pragma once
 

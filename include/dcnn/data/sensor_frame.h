@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rows of a wrist's features as channels in the sensor frame S.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The newest feature vector of a pose that comes sample by sample: what runs online.
 #pragma once
 

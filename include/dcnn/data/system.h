@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a recording's columns mean: a tool on a wrist, or the axes of any other machine.
 #pragma once
 

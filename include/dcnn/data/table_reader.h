@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where read_recording() gets the columns of a file from.
 #pragma once
 

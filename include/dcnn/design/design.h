@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The next experiment: the motion within a robot's limits that best tells apart what a report
 // leaves open.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a robot may do while it is recorded: the limits within which a motion is designed.
 #pragma once
 

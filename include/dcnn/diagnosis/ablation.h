@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parts of the diagnosis that can be left out, to measure what each is worth. For research: a
 // report made without one says so.
 #pragma once

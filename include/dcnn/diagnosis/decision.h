@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When the diagnosis lists a model beside the one that it chose: the rule that a design predicts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is missing in a simulator: located, named, modelled, and shown on recordings held out.
 #pragma once
 

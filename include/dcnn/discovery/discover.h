@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A law for what no effect of the catalogue explains: structure, numbers, and what they gain.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A whole arm from joint positions and torques (or currents): rigid body, friction, payload.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers of a machine's axis refined so that the motion simulated from its drive follows the log.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A tool's numbers from recordings alone: mass, centre of mass, inertia, offset and mounting.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A tool's mass, centre of mass and inertia for robots and simulators of others.
 #pragma once
 

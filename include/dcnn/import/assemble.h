@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From a log and a recipe to a recording.
 #pragma once
 

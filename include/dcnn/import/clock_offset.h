@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far the clock of a pose is off from that of a force, from the motion itself.
 #pragma once
 

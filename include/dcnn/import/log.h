@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a log of somebody else holds: streams of named channels, each stream with clocks of its own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What of a log becomes which column of a recording: import.json.
 #pragma once
 

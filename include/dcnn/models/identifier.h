@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A trained identifier as users hold it: recording in, forces out, one file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An identifier of tool dynamics: physical units in, physical units out.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a network sees of a stream: the map of Eq. 7 of one row, a window of rows, columns of
 // filters.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A network of layers on some view of the features (network_input.h), trained with Adam.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What training knows about its own limits: which motion it saw, and how large its error is where
 // nothing touches the tool.
 #pragma once

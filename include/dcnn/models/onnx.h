@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Networks and models as ONNX files, for other runtimes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A trained model compiled for one sample after another: what runs online.
 #pragma once
 

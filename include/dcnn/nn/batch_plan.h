@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A network at inference for many samples at once.
 #pragma once
 

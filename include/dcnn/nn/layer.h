@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Layers hold parameters and no mood: training and randomness arrive with the call.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A network is a list of layers, so it is data.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adam, learning-rate schedules and weight averaging.
 #pragma once
 

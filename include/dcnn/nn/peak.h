@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the machine could do at most: the measure of every kernel.
 #pragma once
 

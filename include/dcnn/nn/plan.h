@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A network as a fixed list of operations on one sample.
 #pragma once
 

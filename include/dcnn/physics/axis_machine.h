@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Machines that are a set of axes (system.json of kind "axes"): what their motion is, what the
 // simulator at hand says, and a corrected simulator. An axis passes the same chain of effects as a
 // tool: its drive's reaction is a force along base x, its position the angle alpha.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Exact response of x' = p·x + u, of which every linear filter is made.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forward dynamics of one axis of a machine: the motion that its drive makes.
 #pragma once
 

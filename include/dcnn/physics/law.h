@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A force law as data: a product of shapes of named coordinates along a direction, with units.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the force depends on: the motion of the sensor frame, from a recording or from formulae.
 #pragma once
 

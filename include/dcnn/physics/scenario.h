@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulated recordings with ground truth, from one configuration.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rigid tool on a wrist sensor and the effects that act on it: motion in, force out.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A simulator that runs sample by sample behind a pose that comes online.
 #pragma once
 

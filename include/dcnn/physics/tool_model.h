@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sim.json: the numbers of a rigid tool on a wrist sensor.
 #pragma once
 

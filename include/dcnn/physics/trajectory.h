@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Poses over time with exact derivatives.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rivals of the diagnosis: sparse regression on the catalogue's laws as a linear library.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ways in which others choose the columns of a linear library, tuned as their users would.
 #pragma once
 

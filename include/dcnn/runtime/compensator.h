@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Online compensation as one component (Fig. 3): pose and force in, external force in the robot
 // frame out, one call per sample.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Between a network and a hand: every output finite, bounded and slew-limited, whatever comes in.
 #pragma once
 

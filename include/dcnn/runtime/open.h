@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From files to a compensator: what dcnn-run and the C interface (dcnn.h) open.
 #pragma once
 

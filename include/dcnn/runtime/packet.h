@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The packets of dcnn-run (docs/use/run.md): fixed little-endian layouts under a keyed tag.
 #pragma once
 

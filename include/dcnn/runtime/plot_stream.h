@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a loop does, as JSON over UDP for live plots (PlotJuggler): sent by a thread of its own.
 #pragma once
 

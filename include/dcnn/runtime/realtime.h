@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a process asks of the kernel before it serves in real time.
 #pragma once
 

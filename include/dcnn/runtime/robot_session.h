@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A robot's side of the packets of dcnn-run, without a socket: what it sends, and what it believes.
 #pragma once
 

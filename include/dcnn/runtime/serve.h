@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The loops around an OnlineCompensator: packets, lines, and a rehearsal from a recording.
 #pragma once
 

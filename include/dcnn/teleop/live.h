@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The demonstration as separate processes over UDP, in real time (paper, IV-A): the slave's side
 // with its sensor, the identifier (dcnn-run), and the controller on the master's side.
 #pragma once

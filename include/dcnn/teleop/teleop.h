@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bilateral demonstration: hand and master, delayed link, slave with impedance,
 // environment, and a force sensor whose tool an identifier compensates.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers of effects that stand at a bound of their range.
 #pragma once
 

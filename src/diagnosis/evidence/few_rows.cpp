@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "diagnosis/evidence/few_rows.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Poses at rest tell their noise by what is left of them alone: its variance, in units of the
 // floors, is integrated over, so that residuals have Student's distribution and not a normal one.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What physics outside the catalogue may depend on: fields of functions with one variance each.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How fields are built: functions of what the recordings hold, along an axis, whitened.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The recordings at the rate of their block means: what the evidence is computed from.
 #pragma once
 

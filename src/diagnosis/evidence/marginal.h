@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Marginal likelihoods of linear Gaussian models, from Gram matrices.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fields of where the motion came from, and of the clock.
 #include <algorithm>
 #include <cmath>

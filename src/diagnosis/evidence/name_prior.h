@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How likely an effect with such numbers is, before the recordings.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How probable nothing, names, an unknown, and each name are: one score for all structures.
 #pragma once
 

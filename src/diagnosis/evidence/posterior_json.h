@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The posterior as it stands in report.json.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Noise that rises towards low frequencies, below the band in which the floor is read.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fields of the state of motion: rates, forces, poses and products of them.
 #include <algorithm>
 #include <numbers>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The evidence of one structure: which effects act, with and without an unknown beside them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What data that decided nothing say of two fitted models.
 #pragma once
 

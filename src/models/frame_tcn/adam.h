@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Adam (Kingma and Ba 2015) on a flat vector, with an average of the weights.
 #pragma once
 

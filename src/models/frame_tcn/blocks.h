@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the network sees of a channel's past: means over blocks that grow with their age, and how
 // rough it is.
 #pragma once

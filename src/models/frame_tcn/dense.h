@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // In place of convolutions and gates, as a control: two hidden layers of tanh units beside a dense
 // linear part, from the block means and the levels to the channels.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sums over the last 1, 2, 4, … rows of a stream.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rigid-body frames of one instant, with what their gradients need.
 #pragma once
 

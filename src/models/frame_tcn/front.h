@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The convolutions: per kinematic axis a bank of causal filters, each the best linear estimate of
 // the clean newest sample at one level of noise (Wiener). Where a segment is younger than the
 // filter, the best estimate from the blocks there are: whatever stood for the others would be noise

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What training draws its batches from. Noise is linear in the estimates and quadratic in the
 // roughness, so a sample with noise of any level is a sum of stored parts.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A layer of tanh units and a linear one, on columns; parameters live in a flat vector.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // frame-tcn: a causal convolutional network on the pose and its rates. Convolutions per kinematic
 // axis (closed form), gates by the level of noise, rigid-body frames, a product head.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gates, frames and head on a batch of columns, with gradients by hand (tested by differences).
 #pragma once
 

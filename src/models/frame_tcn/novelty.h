@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a motion lies in the band that training has seen.
 #pragma once
 

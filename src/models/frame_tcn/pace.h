@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a motion is, for seconds on end, faster than the filters were made for.
 #pragma once
 

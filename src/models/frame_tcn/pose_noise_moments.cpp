@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/frame_tcn/pose_noise_moments.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Noise on the pose as the convolutions see it: white on the angles, coloured on the rates by the
 // estimator that made them, and much stronger on the first rows of a segment, where its window is
 // off-centre.

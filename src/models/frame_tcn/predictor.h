@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // frame-tcn for one sample after another.
 #pragma once
 

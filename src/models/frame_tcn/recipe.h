@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How frame-tcn learns: filters in closed form, gates by Adam, head by ridge, gates and head by
 // Adam.
 #pragma once

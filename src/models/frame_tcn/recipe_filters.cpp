@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The filters: moments of the motion and of the noise, then Wiener.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The head's first values: scales, then a ridge that weighs each level of noise by what it leaves.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a young segment shows of a motion where derivatives look back alone. Before its first sample
 // the estimator repeats it, so the rates of the first window rise from rest to what they are: a
 // filter made for motion that goes on takes that for an acceleration.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An ONNX graph as it grows node by node. Numbers of fields and types are those of onnx.proto.
 #pragma once
 

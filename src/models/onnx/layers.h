@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The layers of a network as nodes of an ONNX graph.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Protocol Buffers' wire format, as much of it as an ONNX file needs.
 #pragma once
 

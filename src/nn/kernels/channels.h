@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sums and maps over rows of C channels, as batch normalisation needs them. All arrays of length C
 // but x, y and gradients, which are (rows, C).
 #pragma once

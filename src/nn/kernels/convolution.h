@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Stride-1 cross-correlation on channels-last images as sums of tile products.
 #pragma once
 

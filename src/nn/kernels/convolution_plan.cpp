@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nn/kernels/convolution_plan.h"
 
 #include "nn/kernels/elementwise.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A convolution of one image with everything that does not depend on its values decided before.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small fully connected layers one behind another, at inference.
 #pragma once
 

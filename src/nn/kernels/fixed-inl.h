@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What surrounds the products of positions-inl.h: blocks of rows, the ReLU, a fully connected layer
 // behind it. Compiled anew for every instruction set: included by the kernels, after highway.h.
 #if defined(DCNN_NN_KERNELS_FIXED_INL_H_) == defined(HWY_TARGET_TOGGLE)

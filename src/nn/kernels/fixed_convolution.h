@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The convolutions of DCNN for one image, every extent but the height known to the compiler.
 #pragma once
 

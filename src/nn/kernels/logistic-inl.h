@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The S-shaped functions of gates, and their slopes. Compiled anew for every instruction set:
 // included by the kernels, after highway.h.
 #if defined(DCNN_NN_KERNELS_LOGISTIC_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A loop over contiguous values in whole vectors, the rest one by one with the same arithmetic.
 // Compiled anew for every instruction set: included by the kernels, after highway.h.
 #if defined(DCNN_NN_KERNELS_LOOP_INL_H_) == defined(HWY_TARGET_TOGGLE)

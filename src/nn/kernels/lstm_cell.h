@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The functions of an LSTM's cell at one step (Hochreiter and Schmidhuber 1997, with the forget
 // gate of Gers et al. 2000), and their derivatives.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The functions of an LSTM's cell where nothing is kept for a way back (lstm_cell.h).
 #pragma once
 

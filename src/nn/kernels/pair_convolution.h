@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Convolutions in 16-bit integers: the products of two channels in one instruction.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A matrix cut into panels of columns, for products that meet it many times.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A 2x2 convolution of one image whose every extent but the height is known to the compiler, in
 // floats or in pairs of 16-bit numbers. Compiled anew for every instruction set: included by the
 // kernels, after highway.h.

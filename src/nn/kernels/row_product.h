@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One row times a matrix in panels.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which taps of a window lie inside the image.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one multiply-add loop behind convolution, its gradients, the fully connected layer's
 // gradients and, in double, the sums of Levenberg and Marquardt.
 #pragma once

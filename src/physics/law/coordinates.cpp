@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Named coordinates and directions, and their values at one sample.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "physics/law/direction_text.h"
 
 #include "dcnn/core/number.h"

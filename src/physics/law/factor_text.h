@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The numbers of a law's factors as texts with units, for its formula and its words.
 #pragma once
 

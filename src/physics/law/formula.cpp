@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A law as text and LaTeX.
 #include <map>
 

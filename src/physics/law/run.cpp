@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The force of a law, sample by sample.
 #include "core/elementary.h"
 #include "dcnn/physics/law.h"

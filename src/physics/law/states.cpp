@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The states that a coordinate drives, or a shape of it, sample by sample.
 #include <algorithm>
 #include <cmath>

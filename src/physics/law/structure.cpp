@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A law in files: its structure, its numbers, and their names and units.
 #include <algorithm>
 #include <cmath>

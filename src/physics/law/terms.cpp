@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What coordinates are called: of a tool, and of the axis of a machine, which passes the chain of a
 // tool (axis_machine.h).
 #include "dcnn/physics/law.h"

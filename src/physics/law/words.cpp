@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A law in words.
 #include <algorithm>
 #include <cmath>
