@@ -94,15 +94,12 @@ bool Search::admit_slow_noise() {
   const double with_term = plain - most_of_a_term(*setting_, fit_) + kNumberPrice;
   in_slow_noise_ = true;
   events_allowed_ = false;  // an event has the spectrum of such noise
-  const bool was_spent = is_spent();
-  look_longer();  // a search among names for noise may have taken all its time
   settle(to_begin_with());
   explore();
   put_events_beside_noise(without_noise);
   if (penalised_deviance() < std::min(plain, with_term) && are_constant() && !is_alarming_now())
     return true;
   const std::vector<Member> found = fit_.members;
-  ended_early_ = ended_early_ || was_spent;
   begun_ += passes() - before;  // an attempt that failed is not what the search may take
   in_slow_noise_ = false;
   events_allowed_ = true;

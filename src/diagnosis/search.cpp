@@ -195,11 +195,6 @@ bool Search::mask_outlying() {
   return true;
 }
 
-void Search::look_longer() {
-  constexpr double kAtLeast = 0.2;
-  begun_ = std::max(begun_, passes() - (1.0 - kAtLeast) * kMostPasses);
-}
-
 std::vector<Member> Search::to_begin_with() const { return is_spent() ? fit_.members : apart_; }
 
 void Search::run() {

@@ -9,7 +9,7 @@
 
 namespace dcnn {
 
-/// What is added to a floor: noise of density 1/f^p, a first-order Gauss-Markov process, or both.
+/// What is added to a floor: noise of density 1/f^p or a first-order Gauss-Markov process.
 struct SlowPart {
   double power = 0.0, slope = 1.0;       ///< density at 1 Hz, and p
   double markov = 0.0, corner_hz = 1.0;  ///< density at 0 Hz, and the corner

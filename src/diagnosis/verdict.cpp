@@ -154,6 +154,7 @@ void Search::drop_unconfirmed() {
 /// Takes back what a remainder nobody can name makes doubtful: events, but for those of which only
 /// the shape is a little off, and members that fit in some places and not in others.
 void Search::judge() {
+  constexpr double kWithoutEvents = 0.2;  // of a search's limit, at least
   drop_coincidences();
   drop_unconfirmed();
   if (study_.axis) keep_what_is_confirmed();
@@ -183,7 +184,7 @@ void Search::judge() {
       settle(rest);
       // What the events stood for is still to be found, though the search be spent on them.
       ended_early_ = ended_early_ || is_spent();
-      look_longer();
+      begun_ = std::max(begun_, passes() - (1.0 - kWithoutEvents) * kMostPasses);
       explore();
     }
   }

@@ -112,7 +112,7 @@ TEST_F(SharedBase, IsNotForcedOnAJointInOtherUnits) {
 /// Where joint 1 swings against joint 2, joint 2's torque is opposed to its own acceleration.
 TEST_F(SharedBase, TellsTheSenseOfAJointThatOthersDrive) {
   DiagnosisRequest against = request(1.0);
-  write_arm(against.fit[0], 0.0, {0.9, 0.02}, 1.0, 1, 0.2);
+  write_arm(against.fit[0], 0.0, {0.9, 0.01}, 1.0, 1, 0.2);
   const System system = read_system(*against.system);
   const std::vector<Recording> logs{read_recording(against.fit[0], {}, system)};
   EXPECT_LT(sense_of(logs, system, system.axes[1], {}), 0.0);
