@@ -18,7 +18,7 @@ constexpr int kDelays = 60;            // either way: steps that no motion below
 /// Offset, velocity, acceleration, position of one recording, of a turning axis its sine and cosine
 /// (a link in gravity) and their rates, for a weight read some milliseconds late is no drag; and
 /// its reading.
-constexpr Index kColumns = 8, kWithoutGravity = 4, kVelocity = 1, kAcceleration = 2, kPosition = 3;
+constexpr Index kColumns = 8, kWithoutGravity = 4, kVelocity = 1, kAcceleration = 2, kPlace = 3;
 struct LaggedRows {
   Eigen::MatrixXd motion;
   Eigen::VectorXd reading;
@@ -101,7 +101,7 @@ LaggedRows lagged_rows(const Recording& recording, const System& system, const A
   rows.motion.col(kAcceleration) = motion.a_B.col(0);
   if (recording.has(axis.position)) {
     const Eigen::VectorXd q = recording.column(axis.position);
-    rows.motion.col(kPosition) = q;
+    rows.motion.col(kPlace) = q;
     if (axis.position_unit == "rad") {
       for (Index i = 0; i < q.size(); ++i) {
         const double v = rows.motion(i, kVelocity);
@@ -141,8 +141,8 @@ double turns_of(const Eigen::VectorXd& x) {
 double turns_of(const std::vector<LaggedRows>& logs) {
   double turns = 0.0;
   for (const LaggedRows& log : logs) {
-    const bool placed = !log.motion.col(kPosition).isZero(0.0);
-    turns += placed ? turns_of(Eigen::VectorXd(log.motion.col(kPosition)))
+    const bool placed = !log.motion.col(kPlace).isZero(0.0);
+    turns += placed ? turns_of(Eigen::VectorXd(log.motion.col(kPlace)))
                     : turns_of(Eigen::VectorXd(log.motion.col(kVelocity)));
   }
   return turns;
