@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "data/reversals.h"
 #include "dcnn/core/number.h"
 #include "dcnn/physics/effect_words.h"
 
@@ -40,29 +41,9 @@ std::string verdict_words(const Design& design) {
   return words;
 }
 
-/// Changes of direction of a coordinate that has moved by more than a hundredth of its range since
-/// the last.
-int reversals(const Eigen::VectorXd& x) {
-  constexpr double kPart = 0.01;
-  const double least = kPart * (x.maxCoeff() - x.minCoeff());
-  double low = x(0), high = x(0);
-  int direction = 0, count = 0;
-  for (const double now : x) {
-    low = std::min(low, now);
-    high = std::max(high, now);
-    const int turned = now > low + least && direction <= 0    ? 1
-                       : now < high - least && direction >= 0 ? -1
-                                                              : 0;
-    if (turned == 0) continue;
-    if (direction != 0) ++count;
-    direction = turned;
-    low = high = now;
-  }
-  return count;
-}
-
 /// "x over 0.2 m at up to 0.25 m/s with 24 reversals", the most moved first.
 std::vector<std::string> coordinate_words(const Played& played) {
+  constexpr double kTurn = 0.01;  // of its range, by which a coordinate turns back
   const char* const names[] = {"x", "y", "z", "alpha", "beta", "gamma"};
   std::vector<std::pair<double, std::string>> list;
   const double dt = played.motion.dt;
@@ -80,7 +61,7 @@ std::vector<std::string> coordinate_words(const Played& played) {
     const std::string unit = k < 3 ? "m" : "rad";
     std::ostringstream words;
     words << names[k] << " over " << brief(range) << " " << unit << " at up to " << brief(speed)
-          << " " << unit << "/s with " << reversals(x) << " reversals";
+          << " " << unit << "/s with " << reversals(x, kTurn) << " reversals";
     list.emplace_back(-range / largest[k / 3], words.str());
   }
   std::stable_sort(list.begin(), list.end(),

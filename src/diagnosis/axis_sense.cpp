@@ -6,6 +6,7 @@
 
 #include "core/elementary.h"
 #include "data/median.h"
+#include "data/reversals.h"
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/evidence/priors.h"
 
@@ -120,30 +121,14 @@ LaggedRows lagged_rows(const Recording& recording, const System& system, const A
   return rows;
 }
 
-/// How often a signal turns back by more than a twentieth of its range: less is noise.
-double turns_of(const Eigen::VectorXd& x) {
-  constexpr double kLeast = 0.05;
-  const double least = kLeast * (x.maxCoeff() - x.minCoeff());
-  double turns = 0.0, high = x(0), low = x(0), way = 0.0;  // since the last turn; its direction
-  for (const double now : x) {
-    high = std::max(high, now), low = std::min(low, now);
-    const bool falls = way >= 0.0 && high - now > least, rises = way <= 0.0 && now - low > least;
-    if (!falls && !rises) continue;
-    turns += way != 0.0;
-    way = falls ? -1.0 : 1.0;
-    high = low = now;
-  }
-  return turns;
-}
-
 /// How often the axis turns back, by its position where that is logged: so many independent pieces
 /// a motion has.
 double turns_of(const std::vector<LaggedRows>& logs) {
+  constexpr double kPart = 0.05;
   double turns = 0.0;
   for (const LaggedRows& log : logs) {
     const bool placed = !log.motion.col(kPlace).isZero(0.0);
-    turns += placed ? turns_of(Eigen::VectorXd(log.motion.col(kPlace)))
-                    : turns_of(Eigen::VectorXd(log.motion.col(kVelocity)));
+    turns += reversals(log.motion.col(placed ? kPlace : kVelocity), kPart);
   }
   return turns;
 }

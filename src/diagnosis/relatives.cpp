@@ -68,7 +68,7 @@ std::vector<double> Search::doubts(double little) {
       apart = std::max(apart, tests[m].above(loud) / prior::kInconstant);
     }
     if (bends_a_spring(fit_.members[m], fit_.members)) apart = kInfinity;
-    // Beside an offset that wanders a constant is its mean.
+    // Beside low-frequency noise a constant offset is its mean.
     if (loud > 1.0 && fit_.members[m].kind->is_constant) apart = 0.0;
     // Motion that nobody sees rings in a mode here and there. One that leaves more where modes are,
     // or of whose remainder a second one, driven by what is seen, explains most, is one of several.

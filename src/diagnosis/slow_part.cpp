@@ -95,7 +95,7 @@ Leveled leveled(const Form& form, const std::vector<Cell>& cells, double floor_l
 }
 
 std::vector<Form> all_forms() {
-  constexpr double kSteepest = 1.5;
+  constexpr double kSteepest = 1.5;  // the finite power of steeper noise is a drift
   std::vector<Form> forms{{}};
   for (double slope = 0.5; slope <= kSteepest; slope += 0.25) {
     if (slope != 1.0) forms.push_back({.slope = slope});
