@@ -77,6 +77,22 @@ std::vector<Segment> split_at_gaps(const Eigen::VectorXd& t, double dt) {
   return segments;
 }
 
+/// One line of all gaps, with the first ones and the longest.
+std::string words_of_gaps(const Eigen::VectorXd& t, const std::vector<Segment>& segments) {
+  constexpr std::size_t kFew = 3;
+  std::ostringstream words;
+  words << segments.size() - 1 << " gap" << (segments.size() == 2 ? "" : "s") << " before t = ";
+  double longest = 0.0, before = 0.0;  // s
+  for (std::size_t k = 1; k < segments.size(); ++k) {
+    const double end = t[segments[k].begin], gap = end - t[segments[k].begin - 1];
+    if (gap > longest) longest = gap, before = end;
+    if (k <= kFew) words << (k > 1 ? ", " : "") << end;
+  }
+  words << (segments.size() > kFew + 1 ? ", … s" : " s") << ": split there; the longest of "
+        << longest << " s before t = " << before << " s";
+  return words.str();
+}
+
 /// Where the rows of one segment go: source row and time of each new row.
 struct Grid {
   std::vector<Index> source;  // the last old row (within the segment) not after the new time
@@ -196,12 +212,8 @@ void set_clock(Recording& recording, const std::string& file, bool poses) {
           recording.dt, " s, faster than any sensor; write t in seconds");
   recording.dt = step_of(t, recording.dt);
   recording.segments = split_at_gaps(t, recording.dt);
-  for (std::size_t k = 1; k < recording.segments.size(); ++k) {
-    const Index row = recording.segments[k].begin;
-    std::ostringstream note;
-    note << "gap of " << t[row] - t[row - 1] << " s before t = " << t[row] << " s: split there";
-    recording.notes.push_back(note.str());
-  }
+  if (recording.segments.size() > 1)
+    recording.notes.push_back(words_of_gaps(t, recording.segments));
 }
 
 void check_regular(Recording& recording, const std::string& file) {

@@ -20,9 +20,11 @@ void write_csv(const std::filesystem::path& path, const Table& table) {
     char* out = text.data() + before;
     for (Index column = 0; column < table.values.cols(); ++column) {
       const double value = table.values(row, column);
-      require(std::isfinite(value), Exit::kFailure, path.string(), ": column ",
-              shown(table.columns[static_cast<std::size_t>(column)]), " is not finite in row ",
-              row + 1);
+      if (!std::isfinite(value)) {  // words are made for a message only
+        fail(Exit::kFailure, path.string(), ": column ",
+             shown(table.columns[static_cast<std::size_t>(column)]), " is not finite in row ",
+             row + 1);
+      }
       out = std::to_chars(out, out + kLongest, value).ptr;
       *out++ = ',';
     }

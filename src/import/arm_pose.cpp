@@ -123,11 +123,13 @@ void pose_from_joints(const ArmRule& rule, StreamTable* table, const std::string
       pose.row(row).tail(4) *= -1.0;
     }
   }
-  const std::vector<std::string> all = table->columns;
-  for (const std::string& column : all) {
-    if (is_angle(column) || column.starts_with("qd:") || column.starts_with("tau:"))
-      table->drop(column);
+  std::vector<std::string> of_joints;
+  for (const std::string& column : table->columns) {
+    if (is_angle(column) || column.starts_with("qd:") || column.starts_with("tau:")) {
+      of_joints.push_back(column);
+    }
   }
+  table->drop(of_joints);
   const char* names[] = {"x", "y", "z", "qw", "qx", "qy", "qz"};
   for (Index k = 0; k < 7; ++k) table->set(names[k], pose.col(k));
 }

@@ -30,6 +30,14 @@ struct Sums {
 
   explicit Sums(Index count)
       : xx(Eigen::MatrixXd::Zero(count, count)), xy(Eigen::MatrixXd::Zero(count, 3)) {}
+  Sums(const Eigen::Ref<const SignalRows>& x, const Eigen::Ref<const SignalRows>& y)
+      : Sums(x.cols()) {
+    xx.selfadjointView<Eigen::Lower>().rankUpdate(x.transpose());
+    xx.triangularView<Eigen::StrictlyUpper>() = xx.transpose();
+    xy.noalias() = x.transpose() * y;
+    yy = y.colwise().squaredNorm().transpose();
+    rows = static_cast<double>(x.rows());
+  }
   void add(const Sums& other, double sign) {
     xx += sign * other.xx;
     xy += sign * other.xy;
@@ -80,12 +88,12 @@ class Band {
     const double begin = std::max(force_.begin, pose_.begin + margin);
     const double end = std::min(last(force_), last(pose_) - margin);
     const double stride = std::max(4.0, (end - begin) / (force_.step * double(kMostRows)));
-    Eigen::VectorXd x;
+    Eigen::RowVectorXd x(pose_.values.cols());
     for (double at = 0.0; at < static_cast<double>(force_.values.rows()); at += stride) {
       const auto row = static_cast<Index>(at);
       const double t = time_of(row);
       if (force_.whole[static_cast<std::size_t>(row)] == 0 || t < begin || t > end) continue;
-      if (pose_.at(t - margin, &x) && pose_.at(t + margin, &x) && pose_.at(t, &x)) {
+      if (pose_.at(t - margin, x) && pose_.at(t + margin, x) && pose_.at(t, x)) {
         rows_.push_back(row);
       }
     }
@@ -115,15 +123,16 @@ class Band {
 
   BlockSums sums_of(double shift) const {
     BlockSums blocks(static_cast<std::size_t>(kBlocks), Sums(pose_.values.cols()));
-    Eigen::VectorXd x;
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      if (!pose_.at(time_of(rows_[k]) - shift, &x)) continue;
-      Sums& sums = blocks[k * static_cast<std::size_t>(kBlocks) / rows_.size()];
-      const Eigen::Vector3d y = force_.values.row(rows_[k]).transpose();
-      sums.xx.noalias() += x * x.transpose();
-      sums.xy.noalias() += x * y.transpose();
-      sums.yy += y.cwiseAbs2();
-      sums.rows += 1.0;
+    SignalRows x(static_cast<Index>(rows_.size()), pose_.values.cols());
+    SignalRows y(x.rows(), 3);
+    std::size_t begin = 0;
+    for (std::size_t block = 0; block < blocks.size(); ++block) {
+      Index count = 0;
+      for (; begin < rows_.size() && begin * blocks.size() / rows_.size() == block; ++begin) {
+        if (!pose_.at(time_of(rows_[begin]) - shift, x.row(count))) continue;
+        y.row(count++) = force_.values.row(rows_[begin]);
+      }
+      blocks[block] = Sums(x.topRows(count), y.topRows(count));
     }
     return blocks;
   }

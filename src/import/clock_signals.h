@@ -9,14 +9,17 @@
 
 namespace dcnn {
 
+/// A row is read as a whole: its numbers lie side by side.
+using SignalRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// Signals at equal steps of time; a row without enough samples around it is not whole.
 struct EvenSignals {
   double begin = 0.0, step = 0.0;  ///< s
-  Eigen::MatrixXd values;          ///< (rows, signals)
+  SignalRows values;               ///< (rows, signals)
   std::vector<char> whole;
 
   /// By a cubic through the four rows around; false outside of them or beside a gap.
-  bool at(double time, Eigen::VectorXd* out) const;
+  bool at(double time, Eigen::Ref<Eigen::RowVectorXd> out) const;
 };
 
 /// Two Gaussians in turn. The first, three times as wide in frequency, is on the samples, so that

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <tuple>
 
 #include "data/clock.h"
 #include "data/text.h"
@@ -34,6 +34,7 @@ double median_of(std::vector<double> steps) {
 
 std::vector<double> steps_of(const std::vector<double>& times) {
   std::vector<double> steps;
+  steps.reserve(times.size());
   double last = kNoTime;
   for (const double t : times) {
     if (std::isnan(t)) continue;
@@ -214,28 +215,6 @@ ClockRule propose_clock(const LogStream& stream, const ImportWishes& wishes,
   return rule;
 }
 
-std::optional<ClockRule> lone_clock(const ForeignLog& log, const std::vector<ClockRule>& clocks,
-                                    const ImportWishes& wishes, std::vector<std::string>* guesses) {
-  std::set<std::string> used;
-  std::set<Index> clockless;  // their rows
-  for (const ClockRule& clock : clocks) used.insert(clock.stream);
-  for (const LogStream& stream : log.streams) {
-    const auto without = [&](const ClockRule& clock) {
-      return clock.stream == stream.name && clock.kind == "none";
-    };
-    if (std::any_of(clocks.begin(), clocks.end(), without)) clockless.insert(stream.rows);
-  }
-  for (const LogStream& stream : log.streams) {
-    if (used.contains(stream.name) || !clockless.contains(stream.rows)) continue;
-    std::vector<std::string> guessed;
-    const ClockRule rule = propose_clock(stream, wishes, &guessed);
-    if (rule.kind != "column") continue;
-    guesses->insert(guesses->end(), guessed.begin(), guessed.end());
-    return rule;
-  }
-  return std::nullopt;
-}
-
 std::vector<double> clock_times(const LogStream& stream, const ClockRule& rule,
                                 const std::string& file) {
   std::vector<double> times;
@@ -261,16 +240,29 @@ std::vector<double> clock_times(const LogStream& stream, const ClockRule& rule,
   return times;
 }
 
+std::pair<double, double> ends_of(const std::vector<double>& times) {
+  const auto finite = [](double t) { return std::isfinite(t); };
+  const auto first = std::find_if(times.begin(), times.end(), finite);
+  if (first == times.end()) return {0.0, 0.0};
+  return {*first, *std::find_if(times.rbegin(), times.rend(), finite)};
+}
+
 ClockFigures clock_figures(const std::vector<double>& times) {
   ClockFigures figures;
   const std::vector<double> steps = steps_of(times);
   if (steps.empty()) return figures;
-  const auto finite = [](double t) { return std::isfinite(t); };
+  const double median = median_of(steps);
+  // The slope of a line over the rows is a mean of their steps: where all of these are as near to
+  // the median, they are within 20 % of the slope as well, and no clock of few digits.
+  constexpr double kNearMedian = 0.09;
+  const bool even = std::all_of(steps.begin(), steps.end(), [&](double step) {
+    return std::abs(step - median) <= kNearMedian * median;
+  });
   std::optional<double> rounded;
-  if (std::all_of(times.begin(), times.end(), finite)) {
+  if (!even && std::all_of(times.begin(), times.end(), [](double t) { return std::isfinite(t); })) {
     rounded = step_of_rounded(Eigen::VectorXd::Map(times.data(), Index(times.size())));
   }
-  figures.step = rounded.value_or(median_of(steps));
+  figures.step = rounded.value_or(median);
   Index off = 0;
   for (const double step : steps) {
     if (rounded) break;  // even, but for the digits
@@ -280,8 +272,7 @@ ClockFigures clock_figures(const std::vector<double>& times) {
     off += std::abs(step - figures.step) > kOffStep * figures.step;
   }
   figures.off = static_cast<double>(off) / static_cast<double>(steps.size());
-  figures.begin = *std::find_if(times.begin(), times.end(), finite);
-  figures.end = *std::find_if(times.rbegin(), times.rend(), finite);
+  std::tie(figures.begin, figures.end) = ends_of(times);
   return figures;
 }
 

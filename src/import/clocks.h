@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "dcnn/import/recipe.h"
@@ -31,6 +32,9 @@ void ask_for_stamps(const ForeignLog& log, const ImportWishes& wishes, Proposal*
 /// s; empty for kind none. Rows without a time are NaN.
 std::vector<double> clock_times(const LogStream& stream, const ClockRule& rule,
                                 const std::string& file);
+
+/// The first and the last time, s; zeros where there is none.
+std::pair<double, double> ends_of(const std::vector<double>& times);
 
 /// Figures of a clock for the printed table.
 struct ClockFigures {

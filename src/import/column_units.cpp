@@ -203,7 +203,8 @@ void propose_units(const ForeignLog& log, const ImportWishes& wishes, Proposal* 
                                       columns + "=" + unit +
                                       (columns.starts_with("q:")
                                            ? ", or =rad of shafts that turn on (and --gain, where "
-                                             "these are motors behind a gear)"
+                                             "these are motors behind a gear), or =mm of an axis "
+                                             "that slides"
                                            : "");
     proposal->guesses.push_back(ask);
   }

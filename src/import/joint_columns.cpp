@@ -19,6 +19,9 @@ bool is_joint(const std::string& to) {
   return to.starts_with("q:") || to.starts_with("qd:") || to.starts_with("tau:");
 }
 
+/// The joint of a column: "elbow" of q:elbow.
+std::string joint_of(const std::string& to) { return to.substr(to.find(':') + 1); }
+
 class JointFinder {
  public:
   JointFinder(const ForeignLog& log, const std::vector<ColumnRule>& taken, const Names& use,
@@ -29,6 +32,7 @@ class JointFinder {
     for (const ColumnRule& rule : said_) {
       if (is_joint(rule.to)) count_on(rule);
     }
+    learn_names();
     by_name();
     take_currents();
     leave_lone();
@@ -78,6 +82,38 @@ class JointFinder {
     }
   }
 
+  /// The joint of pos1 is 1 by its name; where --map says q:a1=pos1 it is a1, and so it is where
+  /// vel1 and torque1 are found by their names.
+  void learn_names() {
+    const auto learn = [&](const std::vector<ColumnRule>& rules) {
+      for (const ColumnRule& rule : rules) {
+        if (!is_joint(rule.to)) continue;
+        for (const LogStream& stream : log_.streams) {
+          if (stream.name != rule.stream) continue;
+          const std::string own = role_of(stream, rule.channel);
+          if (own.find(':') != own.npos) said_as_[joint_of(own)].insert(joint_of(rule.to));
+        }
+      }
+    };
+    learn(said_);
+    learn(found_);
+  }
+
+  /// A role with its joint called as --map calls it; empty where another joint was given its name.
+  std::string as_said(const std::string& role) const {
+    const std::size_t colon = role.find(':');
+    if (colon == std::string::npos) return role;
+    const std::string own = joint_of(role);
+    const auto found = said_as_.find(own);
+    if (found != said_as_.end() && found->second.size() == 1) {
+      return role.substr(0, colon + 1) + *found->second.begin();
+    }
+    const bool taken = std::any_of(said_as_.begin(), said_as_.end(), [&](const auto& other) {
+      return other.first != own && other.second.contains(own);
+    });
+    return taken ? "" : role;
+  }
+
   bool has_joints(const LogStream& stream) const {
     return std::any_of(stream.channels.begin(), stream.channels.end(), [&](const auto& channel) {
       return channel.finite > 0 && is_joint(role_of(stream, channel.name));
@@ -100,7 +136,7 @@ class JointFinder {
     std::string first;
     for (const LogStream* stream : usable()) {
       for (const LogChannel& channel : stream->channels) {
-        const std::string role = role_of(*stream, channel.name);
+        const std::string role = as_said(role_of(*stream, channel.name));
         if (!role.starts_with("current:") || channel.finite == 0) continue;
         const std::string joint = role.substr(role.find(':'));
         if (has("tau" + joint) || (!has("q" + joint) && !has("qd" + joint))) continue;
@@ -120,7 +156,7 @@ class JointFinder {
     for (const LogStream* usable_stream : usable()) {
       const LogStream& stream = *usable_stream;
       for (const LogChannel& channel : stream.channels) {
-        const std::string role = role_of(stream, channel.name);
+        const std::string role = as_said(role_of(stream, channel.name));
         if (!is_joint(role) || channel.finite == 0) continue;
         if (is_used(stream.name, channel.name)) continue;
         const auto other = stream_of.find(role);
@@ -165,7 +201,6 @@ class JointFinder {
   /// Beside joints that were said, of two channels and more, a channel is a joint's where another
   /// one is that joint's as well: a drive's other analog channels are no joints.
   void leave_lone() {
-    const auto joint_of = [](const std::string& to) { return to.substr(to.find(':') + 1); };
     std::map<std::string, int> known;
     const auto count = [&](const std::vector<ColumnRule>& rules) {
       for (const ColumnRule& rule : rules) {
@@ -209,7 +244,8 @@ class JointFinder {
   const Names& use_;
   Proposal* proposal_;
   std::vector<ColumnRule> found_;
-  Names twice_;  ///< two streams that have one joint
+  std::map<std::string, std::set<std::string>> said_as_;  ///< by the joint's name in the log
+  Names twice_;                                           ///< two streams that have one joint
 };
 
 }  // namespace

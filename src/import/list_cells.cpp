@@ -5,6 +5,7 @@
 #include <array>
 
 #include "import/text_cells.h"
+#include "import/text_layout.h"
 
 namespace dcnn {
 namespace {
@@ -54,6 +55,15 @@ std::vector<std::string> elements(std::string_view list) {
   return found;
 }
 
+/// "[N]" is a unit.
+bool holds_values(const std::string& list) {
+  const std::vector<std::string> all = elements(list);
+  return std::none_of(all.begin(), all.end(), [](const std::string& element) {
+    double value = 0.0;
+    return read_cell(element, '.', &value) == CellKind::kText;
+  });
+}
+
 /// A cell of a line: a list, or as it is written.
 struct Cell {
   std::string_view text;
@@ -95,9 +105,11 @@ std::size_t ListCells::open_from(std::string_view line, std::size_t from) {
 
 ListCells::ListCells(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) {
+    if (is_aside(line)) continue;
     for (std::size_t k = 0; k < line.size(); ++k) {
       const std::size_t end = list_end(line, k);
       if (end <= k || end > line.size()) continue;
+      if (!holds_values(line.substr(k, end - k))) continue;
       // What stands behind a list, or before it, separates cells.
       std::size_t mark = line.find_first_not_of("\" ", end);
       if (mark == std::string::npos && k > 0) mark = line.find_last_not_of("\" ", k - 1);

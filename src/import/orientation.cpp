@@ -61,26 +61,35 @@ Vector3 vector_at(const StreamTable& table, const std::vector<std::string>& colu
   return v;
 }
 
-Matrix3 matrix_at(const StreamTable& table, Index row, const std::string& file) {
-  Matrix3 R;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const std::string column = "r" + std::to_string(i + 1) + std::to_string(j + 1);
-      R(i, j) = table.values(row, table.find(column));
-    }
-  }
-  const double error = (R.transpose() * R - Matrix3::Identity()).cwiseAbs().maxCoeff();
-  require(error < kNotOrthogonal && R.determinant() > 0.0, Exit::kData, file, ": ",
-          shown(table.stream), ": row ", row + 1, " holds no rotation matrix (error ", error,
-          R.determinant() > 0.0 ? ")" : ", left-handed)");
-  return R;
+/// Where the columns lie in the table, looked up once for all rows.
+std::vector<Index> places_of(const StreamTable& table, const std::vector<std::string>& columns) {
+  std::vector<Index> places;
+  for (const std::string& column : columns) places.push_back(table.find(column));
+  return places;
 }
 
-Eigen::Quaterniond quaternion_at(const StreamTable& table, Index row, const std::string& file) {
-  const auto at = [&](const char* column) { return table.values(row, table.find(column)); };
-  Eigen::Quaterniond q(at("qw"), at("qx"), at("qy"), at("qz"));
-  require(std::abs(q.norm() - 1.0) < kNotUnit, Exit::kData, file, ": ", shown(table.stream),
-          ": row ", row + 1, ": the quaternion has length ", q.norm(), "; is it an orientation?");
+/// `at`: of r11 to r33, row by row.
+Matrix3 matrix_at(const StreamTable& table, const std::vector<Index>& at, Index row,
+                  const std::string& file) {
+  Matrix3 R;
+  for (std::size_t k = 0; k < 9; ++k) {
+    R(static_cast<Index>(k / 3), static_cast<Index>(k % 3)) = table.values(row, at[k]);
+  }
+  const double error = (R.transpose() * R - Matrix3::Identity()).cwiseAbs().maxCoeff();
+  if (error < kNotOrthogonal && R.determinant() > 0.0) return R;
+  fail(Exit::kData, file, ": ", shown(table.stream), ": row ", row + 1,
+       " holds no rotation matrix (error ", error, R.determinant() > 0.0 ? ")" : ", left-handed)");
+}
+
+/// `at`: of qw, qx, qy, qz.
+Eigen::Quaterniond quaternion_at(const StreamTable& table, const std::vector<Index>& at, Index row,
+                                 const std::string& file) {
+  Eigen::Quaterniond q(table.values(row, at[0]), table.values(row, at[1]), table.values(row, at[2]),
+                       table.values(row, at[3]));
+  if (!(std::abs(q.norm() - 1.0) < kNotUnit)) {  // words are made for a message only
+    fail(Exit::kData, file, ": ", shown(table.stream), ": row ", row + 1,
+         ": the quaternion has length ", q.norm(), "; is it an orientation?");
+  }
   q.normalize();
   return q;
 }
@@ -106,7 +115,11 @@ OrientationReader orientation_reader(const Recipe& recipe, const StreamTable& ta
                               : std::vector<std::string>{"alpha", "beta", "gamma"}};
   }
   if (rule.kind == "quaternion") {
-    return {[&](Index row) { return quaternion_at(table, row, file); }, {"qw", "qx", "qy", "qz"}};
+    const std::vector<std::string> columns = {"qw", "qx", "qy", "qz"};
+    return {[&table, &file, at = places_of(table, columns)](Index row) {
+              return quaternion_at(table, at, row, file);
+            },
+            columns};
   }
   if (rule.kind == "rotation-vector") {
     const std::vector<std::string> columns = {"rvx", "rvy", "rvz"};
@@ -118,8 +131,12 @@ OrientationReader orientation_reader(const Recipe& recipe, const StreamTable& ta
             },
             columns};
   }
-  return {[&](Index row) { return Eigen::Quaterniond(matrix_at(table, row, file)); },
-          {"r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"}};
+  const std::vector<std::string> columns = {"r11", "r12", "r13", "r21", "r22",
+                                            "r23", "r31", "r32", "r33"};
+  return {[&table, &file, at = places_of(table, columns)](Index row) {
+            return Eigen::Quaterniond(matrix_at(table, at, row, file));
+          },
+          columns};
 }
 
 /// The pose of the tool in the base from that of the base in the tool.
@@ -165,7 +182,7 @@ void convert_orientation(const Recipe& recipe, StreamTable* table, const std::st
     const Eigen::Quaterniond turn = reader.at(row);
     q.row(row) << turn.w(), turn.x(), turn.y(), turn.z();
   }
-  for (const std::string& column : reader.columns) table->drop(column);
+  if (rule.kind != "quaternion") table->drop(reader.columns);
   if (rule.inverse) invert_pose(table, &q);
   for (Index row = 1; row < q.rows(); ++row) {
     if (q.row(row).dot(q.row(row - 1)) < 0.0) q.row(row) *= -1.0;

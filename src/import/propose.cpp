@@ -8,6 +8,7 @@
 #include "import/column_units.h"
 #include "import/joint_columns.h"
 #include "import/roles.h"
+#include "import/said_streams.h"
 #include "import/vector_columns.h"
 
 namespace dcnn {
@@ -32,7 +33,7 @@ class Proposer {
     choose_wrench_frame();
     note_what_is_missing();
     set_clocks();
-    propose_units(log_, wishes_, &proposal_);
+    say_units_first();
     ask_for_clock(log_, &proposal_);
     ask_for_stamps(log_, wishes_, &proposal_);
     return std::move(proposal_);
@@ -239,6 +240,14 @@ class Proposer {
     }
   }
 
+  /// What is to be said of units stands before what is to be said of clocks and rates.
+  void say_units_first() {
+    std::vector<std::string>& guesses = proposal_.guesses;
+    const auto of_clocks = std::ssize(guesses);
+    propose_units(log_, wishes_, &proposal_);
+    std::rotate(guesses.begin(), guesses.begin() + of_clocks, guesses.end());
+  }
+
   void set_clocks() {
     std::set<std::string> used;
     for (const ColumnRule& rule : recipe().columns) used.insert(rule.stream);
@@ -273,7 +282,8 @@ class Proposer {
 }  // namespace
 
 Proposal propose(const ForeignLog& log, const ImportWishes& wishes) {
-  return Proposer(log, wishes).run();
+  const ImportWishes resolved = resolved_wishes(log, wishes);
+  return Proposer(log, resolved).run();
 }
 
 }  // namespace dcnn

@@ -67,8 +67,9 @@ StreamOffset estimate_offset(const ForeignLog& log, const Recipe& recipe, double
     if (tables.size() > 1) continue;  // of one clock
     convert_orientation(recipe, &tables[0], log.file);
     add_quaternion(&tables[0]);
-    if (tables[0].has("fx")) force = tables[0];
-    if (tables[0].has("qw")) pose = std::move(tables[0]);
+    const bool turns = tables[0].has("qw");
+    if (tables[0].has("fx")) force = turns ? tables[0] : std::move(tables[0]);
+    if (turns) pose = std::move(tables[0]);
   }
   if (force.stream.empty() || pose.stream.empty() || force.stream == pose.stream) return result;
   if (force.t.empty() || pose.t.empty() || !force.has("fy") || !force.has("fz")) return result;

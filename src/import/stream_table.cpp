@@ -94,8 +94,10 @@ std::vector<std::size_t> usable_rows(const ForeignLog& log, const LogStream& str
   if (times.empty()) return rows;
   const bool message = !stream.received.empty();
   if (message) {
-    std::stable_sort(rows.begin(), rows.end(),
-                     [&](std::size_t a, std::size_t b) { return times[a] < times[b]; });
+    const auto earlier = [&](std::size_t a, std::size_t b) { return times[a] < times[b]; };
+    if (!std::is_sorted(rows.begin(), rows.end(), earlier)) {
+      std::stable_sort(rows.begin(), rows.end(), earlier);
+    }
     const std::size_t before = rows.size();
     rows.erase(std::unique(rows.begin(), rows.end(),
                            [&](std::size_t a, std::size_t b) { return times[a] == times[b]; }),
@@ -143,9 +145,9 @@ StreamTable table_of(const ForeignLog& log, const LogStream& stream, const Named
       table.values(static_cast<Index>(k), static_cast<Index>(c)) = columns.values[c][rows[k]];
     }
   }
-  for (const std::size_t row : rows) {
-    if (!times.empty()) table.t.push_back(times[row]);
-  }
+  if (times.empty()) return table;
+  table.t.reserve(rows.size());
+  for (const std::size_t row : rows) table.t.push_back(times[row]);
   return table;
 }
 
@@ -183,14 +185,17 @@ Index StreamTable::find(const std::string& column) const {
   return found == columns.end() ? -1 : found - columns.begin();
 }
 
-void StreamTable::drop(const std::string& column) {
-  const Index at = find(column);
-  if (at < 0) return;
-  columns.erase(columns.begin() + at);
-  Eigen::MatrixXd rest(values.rows(), values.cols() - 1);
-  rest.leftCols(at) = values.leftCols(at);
-  rest.rightCols(rest.cols() - at) = values.rightCols(values.cols() - at - 1);
-  values = std::move(rest);
+void StreamTable::drop(const std::vector<std::string>& names) {
+  std::vector<Index> kept;
+  std::vector<std::string> rest;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (std::find(names.begin(), names.end(), columns[k]) != names.end()) continue;
+    kept.push_back(static_cast<Index>(k));
+    rest.push_back(columns[k]);
+  }
+  if (rest.size() == columns.size()) return;
+  columns = std::move(rest);
+  values = Eigen::MatrixXd(values(Eigen::all, kept));
 }
 
 void StreamTable::add(const std::vector<std::string>& names) {
@@ -228,7 +233,9 @@ std::vector<StreamTable> make_stream_tables(const ForeignLog& log, const Recipe&
   const std::vector<double> times = clock_times(stream, clock, log.file);
   const auto groups = sampled_together(columns);
   if (groups.size() == 1 || times.empty()) {
-    return {table_of(log, stream, {std::move(names), std::move(columns)}, times, notes)};
+    std::vector<StreamTable> whole;  // an initializer list would copy its numbers
+    whole.push_back(table_of(log, stream, {std::move(names), std::move(columns)}, times, notes));
+    return whole;
   }
   std::vector<StreamTable> tables;
   for (const auto& group : groups) {

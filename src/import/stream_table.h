@@ -17,7 +17,7 @@ struct StreamTable {
 
   Index find(const std::string& column) const;
   bool has(const std::string& column) const { return find(column) >= 0; }
-  void drop(const std::string& column);
+  void drop(const std::vector<std::string>& names);
   void set(const std::string& column, const Eigen::VectorXd& values);
   /// Columns of zeros for those of these names that are not there yet.
   void add(const std::vector<std::string>& names);

@@ -37,7 +37,7 @@ class ListLines {
   bool next(std::string_view* line) {
     if (!take(line)) return false;
     number_ = reader_.number();
-    if (line->find('[') == std::string_view::npos) return true;
+    if (line->find('[') == std::string_view::npos || is_aside(*line)) return true;
     std::size_t open = ListCells::open_from(*line);
     if (open == std::string_view::npos) return true;
     joined_ = *line;
@@ -149,9 +149,10 @@ void read_text_log(const std::filesystem::path& path, const std::string& name,
   std::vector<std::string> sample;
   std::vector<Index> numbers;
   std::string_view line;
-  std::size_t bytes = 0;
-  while (sample.size() < kSampleLines && bytes < kSampleBytes && lines.next(&line)) {
+  std::size_t bytes = 0, judged = 0;  // a file may begin with any number of comments
+  while (judged < kSampleLines && bytes < kSampleBytes && lines.next(&line)) {
     bytes += line.size();
+    judged += !is_aside(line);
     sample.emplace_back(line);
     numbers.push_back(lines.number());
   }

@@ -2,6 +2,7 @@
 // Clocks that no name tells.
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -81,8 +82,7 @@ void ask_for_stamps(const ForeignLog& log, const ImportWishes& wishes, Proposal*
       if (stream.name != clock.stream) continue;
       ClockRule rule = clock;
       if (receipt) rule.kind = stream.received.empty() ? "none" : "receive";
-      const ClockFigures figures = clock_figures(clock_times(stream, rule, log.file));
-      return std::pair(figures.begin, figures.end);
+      return ends_of(clock_times(stream, rule, log.file));
     }
     return std::pair(0.0, 0.0);
   };
@@ -102,6 +102,28 @@ void ask_for_stamps(const ForeignLog& log, const ImportWishes& wishes, Proposal*
     proposal->questions.push_back(words.str());
     return;
   }
+}
+
+std::optional<ClockRule> lone_clock(const ForeignLog& log, const std::vector<ClockRule>& clocks,
+                                    const ImportWishes& wishes, std::vector<std::string>* guesses) {
+  std::set<std::string> used;
+  std::set<Index> clockless;  // their rows
+  for (const ClockRule& clock : clocks) used.insert(clock.stream);
+  for (const LogStream& stream : log.streams) {
+    const auto without = [&](const ClockRule& clock) {
+      return clock.stream == stream.name && clock.kind == "none";
+    };
+    if (std::any_of(clocks.begin(), clocks.end(), without)) clockless.insert(stream.rows);
+  }
+  for (const LogStream& stream : log.streams) {
+    if (used.contains(stream.name) || !clockless.contains(stream.rows)) continue;
+    std::vector<std::string> guessed;
+    const ClockRule rule = propose_clock(stream, wishes, &guessed);
+    if (rule.kind != "column") continue;
+    guesses->insert(guesses->end(), guessed.begin(), guessed.end());
+    return rule;
+  }
+  return std::nullopt;
 }
 
 void propose_unnamed(const LogStream& stream, ClockRule* rule, std::vector<std::string>* guesses) {

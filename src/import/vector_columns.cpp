@@ -227,12 +227,6 @@ ColumnRule find_channel(const ForeignLog& log, const std::string& spec) {
 }
 
 void find_vectors(const ForeignLog& log, const ImportWishes& wishes, Proposal* proposal) {
-  for (const std::string& use : wishes.use) {
-    Names all;
-    for (const LogStream& stream : log.streams) all.push_back(stream.name);
-    require(std::find(all.begin(), all.end(), use) != all.end(), Exit::kUsage, log.file, ": --use ",
-            shown(use), " is no stream of it; see --dry-run");
-  }
   VectorFinder finder(log, wishes, proposal);
   for (const VectorRole& role : vector_roles()) finder.take(role);
 }
