@@ -69,6 +69,9 @@ System parse_system(const Json& json, const std::string& where) {
     system.arm = options.raw("arm");
     if (!system.arm.is_null() && !system.arm.is_object())
       options.reject("arm", "must be an object");
+    // An empty list says that nothing is known of the axis, and here an arm is.
+    for (Axis& axis : system.axes)
+      axis.has_base = axis.has_base && (system.arm.is_null() || !axis.base.empty());
   }
   options.finish();
   system.json = json;

@@ -61,13 +61,7 @@ GivenSystem given_system(const DiagnosisRequest& request) {
     AxisMachine machine = parse_axis_machine(json, where, Exit::kData);
     return {machine.system, machine};
   }
-  if (!request.arm.is_null() && json.is_object()) {
-    json["arm"] = request.arm;
-    // An empty list says that nothing is known of the axis, and here an arm is.
-    for (Json& axis : json["axes"]) {
-      if (axis.is_object() && axis.contains("base") && axis["base"].empty()) axis.erase("base");
-    }
-  }
+  if (!request.arm.is_null() && json.is_object()) json["arm"] = request.arm;
   return {parse_system(json, where)};
 }
 

@@ -328,6 +328,9 @@ TEST(System, TellsAnEmptyBaseFromNone) {
   };
   EXPECT_TRUE(axis(R"({"kind":"axes","axes":[{"name":"a","measured":"m","base":[]}]})").has_base);
   EXPECT_FALSE(axis(R"({"kind":"axes","axes":[{"name":"a","measured":"m"}]})").has_base);
+  const char* of_an_arm =
+      R"({"kind":"axes","axes":[{"name":"a","measured":"m","base":[]}],"arm":{}})";
+  EXPECT_FALSE(axis(of_an_arm).has_base) << "the arm's bodies are its simulator";
 }
 
 }  // namespace

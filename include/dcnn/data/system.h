@@ -15,7 +15,7 @@ struct Axis {
   std::string name, measured, unit;
   std::string position, velocity, acceleration, simulated;
   std::vector<std::string> signals, base;
-  bool has_base = false;  ///< 'base' is given; an empty list: the simulator predicts a constant
+  bool has_base = false;  ///< 'base' is given; an empty list, of a machine without an arm: a constant
   double scale = 1.0;
   std::string position_unit;  ///< "rad" where measured in N*m, "m" where in N, unless said
 };
