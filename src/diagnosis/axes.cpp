@@ -96,13 +96,36 @@ std::string merged_verdict(const std::vector<Json>& reports) {
   return remains ? "unexplained" : "consistent";
 }
 
+/// A figure of every target; null of those of an axis that lacks it (nothing of it was held out).
+template <class Figure>
+Json of_all_targets(const std::vector<Json>& reports, Figure figure) {
+  Json all = Json::array();
+  bool any = false;
+  for (const Json& report : reports) {
+    const Json own = figure(report["fit"]);
+    any |= own.is_array();
+    if (own.is_array()) {
+      append(all, own);
+    } else {
+      for (std::size_t j = 0; j < report["targets"].size(); ++j) all.push_back(nullptr);
+    }
+  }
+  return any ? all : Json();
+}
+
 Json merged_errors(const std::vector<Json>& reports) {
   Json fit = reports.front()["fit"];
-  for (std::size_t k = 1; k < reports.size(); ++k) {
-    for (auto& [key, list] : fit.items()) {
-      if (list.is_array()) append(list, reports[k]["fit"][key]);
-      if (!list.is_object()) continue;
-      for (auto& [inner, values] : list.items()) append(values, reports[k]["fit"][key][inner]);
+  for (auto& [key, value] : fit.items()) {
+    const std::string name = key;
+    if (!value.is_object()) {
+      value = of_all_targets(reports, [&](const Json& one) { return one.value(name, Json()); });
+      continue;
+    }
+    for (auto& [inner, values] : value.items()) {
+      const std::string part = inner;
+      values = of_all_targets(reports, [&](const Json& one) {
+        return one.value(name, Json::object()).value(part, Json());
+      });
     }
   }
   return fit;

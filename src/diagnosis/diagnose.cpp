@@ -208,6 +208,9 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   // What a loose load's impacts are is not predicted.
   std::optional<HoldOut::Excess> refuted;
   if (!search.loose_load()) refuted = holdout.excess(search, heldout_floors);
+  // A machine's noise is of no shape that is known: a band of it may be louder than the rest.
+  if (study.axis && fit.members.empty() && holdout.is_noise(search, heldout_floors))
+    search.take_rest_for_noise();
   report["findings"] = findings_json(search, holdout, alternatives, heldout_floors,
                                      search.remains() || refuted.has_value());
   report["refuted"] = refuted_names;

@@ -250,6 +250,18 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
   return worst;
 }
 
+/// Noise of held-out blocks is bounded by the error: equal to it but for rounding.
+constexpr double kSameError = 1e-9;
+
+bool HoldOut::is_noise(const Search& search, const std::vector<Floor>& floors) const {
+  if (empty()) return false;
+  const std::vector<double> errors = rmse(search.fit().members, search.fit().base);
+  for (std::size_t j = 0; j < errors.size(); ++j) {
+    if (errors[j] > (1.0 + kSameError) * floors[j].deviation()) return false;
+  }
+  return true;
+}
+
 double HoldOut::support_of_impacts(const Search& search) const {
   if (blocks_) return 0.0;
   const JointFit& fit = search.fit();

@@ -12,11 +12,18 @@
 namespace dcnn {
 namespace {
 
+/// Whether any of a channel was held out (of a joint that stands still nothing may be).
+bool is_held_out(const Json& fit, std::size_t j) {
+  const Json& errors = fit["holdout_rmse_after"];
+  return !errors.is_null() && !errors[j].is_null();
+}
+
 /// The channel on which the findings gain most.
 std::size_t telling_channel(const Json& fit) {
   std::size_t best = 0;
   double most = -1.0;
   for (std::size_t j = 0; j < fit["holdout_rmse_before"].size(); ++j) {
+    if (!is_held_out(fit, j)) continue;
     const double gain = fit["holdout_rmse_before"][j].get<double>() /
                         std::max(1e-12, fit["holdout_rmse_after"][j].get<double>());
     if (gain > most) most = gain, best = j;
@@ -42,6 +49,7 @@ std::string other_channels(const Json& report, std::size_t named) {
   double most = prior::kMostOverNoise;
   std::size_t worst = named;
   for (std::size_t j = 0; j < report["targets"].size(); ++j) {
+    if (!is_held_out(fit, j)) continue;
     const double before = fit["holdout_rmse_before"][j], after = fit["holdout_rmse_after"][j];
     const double noise = heldout_noise(fit)[j];
     if (j != named && after > before && brief(after) != brief(before)) {
@@ -198,8 +206,9 @@ std::string consistent(const Json& report) {
            std::max(1e-300, heldout_noise(fit)[j].get<double>());
   };
   std::size_t worst = 0;
-  for (std::size_t j = 1; j < report["targets"].size(); ++j) {
-    if (ratio(j) > ratio(worst)) worst = j;
+  double most = 0.0;
+  for (std::size_t j = 0; j < report["targets"].size(); ++j) {
+    if (is_held_out(fit, j) && ratio(j) > most) most = ratio(j), worst = j;
   }
   const auto number = [&](const Json& values) {
     return brief(values[worst].get<double>()) + " " +
@@ -208,9 +217,9 @@ std::string consistent(const Json& report) {
   const std::string target = report["targets"][worst].get<std::string>();
   return "Nothing is missing: the simulator leaves " + number(fit["holdout_rmse_after"]) +
          " on held-out " + target + "; " + noise_words(report, worst) +
-         (ratio(worst) > prior::kMostOverNoise ? ". The noise of the measured motion, or what the "
-                                                 "fitted recordings leave as well, makes the rest."
-                                               : ".");
+         (most > prior::kMostOverNoise ? ". The noise of the measured motion, or what the "
+                                         "fitted recordings leave as well, makes the rest."
+                                       : ".");
 }
 
 /// Where something simpler does better than all that was found, on any channel: a constant, or the
@@ -225,6 +234,7 @@ std::string what_does_better(const Json& report) {
     const Json errors = fit.value(key, Json());
     std::string channels;
     for (std::size_t j = 0; j < errors.size(); ++j) {
+      if (errors[j].is_null() || !is_held_out(fit, j)) continue;
       const double rival = errors[j], after = fit["holdout_rmse_after"][j];
       if (rival >= after || brief(rival) == brief(after)) continue;
       channels += (channels.empty() ? "" : ", ") + brief(rival) + ' ' +

@@ -52,7 +52,7 @@ std::string finding_text(const Json& finding) {
 double mean_of(const Json& report, const Json& list) {
   double sum = 0.0, count = 0.0;
   for (std::size_t j = 0; j < list.size(); ++j) {
-    if (report["units"][j] != report["units"][0]) continue;
+    if (list[j].is_null() || report["units"][j] != report["units"][0]) continue;
     sum += list[j].get<double>();
     count += 1.0;
   }
