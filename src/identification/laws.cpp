@@ -51,10 +51,10 @@ MatrixXd friction(const Law& law, const WristLog& log, const WristState& state, 
     EffectSpec spec;
     spec.axis = law.axis;
     spec.effect = name == "fc_n" ? "coulomb_friction" : "viscous_friction";
-    spec.parameters = name == "fc_n"
-                          ? Json{{"fc_n", 1.0},
-                                 {"v0_mps", law.turning * speed_deviation(log.motion, law.axis)}}
-                          : Json{{"c_nspm", 1.0}};
+    spec.parameters =
+        name == "fc_n"
+            ? Json{{"fc_n", 1.0}, {"v0_mps", law.turning * speed_deviation(log.motion, law.axis)}}
+            : Json{{"c_nspm", 1.0}};
     out.middleCols(at, channels) = of_catalogue(spec, log, state, channels);
     at += channels;
   }
@@ -71,8 +71,7 @@ MatrixXd tilt(const WristLog& log, const WristState& state, Index channels) {
       const Vector3d turned = R.transpose() * Vector3d::Unit(axis).cross(g);
       raw.row(k).segment(channels * axis, 3) = (state.mass * state.R_SE * turned).transpose();
       if (channels < 6) continue;
-      raw.row(k).segment(channels * axis + 3, 3) =
-          (state.R_SE * state.h.cross(turned)).transpose();
+      raw.row(k).segment(channels * axis + 3, 3) = (state.R_SE * state.h.cross(turned)).transpose();
     }
   }
   return log.thinned(raw);
@@ -109,6 +108,18 @@ MatrixXd delayed(const WristLog& log, Index channels) {
     }
   }
   return log.thinned(rate);
+}
+
+/// Of "beta:sensor_x" that of beta over all logs: a cable at rest in the middle of a motion adds to
+/// no offset, which else would be as large as the motion is far from zero.
+double mean_angle(const std::vector<WristLog>& logs, const std::string& axis) {
+  const Index angle = axis.starts_with("alpha") ? 0 : axis.starts_with("beta") ? 1 : 2;
+  double sum = 0.0, rows = 0.0;
+  for (const WristLog& log : logs) {
+    sum += log.motion.euler.col(angle).sum();
+    rows += static_cast<double>(log.motion.euler.rows());
+  }
+  return sum / std::max(1.0, rows);
 }
 
 /// One column for each channel: `signal` in it.
@@ -200,7 +211,7 @@ MatrixXd law_columns(const Law& law, const std::vector<WristLog>& logs, std::siz
     EffectSpec spec;
     spec.effect = law.effect;
     spec.axis = law.axis;
-    spec.parameters = Json{{"k_nprad", 1.0}, {"rest_rad", 0.0}};
+    spec.parameters = Json{{"k_nprad", 1.0}, {"rest_rad", mean_angle(logs, law.axis)}};
     return of_catalogue(spec, log, state, channels);
   }
   return sensor_matrix(law, columns, state);

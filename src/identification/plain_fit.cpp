@@ -4,6 +4,9 @@
 #include <cmath>
 
 namespace dcnn::identification {
+
+using Eigen::VectorXd;
+
 namespace {
 
 constexpr double kOneInThousand = 3.0902;  // of the normal distribution, one side
@@ -24,6 +27,10 @@ bool leaves_more(const WristFit& coloured, const WristFit& plain) {
     excess += plain.independent[c] * (ratio * ratio - 1.0);
   }
   return excess > rare_chi_square(static_cast<double>(plain.layout.size()));
+}
+
+bool leaves_more_in_all(const VectorXd& left, const VectorXd& before) {
+  return (left.array() / before.array().max(1e-300)).square().mean() > 1.0;
 }
 
 Advances::Advances(const std::vector<WristLog>& logs) {

@@ -14,6 +14,11 @@ namespace dcnn::identification {
 /// right (the specification test of Hausman 1978).
 bool leaves_more(const WristFit& coloured, const WristFit& plain);
 
+/// Whether what is left of each channel (root mean squares) is more than before, in the mean of the
+/// squared ratios. Channels count by what they leave: a law that lets one count for nearly all, on
+/// which the tool is then fitted, leaves more of the others than it takes off that.
+bool leaves_more_in_all(const Eigen::VectorXd& left, const Eigen::VectorXd& before);
+
 /// What is measured, before a lag is taken off it.
 class Advances {
  public:

@@ -56,11 +56,12 @@ class Fitter {
         if (gain > most) most = gain, best = k;
       }
       if (best == candidates.size()) return;
+      const VectorXd before = fit_.residual_rms;
       add(sharpened(candidates[best], now));
       candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(best));
       refine();
       if (fit_.state.laws.back().effect == "time_delay") take_off_delay();
-      if (!still_lawful()) drop_last();
+      if (!still_lawful() || leaves_more_in_all(fit_.residual_rms, before)) drop_last();
     }
   }
 
@@ -147,8 +148,7 @@ class Fitter {
       sums.rows += static_cast<double>(r.size());
       sums.chi2 += r.squaredNorm();
     }
-    const VectorXd sd = prior_deviation(fit_.layout, fit_.state.mass);
-    const VectorXd known = sd.cwiseAbs2().cwiseInverse();
+    const VectorXd known = prior_deviation(fit_.layout, fit_.state).cwiseAbs2().cwiseInverse();
     sums.information.diagonal() += known;
     sums.gradient -= known.cwiseProduct(parameters_of(fit_.state, fit_.layout));
     return sums;

@@ -267,6 +267,18 @@ TEST(Identify, AForceThatHoldsNoWeightIsNeitherMirroredNorATool) {
   EXPECT_FALSE(contains(to_text(identified({}, request)), "no rigid tool's"));
 }
 
+// A cable at rest in the middle of a motion far from the angle zero.
+TEST(Identify, ACableAddsNoOffset) {
+  Setting setting;
+  setting.hidden = Json::array({{{"effect", "cable_spring"},
+                                 {"axis", "gamma:sensor_y"},
+                                 {"parameters", {{"k_nprad", 3.0}, {"rest_rad", 3.14159}}}}});
+  const ToolIdentification id = identified(setting);
+  ASSERT_EQ(id.beside.size(), 1U);
+  EXPECT_EQ(id.beside[0].effect, "cable_spring");
+  EXPECT_NEAR(number(id, "bias_y_n").value, -0.4, 0.1);
+}
+
 TEST(Identify, SimJsonReadsBackAndPredictsTheLog) {
   const Setting setting;
   const ToolIdentification id = identified(setting);
