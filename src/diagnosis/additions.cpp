@@ -115,7 +115,7 @@ std::vector<Trial> Search::additions(const JointFit& fit, bool events,
       const Member& member = list[static_cast<std::size_t>(k)];
       const auto is_at = [&](const Member& m) { return same_place(m, member, seconds); };
       const bool taken =
-          was_refuted(member) ||
+          was_refuted(member) || set_aside_.count(member.kind) > 0 ||
           std::any_of(fit.members.begin(), fit.members.end(), [&](const Member& m) {
             return is_at(m) || (study_.axis && both_dry(m, member) && !is_undriven(m, member));
           });

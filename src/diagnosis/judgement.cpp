@@ -14,6 +14,7 @@ namespace {
 constexpr int kFlips = 999;
 constexpr double kFlipSeconds = 1.0;
 constexpr double kConstancySeconds = 8.0;
+constexpr Index kShifts = 12;
 
 }  // namespace
 
@@ -53,28 +54,43 @@ std::vector<BandTest> bands_of(const Case& study) {
   return bands;
 }
 
-std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& residual) {
-  std::vector<BandTest> bands = bands_of(setting.study);
-  std::vector<double> sum(bands.size(), 0.0);
+namespace {
+
+/// Runs of rows of one channel that follow each other in time: the first, and one past the last.
+std::vector<std::pair<Index, Index>> runs_of(const Setting& setting) {
   const auto& info = setting.whitener.row_info();
   const double dt = setting.whitener.block_seconds();
-  // Runs of rows of one channel that follow each other in time.
+  std::vector<std::pair<Index, Index>> runs;
   for (std::size_t begin = 0; begin < info.size();) {
     std::size_t end = begin + 1;
     while (end < info.size() && info[end].channel == info[begin].channel &&
            info[end].log == info[begin].log && info[end].t - info[end - 1].t < 1.5 * dt) {
       ++end;
     }
-    const auto n = static_cast<Index>(end - begin);
-    const Eigen::VectorXd x = residual.segment(static_cast<Index>(begin), n);
-    const double kept = setting.mask.segment(static_cast<Index>(begin), n).sum();
+    runs.emplace_back(static_cast<Index>(begin), static_cast<Index>(end));
+    begin = end;
+  }
+  return runs;
+}
+
+}  // namespace
+
+std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& residual) {
+  std::vector<BandTest> bands = bands_of(setting.study);
+  std::vector<double> sum(bands.size(), 0.0);
+  const auto& info = setting.whitener.row_info();
+  const double dt = setting.whitener.block_seconds();
+  for (const auto& [begin, end] : runs_of(setting)) {
+    const Index n = end - begin;
+    const auto channel = static_cast<Index>(info[static_cast<std::size_t>(begin)].channel);
+    const Eigen::VectorXd x = residual.segment(begin, n);
+    const double kept = setting.mask.segment(begin, n).sum();
     if (n >= 16 && kept > 8.0) {
       const Eigen::VectorXd power = fourier(x).cwiseAbs2() / kept;
       for (Index k = 0; k < power.size(); ++k) {
         const bool single = k == 0 || 2 * k == n;
         const double hz = static_cast<double>(k) / (static_cast<double>(n) * dt);
-        const double expected =
-            setting.whitener.expected_density(static_cast<Index>(info[begin].channel), hz);
+        const double expected = setting.whitener.expected_density(channel, hz);
         for (std::size_t b = 0; b < bands.size(); ++b) {
           if (hz < bands[b].from_hz || hz >= bands[b].to_hz) continue;
           sum[b] += (single ? 1.0 : 2.0) * power(k) / expected;
@@ -82,7 +98,6 @@ std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& 
         }
       }
     }
-    begin = end;
   }
   for (std::size_t b = 0; b < bands.size(); ++b) {
     const double dof = bands[b].dof;
@@ -114,29 +129,52 @@ bool is_alarming(const std::vector<BandTest>& bands, double explained) {
   });
 }
 
+Eigen::MatrixXd shifted_in_time(const Setting& setting, const Eigen::VectorXd& residual) {
+  Eigen::MatrixXd shifted(residual.size(), kShifts);
+  for (const auto& [begin, end] : runs_of(setting)) {
+    for (Index s = 0; s < kShifts; ++s) {
+      const Index n = end - begin, by = (s + 1) * n / (kShifts + 1);
+      shifted.col(s).segment(begin, n - by) = residual.segment(begin + by, n - by);
+      shifted.col(s).segment(end - by, by) = residual.segment(begin, by);
+    }
+  }
+  return shifted;
+}
+
+double loudness_of(std::vector<double> scores, double freedom) {
+  const auto quartile = scores.begin() + static_cast<std::ptrdiff_t>(scores.size() / 4);
+  std::nth_element(scores.begin(), quartile, scores.end());
+  return std::max(1.0, *quartile / freedom);
+}
+
 std::vector<Constancy> constancy(const Setting& setting, const JointFit& fit) {
   std::vector<Constancy> list(fit.members.size());
   const auto blocks = time_blocks(setting, kConstancySeconds);
+  Eigen::MatrixXd residuals(fit.residual.size(), kShifts + 1);
+  residuals << fit.residual, shifted_in_time(setting, fit.residual);
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
     const auto [first, count] = tangent_columns(fit, m);
     if (count == 0) continue;
-    double score = 0.0, dof = -static_cast<double>(count);
+    Eigen::RowVectorXd scores = Eigen::RowVectorXd::Zero(kShifts + 1);
+    double terms = 0.0;
     const Eigen::MatrixXd columns = fit.tangent.middleCols(first, count);
     const Eigen::VectorXd whole = columns.colwise().squaredNorm();
     for (const auto& rows : blocks) {
       const Eigen::MatrixXd J = columns(rows, Eigen::all);
-      const Eigen::VectorXd g = J.transpose() * fit.residual(rows);
+      const Eigen::MatrixXd g = J.transpose() * residuals(rows, Eigen::all);
       for (Index k = 0; k < count; ++k) {  // column by column: a block rarely tells them apart
         const double energy = J.col(k).squaredNorm();
         if (energy <= 1e-4 * whole(k) / static_cast<double>(blocks.size())) continue;
-        score += g(k) * g(k) / energy;
-        dof += 1.0;
+        scores += g.row(k).cwiseAbs2() / energy;
+        terms += 1.0;
       }
     }
+    const double score = scores(0), dof = terms - static_cast<double>(count);
     if (dof < 3.0) continue;
     list[m].ratio = score / dof;
     list[m].excess = score - dof;
     list[m].z = (score - dof) / std::sqrt(2.0 * dof);
+    list[m].elsewhere = loudness_of({scores.data() + 1, scores.data() + scores.size()}, terms);
   }
   return list;
 }

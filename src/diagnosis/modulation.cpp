@@ -51,9 +51,10 @@ std::vector<Eigen::VectorXd> modulators(const Setting& setting, const Signals& p
 
 }  // namespace
 
-std::vector<double> modulations(const Setting& setting, const JointFit& fit) {
-  std::vector<double> most(fit.members.size(), 0.0);
+std::vector<Modulation> modulations(const Setting& setting, const JointFit& fit) {
+  std::vector<Modulation> most(fit.members.size());
   const Eigen::MatrixXd basis = orthonormal(fit.tangent);
+  const Eigen::MatrixXd shifted = shifted_in_time(setting, fit.residual);
   for (const Eigen::VectorXd& u : modulators(setting, predict(setting.study, fit.members))) {
     for (std::size_t m = 0; m < fit.members.size(); ++m) {
       const auto [first, count] = tangent_columns(fit, m);
@@ -62,9 +63,13 @@ std::vector<double> modulations(const Setting& setting, const JointFit& fit) {
       Eigen::MatrixXd c =
           u.asDiagonal() * fit.tangent.middleCols(first, amplitudes > 0 ? amplitudes : count);
       c -= basis * (basis.transpose() * c);
-      const Eigen::VectorXd match = c.transpose() * fit.residual;
-      const double gain = match.dot(least_squares(c, fit.residual));
-      most[m] = std::max(most[m], gain - static_cast<double>(c.cols() - 1));
+      const Eigen::MatrixXd own = orthonormal(c);
+      const auto numbers = static_cast<double>(c.cols());
+      const double gain = (own.transpose() * fit.residual).squaredNorm();
+      const Eigen::RowVectorXd scores = (own.transpose() * shifted).colwise().squaredNorm();
+      const double loud = loudness_of({scores.data(), scores.data() + scores.size()}, numbers);
+      const Modulation found{gain - (numbers - 1.0), gain / loud - (numbers - 1.0)};
+      if (found.beyond > most[m].beyond) most[m] = found;
     }
   }
   return most;

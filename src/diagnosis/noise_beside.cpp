@@ -81,11 +81,7 @@ bool Search::admit_slow_noise() {
   tried_slow_noise_ = true;
   if (!slow_parts(study_, left_, floors_)) return false;
   say("searching in slow noise");
-  const std::vector<Member> members = fit_.members;
-  const Case study = study_;
-  const auto smoothed = smoothed_;
-  const auto other_filter = other_filter_;
-  const bool tuned = tuned_, ringing = ringing_;
+  const State state = this->state();
   const double before = passes();
   while (grow()) {
   }
@@ -101,13 +97,10 @@ bool Search::admit_slow_noise() {
     return true;
   const std::vector<Member> found = fit_.members;
   begun_ += passes() - before;  // an attempt that failed is not what the search may take
-  in_slow_noise_ = false;
-  events_allowed_ = true;
-  study_ = study, smoothed_ = smoothed, other_filter_ = other_filter;
-  tuned_ = tuned, ringing_ = ringing;
+  restore(state);
   settle(found);
   if (penalised_deviance() < plain) return true;
-  settle(members);
+  settle(state.members);
   is_alarming_now();
   return false;
 }

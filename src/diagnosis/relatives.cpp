@@ -52,7 +52,6 @@ std::vector<double> Search::doubts(double little) {
   const auto tests = constancy(*setting_, fit_);
   const double loud = rest_loudness();
   const auto strengths = modulations(*setting_, fit_);
-  const double modulated = loud * prior::kModulated;
   double swings = 0.0;
   for (const BandTest& band : bands_) {
     if (band.stands_out() && band.from_hz >= kSlowestMode) swings += band.excess;
@@ -63,9 +62,13 @@ std::vector<double> Search::doubts(double little) {
     const bool is_offset = fit_.members[m].kind->stage == Stage::kOffset;
     const double slack = (is_offset ? prior::kNothing : little) * std::max(0.0, net_gain(m));
     double& apart = doubts[m];
-    apart = strengths[m] > slack ? strengths[m] / modulated : 0.0;
+    const Modulation& strength = strengths[m];
+    if (strength.gain > slack) {
+      apart = std::min(strength.gain / loud, strength.beyond) / prior::kModulated;
+    }
     if (tests[m].refutes() && tests[m].excess > slack) {
-      apart = std::max(apart, tests[m].above(loud) / prior::kInconstant);
+      const double beside = std::max(loud, tests[m].elsewhere);
+      apart = std::max(apart, tests[m].above(beside) / prior::kInconstant);
     }
     if (bends_a_spring(fit_.members[m], fit_.members)) apart = kInfinity;
     // Beside low-frequency noise a constant offset is its mean.

@@ -77,6 +77,8 @@ class Search {
   /// Takes back members that other data or another law refute, and judges what is left. They are
   /// not tried again.
   void leave_out(const std::vector<std::size_t>& members);
+  /// What is left is noise, as data say that decided nothing.
+  void take_rest_for_noise() { remains_ = false; }
   /// Takes back the hum that was heard above the motion's band, and judges what is left.
   void leave_hum();
   /// Removes the loose load, and searches in the rows that its impacts had masked.
@@ -207,6 +209,18 @@ class Search {
   double worse(const std::vector<Member>& members) const;
   bool put_common_laws();
   void search_beside_common_laws();
+  bool begin_without_refuted();
+  /// What a search from another beginning changes.
+  struct State {
+    std::vector<Member> members;
+    Case study;
+    std::vector<Case> smoothed;
+    std::optional<DerivativeSpec> other_filter;
+    bool tuned, ringing, in_slow_noise, events_allowed;
+  };
+  State state() const;
+  /// The same again, but for the members, which settle() takes.
+  void restore(const State& state);
   void leave_bounded_lags();
   void straighten_drifts();
   bool keep_what_carries_over();
@@ -243,10 +257,11 @@ class Search {
   Signals left_;
   std::vector<Span> held_out_;  // and the rests() of a machine
   std::vector<Span> masked_, outlying_;
-  std::vector<Member> apart_;       // members found by tests of their own
-  std::optional<Member> rounding_;  // named, but no part of what is fitted
-  Impacts impacts_;                 // nor are these
-  std::vector<Member> refuted_;     // by data on which they were not fitted
+  std::vector<Member> apart_;              // members found by tests of their own
+  std::optional<Member> rounding_;         // named, but no part of what is fitted
+  Impacts impacts_;                        // nor are these
+  std::vector<Member> refuted_;            // by data on which they were not fitted
+  std::set<const EffectKind*> set_aside_;  // kinds that a second beginning does without
   std::vector<BandTest> bands_;
   evidence::Posterior posterior_;
   std::optional<std::vector<Floor>> noise_;  // admitted in place of the floor from above the motion

@@ -164,6 +164,10 @@ void Search::judge() {
     remains_ = is_alarming_now();
   }
   if (remains_ && (admit_own_zeros() || admit_colour())) remains_ = false;
+  if (begin_without_refuted() && remains_) {
+    tried_slow_noise_ = false;
+    if (admit_slow_noise()) remains_ = is_alarming_now();
+  }
   if (keep_unaffected()) {
     remains_ = true;
     bands_ = band_tests(*setting_, fit_.residual);
