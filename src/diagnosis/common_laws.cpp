@@ -50,19 +50,20 @@ bool Search::put_common_laws() {
 }
 
 /// A search that adds one law at a time may begin with another that does the work of two, a lag for
-/// viscous and dry friction, and end there. On a machine it is repeated beside the common laws,
-/// where one of them is not among those found, and the likelier of the two models stays: as the
-/// noise that each leaves tells, on the mean.
+/// viscous and dry friction, a wave of some other order for a weight that is read late, and end
+/// there. On a machine it is repeated beside the common laws, where one of them is not among those
+/// found, and the likelier of the two models stays: as the noise that each leaves tells, on the
+/// mean.
 void Search::search_beside_common_laws() {
   if (!study_.axis || fit_.members.size() == apart_.size()) return;
   const auto kinds = effect_kinds();
   const bool are_there = std::all_of(kinds.begin(), kinds.end(), [&](const EffectKind* kind) {
-    return !kind->common || is_in_base(study_, *kind) ||
+    return !kind->common || is_in_base(study_, *kind) || axes_of(study_, *kind).empty() ||
            std::any_of(fit_.members.begin(), fit_.members.end(),
                        [&](const Member& m) { return m.kind == kind; });
   });
   if (are_there) return;
-  say("looking again beside dry and viscous friction");
+  say("looking again beside friction and a weight off the axis");
   const std::vector<Member> found = fit_.members;
   const DerivativeSpec smoother = study_.derivative;
   settle(apart_);

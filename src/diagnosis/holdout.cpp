@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kPiece = 5.0, kGuard = 0.5;  // s
 constexpr int kEvery = 5;
-constexpr Index kLeastPoses = 10;  // 8 remain to fit to, as many as their floor needs
+constexpr double kSameError = 1e-9;  // rounding, of noise that the error bounds
+constexpr Index kLeastPoses = 10;    // 8 remain to fit to, as many as their floor needs
 
 double seconds_of(const Motion& motion) { return motion.t(motion.samples() - 1) - motion.t(0); }
 
@@ -249,9 +250,6 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
   }
   return worst;
 }
-
-/// Noise of held-out blocks is bounded by the error: equal to it but for rounding.
-constexpr double kSameError = 1e-9;
 
 bool HoldOut::is_noise(const Search& search, const std::vector<Floor>& floors) const {
   if (empty()) return false;

@@ -9,8 +9,8 @@ constexpr double kName = 0.04;  ///< probability of each listed effect, shared b
 /// more. Also of one number in the place of several.
 constexpr double kSpecial = 0.1;
 constexpr double kUsualDelay = 0.1;  ///< mean of a delay's size [s]; exponential
-/// On a machine, of a law that nearly every one has (dry and viscous friction): even odds, for what
-/// resists may be small, or in its simulator.
+/// On a machine, of a law that nearly every one has (dry and viscous friction, a weight off the
+/// axis): even odds, for it may be small, or in its simulator.
 constexpr double kCommon = 0.5;
 constexpr double kUnknown = 0.12;   ///< of physics that no effect of the catalogue describes
 constexpr double kSlowNoise = 0.1;  ///< of noise that grows below the floor's band
