@@ -16,6 +16,23 @@ constexpr double kFlipSeconds = 1.0;
 constexpr double kConstancySeconds = 8.0;
 constexpr Index kShifts = 12;
 
+/// Runs of rows of one channel that follow each other in time: the first, and one past the last.
+std::vector<std::pair<Index, Index>> runs_of(const Setting& setting) {
+  const auto& info = setting.whitener.row_info();
+  const double dt = setting.whitener.block_seconds();
+  std::vector<std::pair<Index, Index>> runs;
+  for (std::size_t begin = 0; begin < info.size();) {
+    std::size_t end = begin + 1;
+    while (end < info.size() && info[end].channel == info[begin].channel &&
+           info[end].log == info[begin].log && info[end].t - info[end - 1].t < 1.5 * dt) {
+      ++end;
+    }
+    runs.emplace_back(static_cast<Index>(begin), static_cast<Index>(end));
+    begin = end;
+  }
+  return runs;
+}
+
 }  // namespace
 
 std::vector<std::vector<Index>> time_blocks(const Setting& setting, double seconds) {
@@ -53,27 +70,6 @@ std::vector<BandTest> bands_of(const Case& study) {
   }
   return bands;
 }
-
-namespace {
-
-/// Runs of rows of one channel that follow each other in time: the first, and one past the last.
-std::vector<std::pair<Index, Index>> runs_of(const Setting& setting) {
-  const auto& info = setting.whitener.row_info();
-  const double dt = setting.whitener.block_seconds();
-  std::vector<std::pair<Index, Index>> runs;
-  for (std::size_t begin = 0; begin < info.size();) {
-    std::size_t end = begin + 1;
-    while (end < info.size() && info[end].channel == info[begin].channel &&
-           info[end].log == info[begin].log && info[end].t - info[end - 1].t < 1.5 * dt) {
-      ++end;
-    }
-    runs.emplace_back(static_cast<Index>(begin), static_cast<Index>(end));
-    begin = end;
-  }
-  return runs;
-}
-
-}  // namespace
 
 std::vector<BandTest> band_tests(const Setting& setting, const Eigen::VectorXd& residual) {
   std::vector<BandTest> bands = bands_of(setting.study);
@@ -141,7 +137,7 @@ Eigen::MatrixXd shifted_in_time(const Setting& setting, const Eigen::VectorXd& r
   return shifted;
 }
 
-double loudness_of(std::vector<double> scores, double freedom) {
+double overdispersion(std::vector<double> scores, double freedom) {
   const auto quartile = scores.begin() + static_cast<std::ptrdiff_t>(scores.size() / 4);
   std::nth_element(scores.begin(), quartile, scores.end());
   return std::max(1.0, *quartile / freedom);
@@ -174,7 +170,8 @@ std::vector<Constancy> constancy(const Setting& setting, const JointFit& fit) {
     list[m].ratio = score / dof;
     list[m].excess = score - dof;
     list[m].z = (score - dof) / std::sqrt(2.0 * dof);
-    list[m].elsewhere = loudness_of({scores.data() + 1, scores.data() + scores.size()}, terms);
+    list[m].overdispersion =
+        overdispersion({scores.data() + 1, scores.data() + scores.size()}, terms);
   }
   return list;
 }

@@ -36,20 +36,18 @@ double left_over(const std::vector<BandTest>& bands);
 /// remainder of what was explained.
 bool is_alarming(const std::vector<BandTest>& bands, double explained);
 
-/// The residual at other times: each column is it, turned within every run of rows that follow each
-/// other by another share of the run. What it explains of these is what it explains of anything of
-/// the residual's spectrum.
+/// (rows, 12): the residual shifted circularly in time, within each run of consecutive rows, by
+/// thirteenths of the run: surrogates of its spectrum that have nothing to do with the columns.
 Eigen::MatrixXd shifted_in_time(const Setting& setting, const Eigen::VectorXd& residual);
-/// Of scores of the shifted residuals, per degree of freedom: how many times as loud as noise what
-/// has nothing to do with the columns is, at least 1. The lower quartile, for a motion that repeats
-/// itself is at some shifts where it was.
-double loudness_of(std::vector<double> scores, double freedom);
+/// Overdispersion of scores that surrogates make: over their degrees of freedom, at least 1. The
+/// lower quartile, for a periodic motion is at some shifts where it was.
+double overdispersion(std::vector<double> scores, double freedom);
 
 /// Whether a member explains the recordings throughout: its score over blocks of 8 s, per degree of
 /// freedom. A surrogate of something else fits some blocks and not others.
 struct Constancy {
   double ratio = 1.0, z = 0.0, excess = 0.0;  ///< score over its degrees of freedom, and beyond
-  double elsewhere = 1.0;  ///< loudness_of() the scores of the residual shifted in time
+  double overdispersion = 1.0;                ///< of the scores of the residual shifted in time
   bool refutes() const { return ratio > prior::kInconstantRatio && z > prior::kInconstant; }
   /// z where what is left is so many times as loud as the noise.
   double above(double loud) const { return z * (ratio / loud - 1.0) / (ratio - 1.0); }

@@ -67,7 +67,7 @@ std::vector<Modulation> modulations(const Setting& setting, const JointFit& fit)
       const auto numbers = static_cast<double>(c.cols());
       const double gain = (own.transpose() * fit.residual).squaredNorm();
       const Eigen::RowVectorXd scores = (own.transpose() * shifted).colwise().squaredNorm();
-      const double loud = loudness_of({scores.data(), scores.data() + scores.size()}, numbers);
+      const double loud = overdispersion({scores.data(), scores.data() + scores.size()}, numbers);
       const Modulation found{gain - (numbers - 1.0), gain / loud - (numbers - 1.0)};
       if (found.beyond > most[m].beyond) most[m] = found;
     }

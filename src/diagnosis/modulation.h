@@ -10,7 +10,7 @@ namespace dcnn {
 
 /// What more of a member would explain, in chi-square, if its strength grew, or bent, with
 /// something: beside the whole model, less what more than one number gain by chance; and the same
-/// over the loudness of the residual shifted in time (judgement.h).
+/// over the overdispersion of the residual shifted in time (judgement.h).
 struct Modulation {
   double gain = 0.0, beyond = 0.0;
 };

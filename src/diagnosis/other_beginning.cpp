@@ -44,8 +44,7 @@ bool Search::begin_without_refuted() {
   State best = state();
   double least = penalised_deviance();
   for (int round = 0; round < kMost; ++round) {
-    ended_early_ = ended_early_ || is_spent();
-    begun_ = std::max(begun_, passes() - (1.0 - kShare) * kMostPasses);
+    allow(kShare);
     settle(apart_);
     explore();
     if (penalised_deviance() >= least) break;

@@ -67,7 +67,7 @@ std::vector<double> Search::doubts(double little) {
       apart = std::min(strength.gain / loud, strength.beyond) / prior::kModulated;
     }
     if (tests[m].refutes() && tests[m].excess > slack) {
-      const double beside = std::max(loud, tests[m].elsewhere);
+      const double beside = std::max(loud, tests[m].overdispersion);
       apart = std::max(apart, tests[m].above(beside) / prior::kInconstant);
     }
     if (bends_a_spring(fit_.members[m], fit_.members)) apart = kInfinity;

@@ -48,6 +48,11 @@ double Search::passes() const {
   return static_cast<double>(study_.work->samples()) / static_cast<double>(samples_);
 }
 
+void Search::allow(double share) {
+  ended_early_ = ended_early_ || is_spent();
+  begun_ = std::max(begun_, passes() - (1.0 - share) * kMostPasses);
+}
+
 bool Search::laws_are_spent() const { return dcnn::laws_are_spent(study_); }
 
 void Search::say(const std::string& text) const {

@@ -240,6 +240,8 @@ class Search {
   /// one effect takes, so that a search among laws none of which fits ends too.
   static constexpr double kMostPasses = 50'000.0;
   bool is_spent() const { return passes() - begun_ >= kMostPasses; }
+  /// Lets what follows take at least this share of the limit.
+  void allow(double share);
   /// What a search beside other noise begins with: what tests of their own found; all that was
   /// found where it is spent, for it would find nothing again.
   std::vector<Member> to_begin_with() const;

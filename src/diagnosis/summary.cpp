@@ -234,7 +234,7 @@ std::string what_does_better(const Json& report) {
     const Json errors = fit.value(key, Json());
     std::string channels;
     for (std::size_t j = 0; j < errors.size(); ++j) {
-      if (errors[j].is_null() || !is_held_out(fit, j)) continue;
+      if (!is_held_out(fit, j)) continue;
       const double rival = errors[j], after = fit["holdout_rmse_after"][j];
       if (rival >= after || brief(rival) == brief(after)) continue;
       channels += (channels.empty() ? "" : ", ") + brief(rival) + ' ' +

@@ -187,8 +187,7 @@ void Search::judge() {
     if (rest.size() < fit_.members.size()) {
       settle(rest);
       // What the events stood for is still to be found, though the search be spent on them.
-      ended_early_ = ended_early_ || is_spent();
-      begun_ = std::max(begun_, passes() - (1.0 - kWithoutEvents) * kMostPasses);
+      allow(kWithoutEvents);
       explore();
     }
   }

@@ -103,8 +103,7 @@ bool Search::look_again() {
 
 void Search::add_beside() {
   beside_own_numbers_ = true;
-  ended_early_ = ended_early_ || is_spent();
-  begun_ = passes();
+  allow(1.0);
   while (!is_spent() && grow()) {
     while (simplify()) {
     }
@@ -160,8 +159,7 @@ std::vector<Member> Search::names() const {
 
 void Search::put_beside(const std::vector<Member>& laws) {
   if (names().size() == fit_.members.size()) {  // the first laws
-    ended_early_ = ended_early_ || is_spent();
-    begun_ = passes();
+    allow(1.0);
   }
   std::vector<Member> members = names();
   members.insert(members.end(), laws.begin(), laws.end());

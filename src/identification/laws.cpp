@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "dcnn/physics/effect.h"
+#include "physics/effect_law.h"
 
 namespace dcnn::identification {
 namespace {
@@ -113,7 +114,7 @@ MatrixXd delayed(const WristLog& log, Index channels) {
 /// Of "beta:sensor_x" that of beta over all logs: a cable at rest in the middle of a motion adds to
 /// no offset, which else would be as large as the motion is far from zero.
 double mean_angle(const std::vector<WristLog>& logs, const std::string& axis) {
-  const Index angle = axis.starts_with("alpha") ? 0 : axis.starts_with("beta") ? 1 : 2;
+  const Index angle = angle_axis(axis).angle;
   double sum = 0.0, rows = 0.0;
   for (const WristLog& log : logs) {
     sum += log.motion.euler.col(angle).sum();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How loud a residual is where it has nothing to do with a law, by simulation.
+// The overdispersion of surrogate scores, by simulation.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -22,25 +22,25 @@ std::vector<double> shifted_scores(double loud, int freedom, Rng& rng) {
   return scores;
 }
 
-TEST(Loudness, OfNoiseIsOne) {
+TEST(Overdispersion, OfNoiseIsOne) {
   Rng rng({3});
   constexpr int kDraws = 1000, kFreedom = 8;
   int above = 0;
   for (int draw = 0; draw < kDraws; ++draw) {
-    const double loud = loudness_of(shifted_scores(1.0, kFreedom, rng), kFreedom);
+    const double loud = overdispersion(shifted_scores(1.0, kFreedom, rng), kFreedom);
     EXPECT_GE(loud, 1.0);
     above += loud > 1.0;
   }
   EXPECT_LT(above, kDraws / 20) << "a law in noise alone keeps the power of its test";
 }
 
-TEST(Loudness, OfWhatIsLouderIsNeverMuchMore) {
+TEST(Overdispersion, OfWhatIsLouderIsNeverMuchMore) {
   Rng rng({4});
   constexpr int kDraws = 1000, kFreedom = 8;
   double sum = 0.0;
   int above = 0;
   for (int draw = 0; draw < kDraws; ++draw) {
-    const double loud = loudness_of(shifted_scores(50.0, kFreedom, rng), kFreedom);
+    const double loud = overdispersion(shifted_scores(50.0, kFreedom, rng), kFreedom);
     sum += loud / kDraws;
     above += loud > 60.0;
   }
@@ -50,11 +50,11 @@ TEST(Loudness, OfWhatIsLouderIsNeverMuchMore) {
 
 // A motion that repeats itself is at half of its shifts where it was, and a law that it refutes is
 // refuted all the same.
-TEST(Loudness, IsNotThatOfShiftsAtWhichAMotionRepeatsItself) {
+TEST(Overdispersion, IsNotThatOfShiftsAtWhichAMotionRepeatsItself) {
   Rng rng({5});
   std::vector<double> scores = shifted_scores(1.0, 8, rng);
   for (std::size_t k = 0; k < scores.size(); k += 2) scores[k] *= 1e4;
-  EXPECT_LT(loudness_of(scores, 8.0), 2.0);
+  EXPECT_LT(overdispersion(scores, 8.0), 2.0);
 }
 
 }  // namespace
