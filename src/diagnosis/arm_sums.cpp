@@ -14,6 +14,16 @@ constexpr int kReweightings = 4;
 
 }  // namespace
 
+ArmSums::Piece ArmSums::as_left_out(const Piece& piece, Index first,
+                                    const Eigen::MatrixXd& friction) {
+  const Eigen::MatrixXd told = piece.gram.middleRows(first, kOwnFriction);
+  const Eigen::VectorXd match = piece.match.segment(first, kOwnFriction);
+  const Eigen::MatrixXd moved = solve_gram(friction, told, kSharedBaseRidge);
+  const Eigen::VectorXd taken = solve_gram(friction, match, kSharedBaseRidge);
+  return {piece.gram - told.transpose() * moved, piece.match - moved.transpose() * match,
+          piece.square - match.dot(taken), piece.rows};
+}
+
 ArmSums::ArmSums(const std::vector<JointRows>& joints) : links_(joints.front().arm.cols()) {
   for (const JointRows& rows : joints) {
     for (const Index p : rows.piece) pieces_ = std::max(pieces_, p + 1);
@@ -32,7 +42,14 @@ ArmSums::ArmSums(const std::vector<JointRows>& joints) : links_(joints.front().a
       sums.push_back({part.transpose() * part, part.transpose() * y, y.squaredNorm(),
                       static_cast<double>(list.size())});
     }
+    Eigen::MatrixXd friction = Eigen::MatrixXd::Zero(kOwnFriction, kOwnFriction);
+    for (const Piece& piece : sums) {
+      friction += piece.gram.block(links_, links_, kOwnFriction, kOwnFriction);
+    }
+    std::vector<Piece> left_out;
+    for (const Piece& piece : sums) left_out.push_back(as_left_out(piece, links_, friction));
     sums_.push_back(std::move(sums));
+    left_out_.push_back(std::move(left_out));
   }
 }
 
@@ -50,12 +67,16 @@ ArmRegression::ArmRegression(const ArmSums& sums, ArmModel model)
     if (model.turned.size() > 0) T.leftCols(shared_) *= model.turned(static_cast<Index>(j));
     for (Index k = 0; k < more; ++k)
       T(sums.links_ + own[static_cast<std::size_t>(k)], shared_ + k) = 1.0;
-    std::vector<ArmSums::Piece> pieces;
-    for (const auto& piece : sums.sums_[j]) {
-      pieces.push_back(
-          {T.transpose() * piece.gram * T, T.transpose() * piece.match, piece.square, piece.rows});
-    }
-    pieces_.push_back(std::move(pieces));
+    const auto in_own_columns = [&](const std::vector<ArmSums::Piece>& of_all) {
+      std::vector<ArmSums::Piece> pieces;
+      for (const auto& piece : of_all) {
+        pieces.push_back({T.transpose() * piece.gram * T, T.transpose() * piece.match, piece.square,
+                          piece.rows});
+      }
+      return pieces;
+    };
+    pieces_.push_back(in_own_columns(sums.sums_[j]));
+    left_out_.push_back(in_own_columns(sums.left_out_[j]));
     maps_.push_back(std::move(T));
     first_.push_back(size_);
     size_ += more;
@@ -96,10 +117,10 @@ void ArmRegression::shrink() {
   ridge_ = best;
 }
 
-double ArmRegression::misfit(std::size_t joint, Index piece, const Eigen::VectorXd& x) const {
-  const ArmSums::Piece& sums = pieces_[joint][static_cast<std::size_t>(piece)];
+double ArmRegression::misfit(std::size_t joint, const ArmSums::Piece& piece,
+                             const Eigen::VectorXd& x) const {
   const Eigen::VectorXd c = x(places(joint));
-  return sums.square - 2.0 * c.dot(sums.match) + c.dot(sums.gram * c);
+  return piece.square - 2.0 * c.dot(piece.match) + c.dot(piece.gram * c);
 }
 
 void ArmRegression::reweight() {
@@ -108,7 +129,7 @@ void ArmRegression::reweight() {
     for (std::size_t j = 0; j < pieces_.size(); ++j) {
       double sum = 0.0, rows = 0.0;
       for (std::size_t p = 0; p < pieces_[j].size(); ++p) {
-        sum += misfit(j, static_cast<Index>(p), x);
+        sum += misfit(j, pieces_[j][p], x);
         rows += pieces_[j][p].rows;
       }
       variance_(static_cast<Index>(j)) = std::max(1e-300, sum / std::max(1.0, rows));
@@ -134,7 +155,8 @@ Eigen::MatrixXd ArmRegression::left_out() const {
   for (Index p = 0; p < pieces; ++p) {
     const Eigen::VectorXd x = fit(p, 0, pieces_.size());
     for (Index j = 0; j < variance_.size(); ++j) {
-      errors(p, j) = misfit(static_cast<std::size_t>(j), p, x) / variance_(j);
+      const auto joint = static_cast<std::size_t>(j);
+      errors(p, j) = misfit(joint, left_out_[joint][static_cast<std::size_t>(p)], x) / variance_(j);
     }
   }
   return errors;
@@ -145,8 +167,11 @@ void ArmRegression::compare(std::size_t joint, Index piece, const Eigen::VectorX
                             evidence::BlockChange& change) const {
   const double variance = variance_(static_cast<Index>(joint));
   const Eigen::VectorXd apart = coefficients(joint, x) - other.coefficients(joint, others);
-  const Eigen::MatrixXd& gram = sums_.sums_[joint][static_cast<std::size_t>(piece)].gram;
-  change.fall += (other.misfit(joint, piece, others) - misfit(joint, piece, x)) / variance;
+  const auto p = static_cast<std::size_t>(piece);
+  const Eigen::MatrixXd& gram = sums_.left_out_[joint][p].gram;
+  change.fall += (other.misfit(joint, other.left_out_[joint][p], others) -
+                  misfit(joint, left_out_[joint][p], x)) /
+                 variance;
   change.apart += apart.dot(gram * apart) / variance;
 }
 

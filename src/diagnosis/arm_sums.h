@@ -17,6 +17,11 @@ struct ArmModel {
 };
 
 /// Sums of products of all columns and the target over each piece of time.
+///
+/// A piece that is left out knows the offset and friction of a joint from the others only as well
+/// as they tell them: not at all where the joint stood still there. Its squared errors are in the
+/// metric of that prediction, (I + F G⁻¹ F')⁻¹ = I - F (F'F + G)⁻¹ F', with F its columns of offset
+/// and friction and G their information in all other pieces.
 class ArmSums {
  public:
   explicit ArmSums(const std::vector<JointRows>& joints);
@@ -30,7 +35,9 @@ class ArmSums {
     Eigen::VectorXd match;
     double square = 0.0, rows = 0.0;
   };
-  std::vector<std::vector<Piece>> sums_;  // by joint and piece
+  static Piece as_left_out(const Piece& piece, Index first, const Eigen::MatrixXd& friction);
+  std::vector<std::vector<Piece>> sums_;      // by joint and piece
+  std::vector<std::vector<Piece>> left_out_;  // the same in the metric of a piece left out
   Index pieces_ = 0, links_ = 0;          // links_: columns of the arm
 };
 
@@ -74,7 +81,7 @@ class ArmRegression {
  private:
   Eigen::VectorXd fit(Index left_out, std::size_t from, std::size_t to) const;
   std::vector<Index> places(std::size_t joint) const;
-  double misfit(std::size_t joint, Index piece, const Eigen::VectorXd& x) const;
+  double misfit(std::size_t joint, const ArmSums::Piece& piece, const Eigen::VectorXd& x) const;
   /// Adds what a joint's rows of a piece say for these unknowns against those of another.
   void compare(std::size_t joint, Index piece, const Eigen::VectorXd& x, const ArmRegression& other,
                const Eigen::VectorXd& others, evidence::BlockChange& change) const;
@@ -85,7 +92,7 @@ class ArmRegression {
 
   const ArmSums& sums_;
   std::vector<Eigen::MatrixXd> maps_;                // from the model's columns to all, by joint
-  std::vector<std::vector<ArmSums::Piece>> pieces_;  // in the model's own columns
+  std::vector<std::vector<ArmSums::Piece>> pieces_, left_out_;  // in the model's own columns
   std::vector<Index> first_;                         // unknowns of each joint begin there
   Index shared_ = 0, size_ = 0;
   Eigen::VectorXd variance_;

@@ -82,6 +82,27 @@ TEST(ArmStructure, ABodyStandsBesideATermOfOneJoint) {
   }
 }
 
+// The other pieces do not tell the friction of a joint that moves in one piece alone: that does not
+// hide a body on all of them.
+TEST(ArmStructure, FrictionInOnePieceHidesNoBody) {
+  for (const double mass : {0.0, 0.15}) {
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      std::vector<JointRows> joints = arm_noise(seed);
+      for (std::size_t j = 0; j < kArmJoints; ++j) {
+        JointRows& rows = joints[j];
+        rows.own.col(0).setOnes();
+        for (Index i = 0; i < rows.own.rows(); ++i) {
+          if (rows.piece[static_cast<std::size_t>(i)] != static_cast<Index>(j)) {
+            rows.own.row(i).segment(1, kOwnFriction - 1).setZero();
+          }
+        }
+        rows.target += mass * rows.arm.col(0) + 30.0 * rows.own.col(2);
+      }
+      EXPECT_EQ(structure_of(joints).shared, mass > 0.0 ? 1U : 0U) << mass << ", " << seed;
+    }
+  }
+}
+
 TEST(ArmStructure, NoiseHoldsNothing) {
   int found = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
