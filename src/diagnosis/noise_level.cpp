@@ -141,6 +141,12 @@ void level_of(const Case& study, const Signals& residual, const Signals& force, 
   // The spread of the expected scatter over so many windows is part of chance.
   const auto count = static_cast<double>(std::max<std::size_t>(1, windows.size()));
   const double share = kept(scatter, expected * (1.0 + 2.0 * std::sqrt(2.0 / count)));
+  // Windows of a steady oscillation have one mean load: the line is known over their loads alone.
+  double lowest = kInfinity, highest = -kInfinity;
+  for (const Window& w : windows) {
+    if (!std::isfinite(w.level)) continue;
+    lowest = std::min(lowest, w.load), highest = std::max(highest, w.load);
+  }
   constexpr double kLeast = -7.0;  // logarithm of a level, where the log repeats one value
   double power = 0.0, rows = 0.0;
   for (const Window& w : windows) {
@@ -152,7 +158,8 @@ void level_of(const Case& study, const Signals& residual, const Signals& force, 
     for (Index i = w.begin; i < w.end; ++i) {
       double log_level = burst;
       if (line.slope != 0.0) {
-        log_level += line.slope * (covariate(force[w.log](i, channel), knee) - line.load);
+        const double load = covariate(force[w.log](i, channel), knee);
+        log_level += line.slope * (std::min(std::max(load, lowest), highest) - line.load);
       }
       const double level = elementary::exp(std::clamp(log_level, kLeast, -kLeast));
       levels[w.log](i, channel) = level;

@@ -77,6 +77,46 @@ TEST(NoiseFloor, OfAllThatIsLeftHasTheDensityOfTheNoise) {
   }
 }
 
+/// Noise of 0.03 (1 + |F|/knee), by `uneven` louder where F is above zero and quieter below, beside
+/// a force F of 0.05 + 2 sin(2 pi hz t); the force, and the levels.
+std::pair<Eigen::VectorXd, Eigen::VectorXd> levels_beside(double hz, double knee, double uneven,
+                                                          std::uint64_t seed) {
+  Case study = recordings_of(1);
+  Rng rng({seed});
+  Signals residual{Eigen::MatrixXd(kRows, 1)};
+  for (Index i = 0; i < kRows; ++i) {
+    const double phase = 2.0 * std::numbers::pi * hz * kDt * static_cast<double>(i);
+    const double force = 0.05 + 2.0 * std::sin(phase);
+    const double level = (1.0 + std::copysign(uneven, force)) * (1.0 + std::abs(force) / knee);
+    residual[0](i, 0) = 0.03 * level * rng.normal();
+    study.logs[0].measured(i, 0) = force + residual[0](i, 0);
+  }
+  return {study.logs[0].measured.col(0), noise_level(study, residual)[0].col(0)};
+}
+
+// Windows of a steady oscillation have nearly one mean load, whose small differences tell no power
+// of it: here every other window of half a second holds two half-waves above zero.
+TEST(NoiseLevel, OfASteadyOscillationIsNotMadeOfChance) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const auto levels = levels_beside(3.0, 1e9, 0.5, seed).second;
+    EXPECT_LT(levels.maxCoeff(), 3.0) << seed;
+    EXPECT_GT(levels.minCoeff(), 0.3) << seed;
+  }
+}
+
+TEST(NoiseLevel, GrowsWithALoadThatTakesItsTime) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const auto [force, levels] = levels_beside(0.07, 0.5, 0.0, seed);
+    double high = 0.0, low = 0.0, highs = 0.0, lows = 0.0;
+    for (Index i = 0; i < kRows; ++i) {
+      const double load = std::abs(force(i));
+      if (load > 1.8) high += levels(i), ++highs;
+      if (load < 0.2) low += levels(i), ++lows;
+    }
+    EXPECT_NEAR(high / highs / (low / lows), 4.8 / 1.2, 0.8) << seed;
+  }
+}
+
 /// A line at 55 Hz is noise: part of the deviation, and of no band of the motion.
 TEST(NoiseFloor, HoldsLinesAboveTheMotion) {
   const Case study = recordings_of(2);
