@@ -6,8 +6,10 @@
 #include "dcnn/core/file_set.h"
 #include "dcnn/import/assemble.h"
 #include "dcnn/import/summary.h"
+#include "support/doctor.h"
 #include "support/file_kind.h"
 #include "support/import_flags.h"
+#include "support/next_command.h"
 #include "support/tool.h"
 
 namespace {
@@ -73,14 +75,19 @@ void demand_answers(const Proposal& proposal, bool assume, const std::string& fi
        proposal.questions.empty() ? " (--assume takes what is guessed)" : "");
 }
 
+/// Any recording that a tool would take, with a force or without.
+ReadOptions of_any_tool() {
+  ReadOptions options;
+  options.static_list = true;
+  options.motion_only = true;
+  return options;
+}
+
 /// What the tools would say of the recording that was written, text keeping every number's value:
 /// whether they would take it.
 bool check_written(const Tool& tool, const Path& path, Table table, const System& system) {
   try {
-    ReadOptions options;
-    options.static_list = true;
-    options.motion_only = true;
-    const Recording recording = make_recording({std::move(table), {}}, path, options, system);
+    const Recording recording = make_recording({std::move(table), {}}, path, of_any_tool(), system);
     for (const auto& note : recording.notes) tool.note("  " + note);
     return true;
   } catch (const Error& error) {
@@ -90,21 +97,6 @@ bool check_written(const Tool& tool, const Path& path, Table table, const System
               (clock ? " (here: --resample)" : ""));
     return false;
   }
-}
-
-/// The command that goes on from a recording of this name.
-std::string next_of(const Table& table, const std::string& name) {
-  const auto measures = [&](const char* force) {
-    return std::find(table.columns.begin(), table.columns.end(), force) != table.columns.end();
-  };
-  if (!measures("fx") && !measures("fy") && !measures("fz")) {
-    return "name the force, --map fx=CHANNEL and so on; without one there is a motion alone: "
-           "dcnn-sim --sim sim.json --motion " +
-           name + " --out predicted.csv";
-  }
-  return "dcnn-check " + name + ", then dcnn-identify " + name +
-         " --out sim.json (or, with a simulator, dcnn-diagnose --sim sim.json --fit " + name +
-         " --out report)";
 }
 
 class Importer {
@@ -126,6 +118,7 @@ class Importer {
       write_file(*request_.out / "import.json", to_json(proposal_.recipe).dump(2) + "\n");
       if (!picture_.empty()) write_file(*request_.out / "clock-offset.svg", picture_);
       files.commit();
+      if (taken_) tell_faults();
       tool_.note("Next: " + next_);
     } else if (request_.recipe) {
       std::cout << describe(read_log(recordings[0], flags_.read()), proposal_.recipe);
@@ -222,15 +215,21 @@ class Importer {
     if (proposal_.recipe.wrench.zeroed) {
       tool_.note("  zeroed: say so to dcnn-diagnose, --zeroed, or give it the log with --recipe");
     }
-    const std::string name = quoted_argument(file.string());
-    const std::string next = next_of(imported.table, name);
+    const Path system = *request_.out / "system.json";
+    const std::string next =
+        axes.is_null() ? next_of_tool(imported.table, file) : next_of_axes(system, written_);
     const bool taken = check_written(tool_, file, std::move(imported.table),
                                      axes.is_null() ? System() : parse_system(axes, "system.json"));
-    next_ = !taken           ? "mend what the note says, then import again"
-            : axes.is_null() ? next
-                             : "dcnn-diagnose --system " +
-                                   quoted_argument((*request_.out / "system.json").string()) +
-                                   " --fit " + name + " --out report";
+    taken_ = taken_ && taken;
+    next_ = taken_ ? next : "mend what the note says, then import again";
+  }
+
+  /// What dcnn-check would call likely in what was written.
+  void tell_faults() const {
+    CheckRequest check{written_, of_any_tool(), {}, {}};
+    const Path system = *request_.out / "system.json";
+    if (std::filesystem::exists(system)) check.system = system;
+    for (const Suspicion& one : suspicions(check_logs(check))) tool_.note(one.line);
   }
 
   /// The first log was read already where its recipe was found.
@@ -250,6 +249,7 @@ class Importer {
   Json json_ = Json::object();
   std::string picture_, next_;
   std::vector<Path> written_;
+  bool taken_ = true;  // every recording by the other tools
 };
 
 }  // namespace

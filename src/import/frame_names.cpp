@@ -28,6 +28,8 @@ std::string matrix_word(const LogStream& stream, const std::string& channel) {
   const char first = stream.find(before + "00") >= 0 ? '0' : '1';
   const bool three = stream.find(before + (first == '0' ? "22" : "33")) >= 0;
   if (!three || stream.find(before + (first == '0' ? "21" : "32")) < 0) return "";
+  // No matrix of a frame has a fifth column: c11 to c33 are columns that are counted.
+  if (stream.find(before + (first == '0' ? "04" : "15")) >= 0) return "";
   const int row = own[1] - first, column = own[2] - first;
   if (row < 0 || row > 2 || column < 0 || column > 3) return "";
   if (column == 3) return std::string(1, "xyz"[row]);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "data/text.h"
 #include "dcnn/core/excerpt.h"
 #include "import/bytes.h"
@@ -20,6 +22,7 @@ constexpr int kDeepestStruct = 4;
 constexpr std::size_t kFaultWords = 100;  // characters of libmatio's message that are told
 constexpr std::uint64_t kMostMatColumns = 10000, kMostMatElements = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMostTransposed = 16;  // 3 x N is a vector over time
+constexpr std::uint64_t kMostCells = 1000;     // of a cell array
 
 template <class T>
 void append_as_doubles(const matvar_t& variable, std::uint64_t count, std::string* out) {
@@ -99,6 +102,14 @@ void send_variable(const matvar_t& v, const std::string& name,
 void walk_variable(matvar_t* v, const std::string& name, int depth,
                    const std::function<void(std::string_view)>& send) {
   if (v == nullptr || depth > kDeepestStruct) return;
+  if (v->class_type == MAT_C_CELL) {
+    const std::uint64_t cells = v->rank == 2 ? v->dims[0] * v->dims[1] : 0;
+    for (std::uint64_t k = 0; k < std::min(cells, kMostCells); ++k) {
+      matvar_t* cell = Mat_VarGetCell(v, static_cast<int>(k));
+      walk_variable(cell, name + "{" + std::to_string(k + 1) + "}", depth + 1, send);
+    }
+    return;
+  }
   if (v->class_type != MAT_C_STRUCT) return send_variable(*v, name, send);
   if (v->rank != 2 || v->dims[0] * v->dims[1] != 1) return;
   const unsigned count = Mat_VarGetNumberOfFields(v);

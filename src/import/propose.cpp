@@ -26,6 +26,7 @@ class Proposer {
     if (!of_arm()) find_vectors(log_, wishes_, &proposal_);
     take_quaternion();
     take_joints();
+    leave_pose_of_arm(wishes_, &proposal_);
     for (const std::string& name : wishes_.also) take_also(name);
     set_orientation();
     recipe().wrench = wishes_.wrench;

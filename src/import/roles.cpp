@@ -233,6 +233,8 @@ std::string role_of(const LogStream& stream, const std::string& full_name) {
   // "sensor.fx", "/ft/Fx", "tool_roll": the last word alone, where it is one of a vector's names.
   if (words.back().size() == 1) return by_unit(channel, words.back());
   const std::string last = single_word(words.back());
+  // What an IMU measures holds gravity, in its own frame.
+  if (last.size() == 2 && last[0] == 'a' && has_word(words, {"imu"})) return "";
   return last.empty() ? matrix_word(stream, channel) : last;
 }
 

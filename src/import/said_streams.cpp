@@ -12,11 +12,11 @@
 namespace dcnn {
 namespace {
 
-/// "slow[0]", "slow.t" and "slow" are columns of the array or group `slow`.
+/// "slow[0]", "slow{1}", "slow.t" and "slow" are columns of the array or group `slow`.
 bool is_column_of(const std::string& channel, const std::string& group) {
   if (!channel.starts_with(group)) return false;
-  return channel.size() == group.size() || channel[group.size()] == '[' ||
-         channel[group.size()] == '.';
+  return channel.size() == group.size() ||
+         std::string_view("[.{").find(channel[group.size()]) != std::string_view::npos;
 }
 
 /// Names of the streams that a word of --use means.

@@ -231,6 +231,29 @@ void find_vectors(const ForeignLog& log, const ImportWishes& wishes, Proposal* p
   for (const VectorRole& role : vector_roles()) finder.take(role);
 }
 
+void leave_pose_of_arm(const ImportWishes& wishes, Proposal* proposal) {
+  std::vector<ColumnRule>& columns = proposal->recipe.columns;
+  const auto has = [&](const char* kind) {
+    return std::any_of(columns.begin(), columns.end(),
+                       [&](const ColumnRule& rule) { return rule.to.starts_with(kind); });
+  };
+  if (!has("q:") || !has("tau:") || has("fx") || has("tx")) return;
+  const auto of_pose = [](const VectorRole& role, const std::string& to) {
+    const bool holds =
+        std::find(role.columns.begin(), role.columns.end(), to) != role.columns.end();
+    return holds && (role.turns || role.columns[0] == "x");
+  };
+  const auto left = std::erase_if(columns, [&](const ColumnRule& rule) {
+    return !wishes.map.contains(rule.to) &&
+           std::any_of(vector_roles().begin(), vector_roles().end(),
+                       [&](const VectorRole& role) { return of_pose(role, rule.to); });
+  });
+  if (left == 0) return;
+  proposal->notes.push_back(
+      "a pose is there, too: left out, for joints with torques need none; where a force belongs to "
+      "it say --map fx=CHANNEL");
+}
+
 std::vector<ColumnRule> find_unit_quaternion(const ForeignLog& log) {
   std::vector<ColumnRule> found;
   for (const LogStream& stream : log.streams) {

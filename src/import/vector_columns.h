@@ -17,6 +17,10 @@ ColumnRule find_channel(const ForeignLog& log, const std::string& spec);
 /// streams or channels may be is a question.
 void find_vectors(const ForeignLog& log, const ImportWishes& wishes, Proposal* proposal);
 
+/// Takes a pose that --map does not name off a proposal in which joints have torques and no force
+/// stands: it says nothing there that the angles do not.
+void leave_pose_of_arm(const ImportWishes& wishes, Proposal* proposal);
+
 /// The four channels, counted on, whose squares sum up to 1 in every row: a quaternion by index, in
 /// their order. Empty where there are none, or several.
 std::vector<ColumnRule> find_unit_quaternion(const ForeignLog& log);

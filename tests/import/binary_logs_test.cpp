@@ -171,6 +171,26 @@ TEST(BinaryLogs, OfMatlabThatAreCutKeepTheirWholeVariablesOnly) {
   EXPECT_NE(cut.notes.at(0).find("cut off"), std::string::npos);
 }
 
+// One recording in each cell, of its own length.
+TEST(BinaryLogs, CellsOfMatlabAreStreams) {
+  const test::TemporaryFolder folder;
+  const auto path = folder / "a.mat";
+  if (!write_log({"cells_mat", "none", ""}, path)) GTEST_SKIP() << "no python3-scipy";
+  const ForeignLog log = read_log({path}, {});
+  ASSERT_EQ(log.streams.size(), 2U);
+  for (const LogStream& stream : log.streams) {
+    const Index k = stream.rows == 100 ? 0 : 1;
+    EXPECT_EQ(stream.rows, 100 + 50 * k);
+    const Index at = stream.find("swing{" + std::to_string(k + 1) + "}[2]");
+    ASSERT_GE(at, 0);
+    EXPECT_EQ(stream.channels[static_cast<std::size_t>(at)].low, 10.0 * static_cast<double>(k));
+  }
+  ImportWishes wishes;
+  wishes.map = {{"q:1", "swing{2}[1]"}, {"tau:1", "swing{2}[2]"}};
+  wishes.clock = {"swing{2}[0]"};
+  EXPECT_EQ(test::import_log({path}, wishes).table.values.rows(), 150);
+}
+
 // NumPy and MATLAB: N x 3 x 3, N x 4 x 4 and 4 x 4 x N.
 TEST(BinaryLogs, ListsOfMatricesAreOrientationsAndPositions) {
   const test::TemporaryFolder folder;

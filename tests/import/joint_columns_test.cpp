@@ -83,6 +83,42 @@ TEST(JointColumns, OfAnArrayAreNoVector) {
   EXPECT_FALSE(has_column(imported, "x"));
 }
 
+// c11 to c33 are columns that are counted, of which a matrix of a frame has no fifth.
+TEST(JointColumns, ThatAreCountedAreNoMatrix) {
+  LogStream counted, frame;
+  for (int k = 1; k <= 40; ++k) {
+    LogChannel channel;
+    channel.name = "c" + std::to_string(k);
+    counted.channels.push_back(channel);
+    channel.name = "T" + std::to_string(k / 10) + std::to_string(k % 10);
+    if (k > 10 && k % 10 >= 1 && k % 10 <= 4) frame.channels.push_back(channel);
+  }
+  EXPECT_EQ(role_of(counted, "c12"), "");
+  EXPECT_EQ(role_of(counted, "c14"), "");
+  EXPECT_EQ(role_of(frame, "T12"), "r12");
+  EXPECT_EQ(role_of(frame, "T14"), "x");
+}
+
+TEST(JointColumns, OfAnImuAreNoAccelerationOfTheOrigin) {
+  const LogStream stream = text_stream("log");
+  EXPECT_EQ(role_of(stream, "imu_ax"), "");
+  EXPECT_EQ(role_of(stream, "tool_ax"), "ax");
+}
+
+// The order of a quaternion that nothing needs is not asked for.
+TEST(JointColumns, WithTorquesNeedNoPose) {
+  std::string text = "t,q1,q2,tau1,tau2,x,y,z,quat_0,quat_1,quat_2,quat_3\n";
+  for (int k = 0; k < 20; ++k) {
+    const std::string s = std::to_string(0.01 * k);
+    text += s + ",0." + s.substr(2) + ",0.1,2,3,1,2,3,0.6,0.8,0,0\n";
+  }
+  const Imported imported = import_text(text);
+  EXPECT_TRUE(has_column(imported, "q_2"));
+  EXPECT_TRUE(has_column(imported, "tau_1"));
+  EXPECT_FALSE(has_column(imported, "x"));
+  EXPECT_FALSE(has_column(imported, "qw"));
+}
+
 TEST(JointColumns, OfCurrentsStandForTorques) {
   const Imported imported =
       import_text("t,J1 Pos,J2 Pos,J1 Current,J2 Current\n0,1,2,3,4\n0.01,1,2,5,6\n");

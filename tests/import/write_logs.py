@@ -322,6 +322,16 @@ def write_mat(path, compression):
     scipy.io.savemat(path, data, do_compression=compression == "deflate")
 
 
+def write_cells_mat(path, _):
+    import numpy
+    import scipy.io
+    cells = numpy.empty((1, 2), dtype=object)
+    for k in range(2):
+        t = 1e-3 * numpy.arange(100 + 50 * k)
+        cells[0, k] = numpy.stack([t, numpy.sin(t), 10.0 * k + t])
+    scipy.io.savemat(path, {"swing": cells})
+
+
 def write_mat73(path, _):
     import h5py
     import numpy

@@ -19,7 +19,28 @@ std::string line_of(const std::string& log, const check::Fault& fault,
          (fault.flag.empty() ? "" : " (" + fault.flag + ")");
 }
 
-/// One line a kind of fault: its first recording and column, and names of the others.
+std::optional<JointChain> arm_of(const CheckRequest& request, const System& system,
+                                 const check::Log& log) {
+  if (request.urdf.empty()) {
+    if (system.arm.is_null()) return std::nullopt;
+    return parse_chain(system.arm, request.system.string(), Exit::kData);
+  }
+  std::vector<std::string> names;
+  for (const check::Joint& joint : log.joints) names.push_back(joint.name);
+  JointChain chain = read_urdf_chain(request.urdf, request.tip, names);
+  set_gravity(system.arm, request.system.string() + ": arm", Exit::kData, chain);
+  return chain;
+}
+
+std::vector<std::filesystem::path> files_in(const std::vector<std::filesystem::path>& logs) {
+  std::vector<std::filesystem::path> files;
+  std::copy_if(logs.begin(), logs.end(), std::back_inserter(files),
+               [](const auto& path) { return std::filesystem::is_regular_file(path); });
+  return files;
+}
+
+}  // namespace
+
 std::vector<Suspicion> suspicions(const std::vector<check::Report>& reports) {
   struct Kind {
     const check::Report* report;
@@ -49,28 +70,6 @@ std::vector<Suspicion> suspicions(const std::vector<check::Report>& reports) {
   }
   return likely;
 }
-
-std::optional<JointChain> arm_of(const CheckRequest& request, const System& system,
-                                 const check::Log& log) {
-  if (request.urdf.empty()) {
-    if (system.arm.is_null()) return std::nullopt;
-    return parse_chain(system.arm, request.system.string(), Exit::kData);
-  }
-  std::vector<std::string> names;
-  for (const check::Joint& joint : log.joints) names.push_back(joint.name);
-  JointChain chain = read_urdf_chain(request.urdf, request.tip, names);
-  set_gravity(system.arm, request.system.string() + ": arm", Exit::kData, chain);
-  return chain;
-}
-
-std::vector<std::filesystem::path> files_in(const std::vector<std::filesystem::path>& logs) {
-  std::vector<std::filesystem::path> files;
-  std::copy_if(logs.begin(), logs.end(), std::back_inserter(files),
-               [](const auto& path) { return std::filesystem::is_regular_file(path); });
-  return files;
-}
-
-}  // namespace
 
 std::vector<check::Report> check_logs(const CheckRequest& request) {
   check::Declared declared;

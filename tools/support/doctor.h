@@ -28,6 +28,10 @@ struct Suspicion {
   std::string fault, line;
 };
 
+/// One line a kind of fault that is likely, or certain: its first recording and column, and names
+/// of the others.
+std::vector<Suspicion> suspicions(const std::vector<check::Report>& reports);
+
 /// What the check found that does not stop a command.
 struct Examined {
   std::vector<Suspicion> likely;
