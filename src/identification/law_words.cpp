@@ -50,6 +50,10 @@ std::string law_words(const Law& law, const Eigen::VectorXd& a) {
   if (law.effect == "bias") {
     return "the offset in " + law.axis + words(" differs by %.3g, %.3g, %.3g N", a[0], a[1], a[2]);
   }
+  if (law.effect == "weightless_mass") {
+    return a[0] > 0.0 ? words("an inertia of %.3g kg whose weight is not felt", a[0])
+                      : words("of the tool's inertia %.3g kg are not felt", -a[0]);
+  }
   if (law.effect == "cable_spring") {
     const auto colon = law.axis.find(':');
     return "a force " + along(law.axis.substr(colon + 1)) + " that follows " +
@@ -60,8 +64,8 @@ std::string law_words(const Law& law, const Eigen::VectorXd& a) {
     return words("the sensor's axes have unequal gains: x over y by %.3g %%, y over z by %.3g %%",
                  100.0 * a[0], 100.0 * a[1]);
   }
-  return words("the sensor's axes are not square: xy %.3g %%, xz %.3g %%, yz %.3g %%",
-               100.0 * a[0], 100.0 * a[1], 100.0 * a[2]);
+  return words("the sensor's axes are not square: xy %.3g %%, xz %.3g %%, yz %.3g %%", 100.0 * a[0],
+               100.0 * a[1], 100.0 * a[2]);
 }
 
 }  // namespace dcnn::identification

@@ -159,6 +159,8 @@ void add_of_motion(const std::vector<WristLog>& logs, std::vector<Law>& laws) {
   const auto positioned = [](const WristLog& log) { return log.motion.v_B.rows() > 0; };
   if (std::all_of(logs.begin(), logs.end(), positioned)) {
     for (const auto& axis : kLines) add_friction(axis, laws);
+    // Less inertia than weight: a filtered reading, or a pose that shakes where the tool does not.
+    laws.push_back({"weightless_mass", "", {"mass_kg"}, {"kg"}});
   }
   for (const auto& axis : kTurnAxes) add_friction(axis, laws);
   laws.push_back({"time_delay", "", {"delay_s"}, {"s"}});
@@ -207,6 +209,12 @@ MatrixXd law_columns(const Law& law, const std::vector<WristLog>& logs, std::siz
   if (law.effect == "bias") {
     const double here = log.recording.name == law.axis ? 1.0 : 0.0;
     return in_each_channel(VectorXd::Constant(columns.rows(), here), channels);
+  }
+  if (law.effect == "weightless_mass") {
+    EffectSpec spec;
+    spec.effect = law.effect;
+    spec.parameters = Json{{"mass_kg", 1.0}};
+    return of_catalogue(spec, log, state, channels);
   }
   if (law.effect == "cable_spring") {
     EffectSpec spec;
