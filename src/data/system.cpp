@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dcnn/data/system.h"
 
+#include <cctype>
 #include <set>
 
 #include "dcnn/core/options.h"
@@ -10,9 +11,14 @@ namespace {
 
 constexpr double kMaxHz = 1e6;
 
-std::string default_position_unit(const std::string& unit) {
-  if (unit == "N") return "m";
-  return unit == "N*m" || unit == "A" ? "rad" : "";
+/// Where the reading's unit does not tell whether an axis turns, the name of its position may.
+std::string default_position_unit(const Axis& axis) {
+  if (axis.unit == "N") return "m";
+  if (axis.unit == "N*m" || axis.unit == "A") return "rad";
+  std::string name;
+  for (const unsigned char c : axis.position) name += static_cast<char>(std::tolower(c));
+  const auto says = [&](const char* word) { return name.find(word) != std::string::npos; };
+  return says("angle") || says("theta") || says("rad") || name.starts_with("q_") ? "rad" : "";
 }
 
 Axis parse_axis(const Json& json, const std::string& where) {
@@ -28,7 +34,7 @@ Axis parse_axis(const Json& json, const std::string& where) {
   axis.signals = options.get<std::vector<std::string>>("signals", {});
   axis.base = options.get<std::vector<std::string>>("base", {});
   axis.has_base = options.has("base");
-  axis.position_unit = options.get<std::string>("position_unit", default_position_unit(axis.unit));
+  axis.position_unit = options.get<std::string>("position_unit", default_position_unit(axis));
   axis.scale = options.number("scale", 1.0, -1e12, 1e12);
   if (axis.name.empty()) options.reject("name", "is empty");
   if (axis.measured.empty()) options.reject("measured", "is empty: name the measured column");

@@ -160,11 +160,15 @@ std::string spaced(std::string text) {
   return text;
 }
 
-/// The axis letters at the end of a stem: "delta_com_x" is {"delta_com", "x"}.
+/// The axis letters at the end of a stem: "delta_com_x" is {"delta_com", "x"}, "delta_bias_tx"
+/// {"delta_bias", "torque about x"}.
 std::pair<std::string, std::string> without_letters(const std::string& stem) {
   const auto cut = stem.rfind('_');
   if (cut == stem.npos || cut == 0) return {stem, ""};
   const std::string letters = stem.substr(cut + 1);
+  if (letters == "tx" || letters == "ty" || letters == "tz") {
+    return {stem.substr(0, cut), std::string("torque about ") + letters.back()};
+  }
   const bool axis = letters.size() <= 2 && letters.find_first_not_of("xyz") == letters.npos;
   return axis && !letters.empty() ? std::pair{stem.substr(0, cut), letters}
                                   : std::pair{stem, std::string()};

@@ -197,6 +197,7 @@ TEST(ReportWords, SayUnitsAndNamesPeopleUse) {
   EXPECT_EQ(words_of_axis("shoulder"), "shoulder");
   EXPECT_EQ(words_of_effect("coulomb_friction"), "dry friction");
   EXPECT_EQ(words_of_parameter("coulomb_friction", "fc_n"), "friction force");
+  EXPECT_EQ(words_of_parameter("bias", "delta_bias_tx_nm"), "offset, torque about x");
   EXPECT_EQ(words_of_parameter("crosstalk", "c_xy"), "share of fy in fx");
   EXPECT_EQ(words_of_parameter("cable_spring", "rest_rad"), "angle at rest");
   EXPECT_EQ(words_of_parameter("cable_spring", "rest"), "position at rest");  // a sliding axis

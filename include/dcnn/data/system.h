@@ -15,9 +15,12 @@ struct Axis {
   std::string name, measured, unit;
   std::string position, velocity, acceleration, simulated;
   std::vector<std::string> signals, base;
-  bool has_base = false;  ///< 'base' is given; an empty list, of a machine without an arm: a constant
+  bool has_base =
+      false;  ///< 'base' is given; an empty list, of a machine without an arm: a constant
   double scale = 1.0;
-  std::string position_unit;  ///< "rad" where measured in N*m, "m" where in N, unless said
+  /// Unless said "rad" where measured in N*m or A, "m" where in N, else "rad" where the position's
+  /// name is an angle's, or empty.
+  std::string position_unit;
 };
 
 struct System {
