@@ -197,6 +197,7 @@ double HoldOut::left_where_fitted(const Search& search, Index channel) const {
 std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
                                                const std::vector<Floor>& floors) const {
   const std::vector<double> errors = rmse(search.fit().members, search.fit().base);
+  const Worth worth = this->worth(search.fit().members, search.fit().base);
   double rows = 0.0;
   for (const auto& held : held_)
     rows += static_cast<double>(std::count(held.begin(), held.end(), 1));
@@ -236,6 +237,8 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
         fitted.is_static() || (tested && !fitted.axis && search.fit().members.empty() &&
                                !search.floors()[j].pose_gain.empty());
     if (left_is_noise) noise = std::max(noise, left);
+    // A machine's simulator is as little exact as any law.
+    if (fitted.axis) noise = std::hypot(noise, prior::kModelError * worth.measured_rms[j]);
     double chance = independent;
     if (!fitted.is_static()) {  // the noise of either recording is a sample of it
       const Floor& floor = search.floors()[j];

@@ -117,11 +117,11 @@ double left_over(const std::vector<BandTest>& bands) {
   return sum;
 }
 
-bool is_alarming(const std::vector<BandTest>& bands, double explained) {
+bool is_alarming(const std::vector<BandTest>& bands, double explained, double least) {
   return std::any_of(bands.begin(), bands.end(), [&](const BandTest& band) {
     const bool plain = band.excess > prior::kPlainChiSquare;
-    return band.stands_out() &&
-           band.excess > (plain ? prior::kPlainRemainder : prior::kRemainder) * explained;
+    const double share = plain ? prior::kPlainRemainder : prior::kRemainder;
+    return band.stands_out() && band.excess > std::max(share * explained, least);
   });
 }
 

@@ -32,9 +32,9 @@ double loudest(const std::vector<BandTest>& bands);
 /// Their excess in all.
 double left_over(const std::vector<BandTest>& bands);
 
-/// Something is left that no member explains: above 5 deviations in a band, and more than a
-/// remainder of what was explained.
-bool is_alarming(const std::vector<BandTest>& bands, double explained);
+/// Something is left that no member explains: above 5 deviations in a band, more than a remainder
+/// of what was explained, and more than `least` of chi-square.
+bool is_alarming(const std::vector<BandTest>& bands, double explained, double least = 0.0);
 
 /// (rows, 12): the residual shifted circularly in time, within each run of consecutive rows, by
 /// thirteenths of the run: surrogates of its spectrum that have nothing to do with the columns.

@@ -127,9 +127,12 @@ void Search::drop_coincidences() {
   }
 }
 
+/// A machine's simulator is as little exact as any law: what is left within its error is nothing.
 bool Search::is_alarming_now() {
   bands_ = band_tests(*setting_, fit_.residual);
-  return !study_.without.omnibus && is_alarming(bands_, explained(true));
+  const double measured = study_.axis ? setting_->whitened(setting_->measured).squaredNorm() : 0.0;
+  const double least = prior::kModelError * prior::kModelError * measured;
+  return !study_.without.omnibus && is_alarming(bands_, explained(true), least);
 }
 
 /// Of a tool: an effect that a fit to the other pieces of time does not show to help on each piece
@@ -206,14 +209,16 @@ void Search::judge() {
 }
 
 /// Of a machine, where laws are never constant to the last digit: a name must help on pieces of
-/// time on which it was not fitted; and a mode must be one after its fit as before it. Whether any
-/// was left out.
+/// time on which it was not fitted; and a mode must be one after its fit as before it: as damped as
+/// its bound it rings no more, and is the gain and the delay of a motion of one frequency. Whether
+/// any was left out.
 bool Search::keep_what_carries_over() {
   const std::size_t refuted = refuted_.size();
   std::vector<Member> members;
   const Scan scan(*setting_, fit_);
   for (const Member& m : fit_.members) {
-    const bool possible = m.kind->stage != Stage::kResonance || scan.is_possible(m);
+    const bool possible =
+        m.kind->stage != Stage::kResonance || (scan.is_possible(m) && !is_degenerate(m));
     (possible ? members : refuted_).push_back(m);
   }
   if (members.size() < fit_.members.size()) settle(members);

@@ -22,6 +22,13 @@ constexpr double kTiny = std::numeric_limits<double>::min();  ///< the least pos
 /// EffectKind::hidden_by of what changes the simulator's tool.
 inline constexpr const char* kUnknownTool = "the simulator's own tool is not known";
 
+/// EffectKind::hidden_by of forces over the position: of a second encoder or a gyroscope beside the
+/// motion that a simulator gives it they are no physics, but what a delay makes of one frequency.
+inline const char* no_force_on_a_motion(const Showing& of) {
+  return of.reads_motion && !of.fitted_base ? "what is read is a motion, on which no force acts"
+                                            : nullptr;
+}
+
 /// A parameter that must be there: a finite number in [low, high].
 double parameter(Options& parameters, const std::string& key, double low = -kInfinity,
                  double high = kInfinity);

@@ -271,5 +271,72 @@ TEST(DiagnoseEncoder, ASecondReadingOfTheMotionIsLateAndHasNoFriction) {
   }
 }
 
+/// One frequency, as sines are tested with.
+Path waving(double hz, double speed) {
+  return [=](double t) {
+    const double w = 2.0 * std::numbers::pi * hz;
+    return JointMotion{speed / w * std::sin(w * t), speed * std::cos(w * t),
+                       -speed * w * std::sin(w * t)};
+  };
+}
+
+// A scale and a delay of a gyroscope that swings at 3 Hz: there they are a resonance, or a spring,
+// as well; at 5 Hz, held out, they are not.
+TEST(DiagnoseEncoder, AGainAndADelayOfOneFrequencyAreNoResonance) {
+  const Recorded fit{waving(3.0, 2.0), 12.0, 1e-5}, hold{waving(5.0, 2.0), 12.0, 1e-5};
+  const Encoder bench(fit, hold, [](const JointMotion&) { return 0.0; });
+  for (const char* name : {"fit.csv", "hold.csv"}) {
+    const Path& path = (std::string(name) == "fit.csv" ? fit : hold).path;
+    Rng rng({11u});
+    Table table;
+    table.columns = {"t", "pos", "rate", "gyro"};
+    table.values.resize(std::llround(fit.seconds / kRow), 4);
+    for (Index k = 0; k < table.values.rows(); ++k) {
+      const double t = static_cast<double>(k) * kRow;
+      table.values.row(k) << t, path(t).q, path(t).v,
+          0.85 * path(t - 0.007).v - 0.045 + 0.03 * rng.normal();
+    }
+    write_csv(bench / name, table);
+  }
+  const Json report =
+      bench.report(Json{{"measured", "gyro"}, {"unit", "rad/s"}, {"simulated", "rate"}});
+  EXPECT_EQ(names_in(report), (std::vector<std::string>{"bias", "gain", "time_delay"}))
+      << report["findings"].dump(1);
+  EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 0.036);
+}
+
+/// What nothing describes: forty waves between 0.5 and 8 Hz, rms 1.
+double waves(double t, std::uint64_t seed) {
+  Rng rng({seed});
+  double sum = 0.0;
+  for (int k = 0; k < 40; ++k) {
+    const double hz = 0.5 + 7.5 * rng.uniform(), phase = 2.0 * std::numbers::pi * rng.uniform();
+    sum += std::sin(2.0 * std::numbers::pi * hz * t + phase) / std::sqrt(20.0);
+  }
+  return sum;
+}
+
+// No simulator of a machine is exact: what it leaves within 0.3 % of the reading is nothing.
+TEST(DiagnoseEncoder, WhatIsWithinTheErrorOfAnySimulatorIsNothing) {
+  for (const double share : {0.002, 0.02}) {
+    const Recorded log{swinging(0.3), 20.0, 1e-7};
+    const Encoder bench(log, log, [](const JointMotion&) { return 0.0; });
+    std::uint64_t seed = 1;
+    for (const char* name : {"fit.csv", "hold.csv"}) {
+      Table table = read_csv(bench / name);
+      const double rms = table.values.col(3).norm() / std::sqrt(double(table.values.rows()));
+      Rng rng({seed});
+      for (Index k = 0; k < table.values.rows(); ++k) {
+        const double left = share * waves(table.values(k, 0), seed) + 1e-4 * rng.normal();
+        table.values(k, 2) = table.values(k, 3) + rms * left;
+      }
+      write_csv(bench / name, table);
+      ++seed;
+    }
+    const Json report = bench.report(kSimulated);
+    EXPECT_EQ(report["verdict"], share < 0.003 ? "consistent" : "unexplained") << report.dump(1);
+  }
+}
+
 }  // namespace
 }  // namespace dcnn

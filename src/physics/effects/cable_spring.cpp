@@ -42,6 +42,7 @@ const EffectKind effect{
                     return Json{{"k_nprad", a(0)}, {"rest_rad", s(0)}};
                   },
               .use = EffectFit::Use::kDriven}},
+    .hidden_by = no_force_on_a_motion,
     .words =
         [](const FoundNumbers& n) {
           return (n.on_machine() ? "a spring of " : "a cable or hose that pulls with ") + n("k");

@@ -29,6 +29,7 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"k3_nprad3", a(0)}};
                   }}},
+    .hidden_by = no_force_on_a_motion,
     .words =
         [](const FoundNumbers& n) {
           return "a spring that stiffens with the cube of the position, " + n("k3");

@@ -33,6 +33,7 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"amp_n", a.norm()}, {"rest_rad", elementary::atan2(a(1), a(0))}};
                   }}},
+    .hidden_by = no_force_on_a_motion,
     .words =
         [](const FoundNumbers& n) {
           return "a load off its axis, whose weight makes up to " + n("amp");

@@ -30,6 +30,7 @@ const EffectKind effect{
                   [](const Eigen::VectorXd& a, const Eigen::VectorXd&) {
                     return Json{{"k2_nprad2", a(0)}, {"rest_rad", 0.0}};
                   }}},
+    .hidden_by = no_force_on_a_motion,
     .words =
         [](const FoundNumbers& n) {
           return "a spring that bends with the square of the position, " + n("k2");
