@@ -229,7 +229,11 @@ class Importer {
     CheckRequest check{written_, of_any_tool(), {}, {}};
     const Path system = *request_.out / "system.json";
     if (std::filesystem::exists(system)) check.system = system;
-    for (const Suspicion& one : suspicions(check_logs(check))) tool_.note(one.line);
+    try {
+      for (const Suspicion& one : suspicions(check_logs(check))) tool_.note(one.line);
+    } catch (const Error& error) {
+      tool_.note(std::string("note: not checked: ") + error.what());
+    }
   }
 
   /// The first log was read already where its recipe was found.

@@ -238,7 +238,8 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
                                !search.floors()[j].pose_gain.empty());
     if (left_is_noise) noise = std::max(noise, left);
     // A machine's simulator is as little exact as any law.
-    if (fitted.axis) noise = std::hypot(noise, prior::kModelError * worth.measured_rms[j]);
+    const double error = fitted.axis ? prior::kModelError * worth.measured_rms[j] : 0.0;
+    noise = std::sqrt(noise * noise + error * error);
     double chance = independent;
     if (!fitted.is_static()) {  // the noise of either recording is a sample of it
       const Floor& floor = search.floors()[j];

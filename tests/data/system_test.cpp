@@ -18,7 +18,8 @@ TEST(SystemOfAxes, APositionIsAnAngleByTheUnitOfItsReadingOrByItsName) {
   EXPECT_EQ(unit_of("N", "angle"), "m");
   EXPECT_EQ(unit_of("1/s^2", "Angle"), "rad");
   EXPECT_EQ(unit_of("rad/s", "q_axle"), "rad");
-  EXPECT_EQ(unit_of("V", "height"), "");
+  EXPECT_EQ(unit_of("V", "motor_rad"), "rad");
+  EXPECT_EQ(unit_of("V", "radius"), "");
   EXPECT_EQ(unit_of("V", "q_1", "mm"), "mm");
 }
 

@@ -15,8 +15,7 @@ struct Axis {
   std::string name, measured, unit;
   std::string position, velocity, acceleration, simulated;
   std::vector<std::string> signals, base;
-  bool has_base =
-      false;  ///< 'base' is given; an empty list, of a machine without an arm: a constant
+  bool has_base = false;  ///< 'base' is given; an empty list, where no arm is known: a constant
   double scale = 1.0;
   /// Unless said "rad" where measured in N*m or A, "m" where in N, else "rad" where the position's
   /// name is an angle's, or empty.
