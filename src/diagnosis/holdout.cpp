@@ -197,7 +197,6 @@ double HoldOut::left_where_fitted(const Search& search, Index channel) const {
 std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
                                                const std::vector<Floor>& floors) const {
   const std::vector<double> errors = rmse(search.fit().members, search.fit().base);
-  const Worth worth = this->worth(search.fit().members, search.fit().base);
   double rows = 0.0;
   for (const auto& held : held_)
     rows += static_cast<double>(std::count(held.begin(), held.end(), 1));
@@ -205,6 +204,9 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
   const auto block = static_cast<double>(search.setting().whitener.block());
   const double independent = kNormal95 / std::sqrt(2.0 * std::max(1.0, rows / block));
   const Case& fitted = search.study();
+  std::vector<double> inexact(errors.size(), 0.0);  // a machine's simulator, as any law
+  if (fitted.axis) inexact = worth(search.fit().members, search.fit().base).measured_rms;
+  for (double& error : inexact) error *= prior::kModelError;
   double fitted_rows = 0.0;
   for (const Log& log : fitted.logs) fitted_rows += static_cast<double>(log.motion.samples());
   // What the band above the motion hardly tells of the noise below may all be left of the fit.
@@ -237,9 +239,7 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
         fitted.is_static() || (tested && !fitted.axis && search.fit().members.empty() &&
                                !search.floors()[j].pose_gain.empty());
     if (left_is_noise) noise = std::max(noise, left);
-    // A machine's simulator is as little exact as any law.
-    const double error = fitted.axis ? prior::kModelError * worth.measured_rms[j] : 0.0;
-    noise = std::sqrt(noise * noise + error * error);
+    noise = std::sqrt(noise * noise + inexact[j] * inexact[j]);
     double chance = independent;
     if (!fitted.is_static()) {  // the noise of either recording is a sample of it
       const Floor& floor = search.floors()[j];

@@ -245,6 +245,19 @@ TEST(DiagnoseEncoder, AScaleOfInertiaMayBeMoreInertia) {
   EXPECT_EQ(either, (std::set<std::string>{"gain", "inertia"})) << report["findings"].dump(1);
 }
 
+/// A position beside two readings of its motion.
+Table two_readings(const Recorded& what, const std::function<double(double)>& first,
+                   const std::function<double(double)>& second) {
+  Table table;
+  table.columns = {"t", "pos", "first", "second"};
+  table.values.resize(std::llround(what.seconds / kRow), 4);
+  for (Index k = 0; k < table.values.rows(); ++k) {
+    const double t = static_cast<double>(k) * kRow;
+    table.values.row(k) << t, what.path(t).q, first(t), second(t);
+  }
+  return table;
+}
+
 // The same joint on a second encoder, 8 ms later, beside noise; or its rate on a gyroscope.
 TEST(DiagnoseEncoder, ASecondReadingOfTheMotionIsLateAndHasNoFriction) {
   const Recorded log{swinging(0.12), 15.0, 1e-4};
@@ -252,16 +265,10 @@ TEST(DiagnoseEncoder, ASecondReadingOfTheMotionIsLateAndHasNoFriction) {
   for (const bool rate : {false, true}) {
     for (const char* name : {"fit.csv", "hold.csv"}) {
       Rng rng({7u});
-      Table table;
-      table.columns = {"t", "pos", "first", "second"};
-      table.values.resize(std::llround(log.seconds / kRow), 4);
-      for (Index k = 0; k < table.values.rows(); ++k) {
-        const double t = static_cast<double>(k) * kRow;
-        const JointMotion now = log.path(t), before = log.path(t - 0.008);
-        table.values.row(k) << t, now.q, rate ? now.v : now.q,
-            (rate ? before.v : before.q) + 1e-3 * rng.normal();
-      }
-      write_csv(bench / name, table);
+      const auto reading = [&](double t) { return rate ? log.path(t).v : log.path(t).q; };
+      write_csv(bench / name, two_readings(log, reading, [&](double t) {
+                  return reading(t - 0.008) + 1e-3 * rng.normal();
+                }));
     }
     const Json report = bench.report(
         Json{{"measured", "second"}, {"unit", rate ? "rad/s" : "rad"}, {"simulated", "first"}});
@@ -286,20 +293,15 @@ TEST(DiagnoseEncoder, AGainAndADelayOfOneFrequencyAreNoResonance) {
   const Recorded fit{waving(3.0, 2.0), 12.0, 1e-5}, hold{waving(5.0, 2.0), 12.0, 1e-5};
   const Encoder bench(fit, hold, [](const JointMotion&) { return 0.0; });
   for (const char* name : {"fit.csv", "hold.csv"}) {
-    const Path& path = (std::string(name) == "fit.csv" ? fit : hold).path;
+    const Recorded& log = std::string(name) == "fit.csv" ? fit : hold;
     Rng rng({11u});
-    Table table;
-    table.columns = {"t", "pos", "rate", "gyro"};
-    table.values.resize(std::llround(fit.seconds / kRow), 4);
-    for (Index k = 0; k < table.values.rows(); ++k) {
-      const double t = static_cast<double>(k) * kRow;
-      table.values.row(k) << t, path(t).q, path(t).v,
-          0.85 * path(t - 0.007).v - 0.045 + 0.03 * rng.normal();
-    }
-    write_csv(bench / name, table);
+    const auto rate = [&](double t) { return log.path(t).v; };
+    write_csv(bench / name, two_readings(log, rate, [&](double t) {
+                return 0.85 * rate(t - 0.007) - 0.045 + 0.03 * rng.normal();
+              }));
   }
   const Json report =
-      bench.report(Json{{"measured", "gyro"}, {"unit", "rad/s"}, {"simulated", "rate"}});
+      bench.report(Json{{"measured", "second"}, {"unit", "rad/s"}, {"simulated", "first"}});
   EXPECT_EQ(names_in(report), (std::vector<std::string>{"bias", "gain", "time_delay"}))
       << report["findings"].dump(1);
   EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 0.036);

@@ -77,8 +77,8 @@ TEST(NoiseFloor, OfAllThatIsLeftHasTheDensityOfTheNoise) {
   }
 }
 
-/// Noise of 0.03 (1 + |F|/knee), by `uneven` louder where F is above zero and quieter below, beside
-/// a force F of 0.05 + 2 sin(2 pi hz t); the force, and the levels.
+/// Noise of deviation 0.03 (1 + |F|/knee) (1 + uneven sign F) beside a force F of
+/// 0.05 + 2 sin(2 pi hz t); the force, and the levels.
 std::pair<Eigen::VectorXd, Eigen::VectorXd> levels_beside(double hz, double knee, double uneven,
                                                           std::uint64_t seed) {
   Case study = recordings_of(1);
