@@ -97,6 +97,22 @@ TEST(Identify, ALagOfTheForceIsTakenOff) {
   EXPECT_NEAR(number(id, "com_z_m").value, 0.16, 0.001);
 }
 
+// As of a reading that its maker filters, or a pose that shakes where the tool does not.
+TEST(Identify, LessInertiaThanWeightLeavesTheMassRight) {
+  Setting setting;
+  setting.simulator = identification_tests::tool_json(false);
+  setting.path = identification_tests::trajectory(2.0);
+  setting.hidden = Json::array({Json{{"effect", "weightless_mass"},
+                                     {"axis", nullptr},
+                                     {"interval_s", nullptr},
+                                     {"parameters", {{"mass_kg", -0.4}}}}});
+  const ToolIdentification id = identified(setting);
+  ASSERT_FALSE(id.beside.empty()) << to_text(id);
+  EXPECT_EQ(id.beside.front().effect, "weightless_mass");
+  EXPECT_NEAR(id.beside.front().parameters.front().value, -0.4, 0.02);
+  EXPECT_NEAR(number(id, "mass_kg").value, 0.75, 0.0075);
+}
+
 /// A list of poses at rest, every 10 s or so.
 Table poses_with_times() {
   Setting setting;
