@@ -6,6 +6,9 @@
 #include <map>
 #include <numeric>
 
+#include "data/spikes.h"
+#include "dcnn/data/filter.h"
+
 namespace dcnn {
 namespace {
 
@@ -91,22 +94,77 @@ void keep_every(Recording& recording, const std::vector<std::string>& columns, I
       " are held from row to row: one row in " + std::to_string(every) + " is used");
 }
 
+/// Rows for which each source of a recording holds its values.
+struct Holds {
+  std::vector<Index> rows;
+  std::size_t slowest() const {
+    return static_cast<std::size_t>(std::max_element(rows.begin(), rows.end()) - rows.begin());
+  }
+};
+
+constexpr double kOfNewRate = 0.4;  // below half, for the slope of the low-pass
+
+void average_readings(Recording& recording, const std::vector<Source>& sources, const Holds& holds,
+                      Index every) {
+  const double hz = kOfNewRate / (static_cast<double>(every) * recording.dt);
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    const auto& columns = sources[k].columns;
+    if (!sources[k].reading || holds.rows[k] > 1) continue;
+    mend_spikes(recording, columns);
+    const Eigen::MatrixXd smooth = low_pass(recording.block(columns), recording, hz);
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      recording.set(columns[j], smooth.col(static_cast<Index>(j)));
+    }
+  }
+}
+
 }  // namespace
 
-void keep_new_rows(const std::vector<Recording*>& recordings,
-                   const std::vector<std::string>& columns) {
-  std::vector<Index> held;
+std::vector<Source> sources_of(const Recording& recording, const System& system) {
+  const auto add = [&](const std::vector<std::string>& names, Source& to) {
+    for (const std::string& name : names) {
+      const bool again = std::count(to.columns.begin(), to.columns.end(), name) > 0;
+      if (recording.has(name) && !again) to.columns.push_back(name);
+    }
+  };
+  Source measured{{}, true}, simulated{{}, true}, motion;
+  if (system.kind == System::Kind::kWrist) {
+    add({"fx", "fy", "fz", "tx", "ty", "tz"}, measured);
+    add({"fx_sim", "fy_sim", "fz_sim", "tx_sim", "ty_sim", "tz_sim"}, simulated);
+    for (const auto& pose : {kPosition, kEuler, kQuaternion}) add(pose, motion);
+    add({"vx", "vy", "vz", "wx", "wy", "wz", "ax", "ay", "az", "dwx", "dwy", "dwz"}, motion);
+  }
+  for (const Axis& axis : system.axes) {
+    add({axis.measured}, measured);
+    add({axis.simulated}, simulated);
+    add({axis.position, axis.velocity, axis.acceleration}, motion);
+    add(axis.base, motion);
+  }
+  std::vector<Source> sources{measured, simulated, motion};
+  std::erase_if(sources, [](const Source& source) { return source.columns.empty(); });
+  return sources;
+}
+
+void keep_new_rows(const std::vector<Recording*>& recordings, const System& system) {
+  std::vector<std::vector<Source>> sources;
+  std::vector<Holds> holds;
   Index every = 1;
   for (const Recording* recording : recordings) {
-    held.push_back(held_rows(*recording, columns));
-    every = std::lcm(every, held.back());
+    Holds& hold = holds.emplace_back();
+    for (const Source& source : sources.emplace_back(sources_of(*recording, system))) {
+      hold.rows.push_back(held_rows(*recording, source.columns));
+    }
+    every = std::lcm(every, hold.rows[hold.slowest()]);
   }
   const bool enough = std::all_of(recordings.begin(), recordings.end(), [&](const Recording* r) {
-    return r->samples() >= kFewest * every;
+    const double step = static_cast<double>(every) * r->dt;
+    return r->samples() >= kFewest * every && system.lowpass_hz * step < kOfNewRate;
   });
   if (every == 1 || every > kLongest || !enough) return;
   for (std::size_t k = 0; k < recordings.size(); ++k) {
-    keep_every(*recordings[k], columns, held[k], every);
+    average_readings(*recordings[k], sources[k], holds[k], every);
+    const std::size_t slowest = holds[k].slowest();
+    keep_every(*recordings[k], sources[k][slowest].columns, holds[k].rows[slowest], every);
   }
 }
 

@@ -17,9 +17,19 @@ bool never_changes(const Eigen::VectorXd& column);
 /// than 20 changes tell.
 Index held_rows(const Recording& recording, const std::vector<std::string>& columns);
 
-/// Leaves the rows in which values of these columns are new in all recordings, so that they keep
-/// one rate, and notes so: the others repeat a reading beside a pose that has moved on.
-void keep_new_rows(const std::vector<Recording*>& recordings,
-                   const std::vector<std::string>& columns);
+/// Columns that one source of a log writes together.
+struct Source {
+  std::vector<std::string> columns;
+  bool reading = false;  ///< of a sensor or a simulator; else of the motion
+};
+/// Of a recording: what is measured, what is simulated, and the motion with all that follows it.
+std::vector<Source> sources_of(const Recording& recording, const System& system);
+
+/// Leaves the rows in which the slowest source of each recording has new values, so that all
+/// recordings keep one rate, and notes so: other rows repeat a reading beside a pose that has moved
+/// on, or a pose beside a reading that has. A reading that is new in every row loses its spikes and
+/// is low-passed first, without delay, to what the rate that is left can hold. Where a declared
+/// low-pass lies above that all rows stay.
+void keep_new_rows(const std::vector<Recording*>& recordings, const System& system);
 
 }  // namespace dcnn

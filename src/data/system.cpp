@@ -18,7 +18,8 @@ std::string default_position_unit(const Axis& axis) {
   std::string name;
   for (const unsigned char c : axis.position) name += static_cast<char>(std::tolower(c));
   const auto says = [&](const char* word) { return name.find(word) != std::string::npos; };
-  const bool angle = says("angle") || says("theta") || name.ends_with("rad");
+  const bool angle = says("angle") || says("theta") || says("roll") || says("pitch") ||
+                     says("yaw") || name.ends_with("rad");
   return angle || name.starts_with("q_") ? "rad" : "";
 }
 

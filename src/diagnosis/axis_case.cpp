@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "data/held_rows.h"
 #include "data/median.h"
 #include "data/spikes.h"
 #include "dcnn/data/filter.h"
@@ -28,7 +29,6 @@ std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
   std::vector<Recording> recordings;
   for (const auto& path : paths) {
     recordings.push_back(read_recording(path, options, system));
-    mend_spikes(recordings.back(), find_targets(recordings.back(), system).names);
   }
   return recordings;
 }
@@ -231,10 +231,14 @@ LoadedAxes load_axes(const DiagnosisRequest& request) {
           ": describes a wrist tool; give --sim instead, or \"kind\": \"axes\"");
   auto fit = read_all(request.fit, request.read, system);
   auto holdout = read_all(request.holdout, request.read, system);
+  std::vector<Recording*> both;
+  for (auto* list : {&fit, &holdout}) {
+    for (Recording& recording : *list) both.push_back(&recording);
+  }
+  keep_new_rows(both, system);
+  for (Recording* recording : both) mend_spikes(*recording, find_targets(*recording, system).names);
   if (machine) {
-    for (auto* list : {&fit, &holdout}) {
-      for (Recording& recording : *list) add_predictions(*machine, recording);
-    }
+    for (Recording* recording : both) add_predictions(*machine, *recording);
     for (Axis& axis : system.axes) {
       axis.simulated = predicted_column(axis);
       axis.base.clear();

@@ -215,7 +215,7 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   }
   std::vector<std::string> targets(kChannels.begin(), kChannels.end());
   std::erase_if(targets, [&](const std::string& name) { return !both.front()->has(name); });
-  keep_new_rows(both, targets);
+  keep_new_rows(both, System());
   for (Recording* recording : both) mend_spikes(*recording, targets);
   if (request.simulator) leave_out_inertial_force(both, study.simulator.model);
   std::vector<Recording> all = fit;
