@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/elementary.h"
+#include "data/kept_rows.h"
 #include "data/limits.h"
 #include "data/spline.h"
 
@@ -246,18 +247,17 @@ void check_regular(Recording& recording, const std::string& file) {
 
 void drop_short_stretches(Recording& recording, Index least) {
   if (recording.dt == 0.0) return;
-  std::vector<Index> kept;
-  std::vector<Segment> segments;
+  std::vector<bool> kept(static_cast<std::size_t>(recording.samples()), false);
+  Index dropped = recording.samples();
   for (const Segment& segment : recording.segments) {
     if (segment.size() < least) continue;
-    segments.push_back({static_cast<Index>(kept.size()), 0});
-    for (Index row = segment.begin; row < segment.end; ++row) kept.push_back(row);
-    segments.back().end = static_cast<Index>(kept.size());
+    dropped -= segment.size();
+    std::fill(kept.begin() + segment.begin, kept.begin() + segment.end, true);
   }
-  const Index dropped = recording.samples() - static_cast<Index>(kept.size());
-  if (dropped == 0 || kept.empty()) return;  // too short as a whole: who needs derivatives says so
-  recording.table.values = Eigen::MatrixXd(recording.table.values(kept, Eigen::all));
-  recording.segments = std::move(segments);
+  if (dropped == 0 || dropped == recording.samples())
+    return;  // too short as a whole: who needs
+             // derivatives says so
+  keep_rows(recording, kept);
   recording.notes.push_back(std::to_string(dropped) + " rows in stretches shorter than " +
                             std::to_string(least) + " rows between gaps: left out");
 }

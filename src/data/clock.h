@@ -13,8 +13,8 @@ namespace dcnn {
 /// explains.
 std::optional<double> step_of_rounded(const Eigen::VectorXd& t);
 
-/// Whether a step of a clock [s] is a gap of the recording: longer than five of its usual steps `dt`
-/// and than what jitter makes of five.
+/// Whether a step of a clock [s] is a gap of the recording: longer than five of its usual steps
+/// `dt` and than what jitter makes of five.
 bool is_gap(double step, double dt);
 
 /// Checks column t (line = row + 2 in errors that name `file`), moves its origin where it is an

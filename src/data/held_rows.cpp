@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "data/kept_rows.h"
 #include "data/spikes.h"
 #include "dcnn/data/filter.h"
 
@@ -68,8 +69,7 @@ void keep_every(Recording& recording, const std::vector<std::string>& columns, I
                 Index every) {
   const Eigen::MatrixXd values = recording.block(columns);
   const std::vector<Index> places = places_of(recording);
-  std::vector<Index> kept;
-  std::vector<Segment> segments;
+  std::vector<bool> kept(places.size(), false);
   for (const Segment& segment : recording.segments) {
     std::map<Index, Index> phases;
     for (const Index place : changes_in(values, segment, places)) ++phases[place % held];
@@ -77,17 +77,12 @@ void keep_every(Recording& recording, const std::vector<std::string>& columns, I
         std::max_element(phases.begin(), phases.end(),
                          [](const auto& a, const auto& b) { return a.second < b.second; });
     const Index phase = most == phases.end() ? 0 : most->first;
-    const auto begin = static_cast<Index>(kept.size());
-    for (Index row = segment.begin; row < segment.end; ++row) {
-      if (places[static_cast<std::size_t>(row)] % every == phase) kept.push_back(row);
-    }
-    if (static_cast<Index>(kept.size()) > begin) {
-      segments.push_back({begin, static_cast<Index>(kept.size())});
+    for (auto row = static_cast<std::size_t>(segment.begin);
+         row < static_cast<std::size_t>(segment.end); ++row) {
+      kept[row] = places[row] % every == phase;
     }
   }
-  const Eigen::MatrixXd rows = recording.table.values(kept, Eigen::all);
-  recording.table.values = rows;
-  recording.segments = segments;
+  keep_rows(recording, kept);
   recording.dt *= static_cast<double>(every);
   recording.notes.push_back(
       "values of " + columns.front() + (columns.size() > 1 ? " and its companions" : "") +

@@ -6,6 +6,7 @@
 
 #include "data/held_rows.h"
 #include "data/median.h"
+#include "data/repeated_rows.h"
 #include "data/spikes.h"
 #include "dcnn/data/filter.h"
 #include "dcnn/physics/axis_machine.h"
@@ -236,7 +237,11 @@ LoadedAxes load_axes(const DiagnosisRequest& request) {
     for (Recording& recording : *list) both.push_back(&recording);
   }
   keep_new_rows(both, system);
-  for (Recording* recording : both) mend_spikes(*recording, find_targets(*recording, system).names);
+  for (Recording* recording : both) {
+    const std::vector<std::string> targets = find_targets(*recording, system).names;
+    leave_out_repeats(*recording, targets);
+    mend_spikes(*recording, targets);
+  }
   if (machine) {
     for (Recording* recording : both) add_predictions(*machine, *recording);
     for (Axis& axis : system.axes) {

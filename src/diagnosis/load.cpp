@@ -8,6 +8,7 @@
 #include "data/clock.h"
 #include "data/held_rows.h"
 #include "data/known_columns.h"
+#include "data/repeated_rows.h"
 #include "data/spikes.h"
 #include "diagnosis/simulated_inertia.h"
 #include "physics/effect_law.h"
@@ -216,7 +217,10 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   std::vector<std::string> targets(kChannels.begin(), kChannels.end());
   std::erase_if(targets, [&](const std::string& name) { return !both.front()->has(name); });
   keep_new_rows(both, System());
-  for (Recording* recording : both) mend_spikes(*recording, targets);
+  for (Recording* recording : both) {
+    leave_out_repeats(*recording, targets);
+    mend_spikes(*recording, targets);
+  }
   if (request.simulator) leave_out_inertial_force(both, study.simulator.model);
   std::vector<Recording> all = fit;
   all.insert(all.end(), holdout.begin(), holdout.end());
