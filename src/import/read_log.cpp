@@ -8,6 +8,7 @@
 #include "dcnn/import/log.h"
 #include "import/json_log.h"
 #include "import/log_builder.h"
+#include "import/mat_tags.h"
 #include "import/readers.h"
 #include "import/text_log.h"
 
@@ -81,7 +82,7 @@ void read_one(const fs::path& path, std::size_t number, LogBuilder& builder) {
   if (starts("SQLite format 3")) return read_db3(path, builder);
   if (starts("\x93NUMPY")) return read_npy(path, name, builder);
   if (starts("PK\x03\x04")) return read_npz(path, builder);
-  if (starts("MATLAB ")) return read_mat(path, builder);
+  if (starts("MATLAB ") || is_mat4(begin)) return read_mat(path, builder);
   if (is_json(begin)) return read_json_log(path, builder);
   read_text_log(path, name, builder);
 }

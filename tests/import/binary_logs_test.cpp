@@ -65,7 +65,8 @@ INSTANTIATE_TEST_SUITE_P(
         WrittenLog{"mcap", "none", "plain.mcap"}, WrittenLog{"mcap", "lz4", "lz4.mcap"},
         WrittenLog{"mcap", "zstd", "zstd.mcap"}, WrittenLog{"npz", "none", "stored.npz"},
         WrittenLog{"npz", "deflate", "packed.npz"}, WrittenLog{"mat", "none", "plain.mat"},
-        WrittenLog{"mat", "deflate", "packed.mat"}, WrittenLog{"mat73", "none", "hdf5.mat"}),
+        WrittenLog{"mat", "deflate", "packed.mat"}, WrittenLog{"mat4", "none", "four.mat"},
+        WrittenLog{"mat73", "none", "hdf5.mat"}),
     [](const auto& instance) {
       return std::string(instance.param.kind) + "_" + instance.param.compression;
     });
@@ -120,7 +121,8 @@ TEST(BinaryLogs, DamagedFilesAreErrors) {
   for (const WrittenLog& log :
        {WrittenLog{"bag", "lz4", "a.bag"}, WrittenLog{"db3", "none", "a.db3"},
         WrittenLog{"mcap", "zstd", "a.mcap"}, WrittenLog{"npz", "deflate", "a.npz"},
-        WrittenLog{"mat", "none", "a.mat"}, WrittenLog{"mat", "deflate", "b.mat"}}) {
+        WrittenLog{"mat", "none", "a.mat"}, WrittenLog{"mat", "deflate", "b.mat"},
+        WrittenLog{"mat4", "none", "c.mat"}}) {
     const auto path = folder / log.file;
     if (!write_log(log, path)) continue;
     const std::string bytes = test::slurp(path);

@@ -322,6 +322,11 @@ def write_mat(path, compression):
     scipy.io.savemat(path, data, do_compression=compression == "deflate")
 
 
+def write_mat4(path, _):
+    import scipy.io
+    scipy.io.savemat(path, arrays(), format="4")
+
+
 def write_cells_mat(path, _):
     import numpy
     import scipy.io
