@@ -144,7 +144,9 @@ std::vector<double> masses_of(const Search& search, const std::vector<Alternativ
   return odds;
 }
 
+// One that leaves what no noise explains stands beside an unknown, and has its odds too.
 std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldOut& holdout) {
+  static const double kBesideUnknown = elementary::log(prior::kUnknown / (1.0 - prior::kUnknown));
   constexpr int kMostRounds = 6;  // a limit of computation: each round searches all places again
   Exchanges exchanges;
   for (int round = 0;; ++round) {
@@ -152,11 +154,11 @@ std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldO
     exchanges.make_symmetric(search.fit().members, alternatives);
     add_support(search, holdout, alternatives);
     double most = 0.0;
-    const Alternative* best = nullptr;
+    Alternative* best = nullptr;
     for (std::size_t m = 0; m < alternatives.size(); ++m) {
       const auto masses = masses_of(search, alternatives[m]);
       for (std::size_t k = 0; k < alternatives[m].size(); ++k) {
-        const Alternative& other = alternatives[m][k];
+        Alternative& other = alternatives[m][k];
         const double odds = masses[k + 1] / masses[0];
         if (odds > most && goes_before(other, search.fit().members[m], odds)) {
           most = odds, best = &other;
@@ -174,7 +176,9 @@ std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldO
     search.hold_untold();  // what a fault of the sensor has in common may be a mass
     search.leave_idle_names();
     if (remained || !search.remains()) continue;
-    search.adopt(before);  // the likelier one leaves what no noise explains
+    if (elementary::log(most) + kBesideUnknown > elementary::log(prior::kLikelier)) continue;
+    search.adopt(before);
+    best->log_support += kBesideUnknown;
     leave_out_improbable(search, alternatives);
     return alternatives;
   }

@@ -198,6 +198,23 @@ TEST(Recording, ResamplesLinearSignalsExactly) {
   }
 }
 
+// Rows that come in bursts: what is a gap of theirs is a row or two of a slower clock.
+TEST(Recording, ResamplesBurstsToOneSlowerClock) {
+  const auto text = log_text([](Index i, auto& row) {
+    row[0] += 0.03 * static_cast<double>(i / 5);
+    row[1] = 0.1 * row[0];
+  });
+  ReadOptions options;
+  options.resample = true;
+  options.resample_hz = 50.0;
+  const Recording recording = read(text, options);
+  EXPECT_EQ(recording.segments.size(), 1u);
+  EXPECT_TRUE(noted(recording, "bridged"));
+  const Eigen::VectorXd t = recording.column("t");
+  EXPECT_LT((recording.column("x") - 0.1 * t).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT(((t.tail(t.size() - 1) - t.head(t.size() - 1)).array() - 0.02).abs().maxCoeff(), 1e-12);
+}
+
 TEST(Recording, ResamplesAnglesAcrossTheBranch) {
   const auto text = log_text([](Index i, auto& row) {
     if (i % 10 == 5) row[0] += 0.001;
