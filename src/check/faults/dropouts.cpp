@@ -4,6 +4,7 @@
 
 #include "check/rows.h"
 #include "core/tails.h"
+#include "data/clock.h"
 
 namespace dcnn::check {
 namespace {
@@ -31,8 +32,14 @@ void find_dropouts_in(const Log& log, const std::vector<std::string>& names,
     noise[j] = std::max(noise_of(values.col(j)), 0.5 * resolution(values.col(j)));
   }
   const auto zero = [&](Eigen::Index i) { return (values.row(i).array() == 0.0).all(); };
-  const auto far = [&](Eigen::Index i) {
-    return (values.row(i).transpose().array().abs() > kFarFromZero * noise.array()).any();
+  // Of rows on either side, in one channel on one side of zero: what changes its sign passes there.
+  const auto far = [&](Eigen::Index before, Eigen::Index after) {
+    const Eigen::ArrayXd a = values.row(before), b = values.row(after);
+    const Eigen::ArrayXd least = kFarFromZero * noise.array();
+    return ((a > least && b > least) || (a < -least && b < -least)).any();
+  };
+  const auto beside_gap = [&](Eigen::Index i) {
+    return log.t.size() > 0 && is_gap(log.t[i + 1] - log.t[i], log.step);
   };
   Eigen::Index begin = 0;
   for (Eigen::Index i = 0; i < values.rows(); i = begin) {
@@ -42,7 +49,8 @@ void find_dropouts_in(const Log& log, const std::vector<std::string>& names,
     while (end < values.rows() && zero(end)) ++end;
     begin = end;
     if (i == 0 || end == values.rows() || !moves(i - 1, end + 1)) continue;
-    if (!far(i - 1) || !far(end)) {
+    if (beside_gap(i - 1) || beside_gap(end - 1)) continue;
+    if (!far(i - 1, end)) {
       ordinary += end - i;
       continue;
     }
