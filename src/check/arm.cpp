@@ -184,17 +184,13 @@ VectorXd solve(const std::vector<NormalJoint>& joints, const VectorXd& weight) {
   return below ? VectorXd(normal.ldlt().solve(right)) : x;
 }
 
-double deviation(const VectorXd& values) {
-  const VectorXd centred = values.array() - values.mean();
-  return std::sqrt(centred.squaredNorm() / static_cast<double>(std::max<Index>(1, centred.size())));
-}
-
 /// (joints), N·m below which a residual tells readings apart no more: descriptions are no better.
+/// Of all of a torque, its mean too: where a joint hardly moves its torque varies by its friction.
 VectorXd floors_of(const MatrixXd& torque, const std::vector<NormalJoint>& joints) {
   VectorXd floors(torque.cols());
   for (Index j = 0; j < torque.cols(); ++j) {
     const VectorXd described = torque.col(j) - joints[static_cast<std::size_t>(j)].rest;
-    floors[j] = kArmError * std::max(deviation(torque.col(j)), deviation(described)) + 1e-150;
+    floors[j] = kArmError * std::max(rms_of(torque.col(j)), rms_of(described)) + 1e-150;
   }
   return floors;
 }

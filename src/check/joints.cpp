@@ -27,10 +27,6 @@ void append_gravity(MatrixXd& A, const VectorXd& angle) {
   append(A, elementary::cos(angle.array()).matrix());
 }
 
-double rms_of(const VectorXd& values) {
-  return std::sqrt(values.squaredNorm() / static_cast<double>(std::max<Index>(1, values.size())));
-}
-
 /// The shaft of a motor or a wheel: in degrees, too, it turns farther than the cables of an arm's
 /// joint allow, or farther than once without turning back. Its size tells no unit.
 bool turns_endlessly(const VectorXd& angle) {

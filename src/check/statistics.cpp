@@ -14,6 +14,10 @@ double median(const Eigen::VectorXd& values) {
   return values.size() == 0 ? 0.0 : dcnn::median({values.begin(), values.end()});
 }
 
+double rms_of(const VectorXd& values) {
+  return std::sqrt(values.squaredNorm() / static_cast<double>(std::max<Index>(1, values.size())));
+}
+
 bool varies(const Eigen::VectorXd& values) {
   return values.size() > 0 && values.maxCoeff() > values.minCoeff();
 }

@@ -10,6 +10,7 @@
 namespace dcnn::check {
 
 double median(const Eigen::VectorXd& values);  ///< 0 for none
+double rms_of(const Eigen::VectorXd& values);  ///< 0 for none
 /// Not one value throughout, of which the mean differs by rounding.
 bool varies(const Eigen::VectorXd& values);
 /// Standard deviation of normal values by their median absolute deviation.
