@@ -67,10 +67,31 @@ std::optional<std::size_t> Search::cancelled() const {
   return least;
 }
 
+/// Puts a law's plain form in the place of one that bends it and does not leave less by what its
+/// further numbers cost: a bent law is found where a plain one acts beside another that is missing.
+bool Search::straighten() {
+  bool changed = false;
+  for (std::size_t m = 0; m < fit_.members.size(); ++m) {
+    const Member& member = fit_.members[m];
+    const EffectFit& form = member.kind->fits.front();
+    if (!member.form->special || !form.shapes.empty() || stays(member)) continue;
+    const Member plain = make_member(study_, *member.kind, form, member.axis, Eigen::VectorXd(0));
+    const int fewer = member.parameters() - plain.parameters();
+    if (fewer <= 0) continue;
+    std::vector<Member> members = fit_.members;
+    members[m] = plain;
+    const JointFit other = joint_fit(*setting_, std::move(members));
+    if (other.chi2 - fit_.chi2 > setting_->price * fewer) continue;
+    settle(std::vector<Member>(other.members));
+    changed = true;
+  }
+  return changed;
+}
+
 /// Leaves out members that no longer earn their numbers, are another law where the fit ends, or
 /// cancel each other.
 bool Search::simplify() {
-  bool changed = false;
+  bool changed = straighten();
   while (const auto member = cancelled()) {
     settle(std::vector<Member>(without(*member).members));
     changed = true;

@@ -107,6 +107,12 @@ Member make(const Case& study, const EffectKind& kind, const EffectFit& form,
       member.most_shapes(i) = std::min(double(member.most_shapes(i)), within);
       member.shapes(i) = std::min(double(member.shapes(i)), double(member.most_shapes(i)));
     }
+    if (shape.speed == ShapeParameter::Speed::kBending) {
+      member.least_shapes(i) = 0.5 * top->second;
+      member.most_shapes(i) = 5.0 * top->second;
+      member.shapes(i) = std::clamp(double(member.shapes(i)), double(member.least_shapes(i)),
+                                    double(member.most_shapes(i)));
+    }
   }
   if (with_torque && has_lever(kind)) add_lever(member);
   return member;

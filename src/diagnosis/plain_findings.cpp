@@ -80,8 +80,14 @@ std::string viscous_part(const Json& findings) {
   }
   const double c = said_value(even, "c");
   const std::string unit = unit_of(even, "c");
-  if (uneven.is_null()) return brief(c) + " " + unit + " viscous";
-  return brief(c + d) + " " + unit + " viscous forwards and " + brief(c - d) + " backwards";
+  std::string slower;
+  if (!numbers_of(even, "v1").is_null()) {
+    slower = " at low speed, half of that from " + brief(said_value(even, "v1")) + " " +
+             unit_of(even, "v1") + " on";
+  }
+  if (uneven.is_null()) return brief(c) + " " + unit + " viscous" + slower;
+  return brief(c + d) + " " + unit + " viscous forwards and " + brief(c - d) + " backwards" +
+         slower;
 }
 
 /// The way in which bristles give way: fc/sigma0, in thousandths; nothing where it is not told.

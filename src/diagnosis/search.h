@@ -176,6 +176,7 @@ class Search {
   void fit_beside_base(const std::vector<Member>& members);
   bool grow();
   bool simplify();
+  bool straighten();
   std::optional<std::size_t> cancelled() const;
   bool swap();
   bool floor_moved() const;

@@ -27,6 +27,7 @@ const std::map<std::string, std::string>& stem_words() {
       {"fc", "friction force"},
       {"fs", "friction force at standstill"},
       {"v0", "speed scale of its change of sign"},
+      {"v1", "speed at which half of the viscous coefficient is lost"},
       {"vs", "speed above which friction falls"},
       {"c", "viscous coefficient"},
       {"c2", "drag coefficient"},

@@ -96,6 +96,14 @@ bool has_dimension(const std::string& quantity) {
          quantity != "current";
 }
 
+/// Of a joint: ", of one that slides: m, mm, …".
+std::string units_if_it_slides(const std::string& to) {
+  for (const char* quantity : {"length", "velocity", "force"}) {
+    if (is_of_sliding_axis(to, quantity)) return ", of one that slides: " + units_of(quantity);
+  }
+  return "";
+}
+
 void propose_unit(const ForeignLog& log, const ImportWishes& wishes, ColumnRule* rule) {
   const Source source = source_of(log, *rule);
   const std::string quantity = quantity_of_column(rule->to);
@@ -108,12 +116,13 @@ void propose_unit(const ForeignLog& log, const ImportWishes& wishes, ColumnRule*
     const auto unit = find_unit(rule->unit);
     require(unit.has_value(), Exit::kUsage, "--unit ", rule->to, "=", rule->unit,
             ": is no unit that is known here", quantity.empty() ? "" : " of " + quantity,
-            "; there are ", units_of(quantity));
+            "; there are ", units_of(quantity), units_if_it_slides(rule->to));
     const bool other = !quantity.empty() && has_dimension(unit->quantity) &&
                        unit->quantity != quantity && rule->gain == 1.0 &&
                        !is_of_sliding_axis(rule->to, unit->quantity);
     require(!other, Exit::kUsage, "--unit ", rule->to, "=", rule->unit, ": is a unit of ",
-            unit->quantity, ", and ", rule->to, " is one of ", quantity, ": ", units_of(quantity));
+            unit->quantity, ", and ", rule->to, " is one of ", quantity, ": ", units_of(quantity),
+            units_if_it_slides(rule->to));
     return;
   }
   const auto stated = find_unit(source.channel->unit);

@@ -34,6 +34,7 @@ class JointFinder {
     }
     learn_names();
     by_name();
+    if (found_.empty()) by_pairs();
     take_currents();
     leave_lone();
     if (found_.empty() && said_.empty()) only_joint();
@@ -167,6 +168,37 @@ class JointFinder {
         stream_of[role] = stream.name;
         found_.push_back({.to = role, .stream = stream.name, .channel = channel.name});
       }
+    }
+  }
+
+  /// Columns as these tools write them, of joints of any name: q_LJ3 beside tau_LJ3. (q_x beside
+  /// tau_x is a part of a quaternion and a torque of a wrench.)
+  void by_pairs() {
+    for (const LogStream* stream : usable()) {
+      std::map<std::string, std::string> names[3];  // of q_, qd_ and tau_, by the joint
+      const std::string quantities[] = {"q", "qd", "tau"};
+      for (const LogChannel& channel : stream->channels) {
+        const std::string own = channel.name.substr(channel.name.find_last_of("./") + 1);
+        for (int k = 0; k < 3; ++k) {
+          const std::string prefix = quantities[k] + "_";
+          if (!own.starts_with(prefix) || channel.finite == 0) continue;
+          const std::string joint = own.substr(prefix.size());
+          const bool part = joint.size() == 1 && joint.find_first_of("wxyz") != joint.npos;
+          if (!joint.empty() && !part && !is_used(stream->name, channel.name)) {
+            names[k][joint] = channel.name;
+          }
+        }
+      }
+      for (const auto& [joint, position] : names[0]) {
+        if (!names[2].contains(joint)) continue;
+        for (int k = 0; k < 3; ++k) {
+          if (!names[k].contains(joint)) continue;
+          const std::string& channel = names[k].at(joint);
+          found_.push_back(
+              {.to = quantities[k] + ":" + joint, .stream = stream->name, .channel = channel});
+        }
+      }
+      if (!found_.empty()) return;
     }
   }
 

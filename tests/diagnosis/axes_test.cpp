@@ -432,10 +432,11 @@ TEST(DiagnoseAxes, DiscoversAnEddyCurrentBrake) {
   }
 }
 
-// Dry and viscous friction together imitate a root of the speed; one law explains more than both.
+// Dry friction and a drag that grows slower at speed imitate a root of the speed; one law explains
+// more than both.
 TEST(DiagnoseAxes, OneLawStandsInThePlaceOfTwoNames) {
   const Json report = AxisBench([](const State& s) {
-                        return 0.5 * std::copysign(std::sqrt(std::abs(s.v) / 0.5), s.v);
+                        return 2.0 * std::copysign(std::sqrt(std::abs(s.v) / 0.5), s.v);
                       })
                           .diagnose(one_axis())
                           .report;

@@ -127,6 +127,22 @@ TEST(DiagnoseHardware, AVariationThatHeldOutDataRefuteIsNone) {
       << report["findings"].dump(1);
 }
 
+/// As in harmonic drives. A drag that does not bend has no such number, above and below.
+TEST(DiagnoseHardware, NamesADragThatGrowsSlowerAtSpeed) {
+  const Json report = report_on(
+      [](const AxisState& s) { return 0.5 * dry(s.v) + 0.8 * s.v / (1.0 + std::abs(s.v) / 1.5); });
+  EXPECT_EQ(found(report), (Names{"coulomb_friction", "viscous_friction"}))
+      << report["findings"].dump(1);
+  const Json* drag = named(report, "viscous_friction");
+  ASSERT_TRUE(drag && (*drag)["parameters"].contains("v1")) << report["findings"].dump(1);
+  EXPECT_NEAR(told(*drag, "c"), 0.8, 0.05);
+  EXPECT_NEAR(told(*drag, "v1"), 1.5, 0.3);
+  const Json even = report_on([](const AxisState& s) { return 0.5 * dry(s.v) + 0.6 * s.v; });
+  ASSERT_TRUE(named(even, "viscous_friction")) << even["findings"].dump(1);
+  EXPECT_FALSE((*named(even, "viscous_friction"))["parameters"].contains("v1"))
+      << even["findings"].dump(1);
+}
+
 TEST(DiagnoseHardware, NamesFrictionThatDiffersBetweenTheDirections) {
   const Json report = report_on([](const AxisState& s) { return (s.v > 0.0 ? 0.7 : 0.4) * s.v; });
   EXPECT_EQ(found(report), (Names{"asymmetric_friction", "viscous_friction"}))

@@ -99,6 +99,22 @@ TEST(JointColumns, ThatAreCountedAreNoMatrix) {
   EXPECT_EQ(role_of(frame, "T14"), "x");
 }
 
+TEST(JointColumns, AsTheseToolsWriteThemMayHaveAnyName) {
+  std::string text = "t,q_LJ1,q_Fore arm,tau_LJ1,tau_Fore arm,tau_extra\n";
+  for (int k = 0; k < 60; ++k) {
+    const double t = 0.01 * k;
+    for (const double value : {t, std::sin(t), std::cos(t), 2.0 + t, 3.0 - t}) {
+      text += std::to_string(value) + ",";
+    }
+    text += "1.5\n";
+  }
+  const Imported imported = import_text(text);
+  for (const char* name : {"q_LJ1", "q_Fore arm", "tau_LJ1", "tau_Fore arm"}) {
+    EXPECT_TRUE(has_column(imported, name)) << name;
+  }
+  EXPECT_FALSE(has_column(imported, "tau_extra"));
+}
+
 TEST(JointColumns, OfAnImuAreNoAccelerationOfTheOrigin) {
   const LogStream stream = text_stream("log");
   EXPECT_EQ(role_of(stream, "imu_ax"), "");

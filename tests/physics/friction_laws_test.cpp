@@ -48,6 +48,15 @@ TEST(Viscous, IsLinearAndQuadraticDragIsSquare) {
   EXPECT_LT((square + 5.0 * v.cwiseProduct(v.cwiseAbs())).norm(), 1e-12);
 }
 
+TEST(Viscous, GrowsSlowerAtSpeedWhereItBends) {
+  const Vector3d v(0.5, -1.5, 1e-9);
+  const VectorXd force = friction_force(
+      make_effect("viscous_friction", "base_z", {{"c_nspm", 2.0}, {"v1_mps", 1.5}}), v);
+  EXPECT_NEAR(force(0), -2.0 * 0.5 / (1.0 + 0.5 / 1.5), 1e-12);
+  EXPECT_NEAR(force(1), 0.5 * 2.0 * 1.5, 1e-12) << "half of the coefficient is lost there";
+  EXPECT_NEAR(force(2) / v(2), -2.0, 1e-6);
+}
+
 TEST(Stribeck, FallsFromFsToFc) {
   const auto effect =
       make_effect("stribeck_friction", "tool_z",

@@ -100,8 +100,9 @@ struct ShapeParameter {
   int length = 0, time = 0;
   /// What the fastest motion along the axis bounds. kTurning: a speed within which friction turns,
   /// at most half of it, beyond which it is no dry friction but grows with speed. kFalling: a speed
-  /// over which friction falls, as far as it.
-  enum class Speed { kAny, kTurning, kFalling };
+  /// over which friction falls, as far as it. kBending: a speed about which drag grows slower, from
+  /// half of it, below which it is dry friction, to five times it, beyond which nothing bends.
+  enum class Speed { kAny, kTurning, kFalling, kBending };
   Speed speed = Speed::kAny;
   /// What the likelihood looks like over it. kWide: one maximum over much of the range. kNarrow: as
   /// that of an order or a mode, within some per cent of a seed. kLine: as that of a frequency,
