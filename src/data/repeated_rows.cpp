@@ -10,10 +10,10 @@
 namespace dcnn {
 namespace {
 
-constexpr Index kStretch = 64;        // rows over which the shares are those of one motion
-constexpr double kByChance = 0.2;     // of the repeats at most
-constexpr double kDeviations = 5.0;   // of a Poisson count
-constexpr double kMostLeftOut = 0.5;  // of the rows
+constexpr Index kStretch = 64;         // rows over which the shares are those of one motion
+constexpr double kByChance = 0.2;      // of the repeats at most
+constexpr double kBeyondChance = 5.0;  // of a Poisson count
+constexpr double kMostLeftOut = 0.5;   // of the rows
 
 /// Repeats of a stretch: of each channel, and of all at once.
 struct Repeats {
@@ -64,7 +64,7 @@ void leave_out_repeats(Recording& recording, const std::vector<std::string>& col
     }
   }
   const bool few = seen < kMostLeftOut * static_cast<double>(values.rows());
-  if (expected > kByChance * seen || seen < expected + kDeviations * std::sqrt(expected + 1.0) ||
+  if (expected > kByChance * seen || seen < expected + kBeyondChance * std::sqrt(expected + 1.0) ||
       !few) {
     return;
   }
