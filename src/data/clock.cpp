@@ -67,16 +67,6 @@ double last_digit(const Eigen::Ref<const Eigen::VectorXd>& numbers) {
   return 0.0;
 }
 
-std::vector<Segment> split_at_gaps(const Eigen::VectorXd& t, double dt) {
-  std::vector<Segment> segments = {{0, t.size()}};
-  for (Index i = 1; i < t.size(); ++i) {
-    if (!is_gap(t[i] - t[i - 1], dt)) continue;
-    segments.back().end = i;
-    segments.push_back({i, t.size()});
-  }
-  return segments;
-}
-
 /// One line of all gaps, with the first ones and the longest.
 std::string words_of_gaps(const Eigen::VectorXd& t, const std::vector<Segment>& segments) {
   constexpr std::size_t kFew = 3;
@@ -141,6 +131,20 @@ std::optional<double> step_of_rounded(const Eigen::VectorXd& t) {
   return is_even ? std::optional(step) : std::nullopt;
 }
 
+std::vector<Segment> split_at_gaps(const Eigen::VectorXd& t, const std::vector<Segment>& stretches,
+                                   double dt) {
+  std::vector<Segment> segments;
+  for (const Segment& stretch : stretches) {
+    segments.push_back(stretch);
+    for (Index i = stretch.begin + 1; i < stretch.end; ++i) {
+      if (!is_gap(t[i] - t[i - 1], dt)) continue;
+      segments.back().end = i;
+      segments.push_back({i, stretch.end});
+    }
+  }
+  return segments;
+}
+
 void set_clock(Recording& recording, const std::string& file, bool poses) {
   recording.segments = {{0, recording.samples()}};
   if (!recording.has("t")) return;
@@ -174,7 +178,7 @@ void set_clock(Recording& recording, const std::string& file, bool poses) {
   require(recording.dt >= kFastestStep, Exit::kData, file, ": the median step of column 't' is ",
           recording.dt, " s, faster than any sensor; write t in seconds");
   recording.dt = step_of(t, recording.dt);
-  recording.segments = split_at_gaps(t, recording.dt);
+  recording.segments = split_at_gaps(t, recording.segments, recording.dt);
   if (recording.segments.size() > 1)
     recording.notes.push_back(words_of_gaps(t, recording.segments));
 }

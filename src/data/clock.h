@@ -17,6 +17,10 @@ std::optional<double> step_of_rounded(const Eigen::VectorXd& t);
 /// `dt` and than what jitter makes of five.
 bool is_gap(double step, double dt);
 
+/// These stretches of rows, split where a step of their times is a gap.
+std::vector<Segment> split_at_gaps(const Eigen::VectorXd& t, const std::vector<Segment>& stretches,
+                                   double dt);
+
 /// Checks column t (line = row + 2 in errors that name `file`), moves its origin where it is an
 /// epoch time, and fills dt and segments. A recording without t, and where `poses` one whose rows
 /// are a second or more apart, is a list of poses at rest: one segment, dt 0.

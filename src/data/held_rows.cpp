@@ -89,7 +89,7 @@ void keep_every(Recording& recording, const std::vector<std::string>& columns, I
       " are held from row to row: one row in " + std::to_string(every) + " is used");
 }
 
-/// Rows for which each source of a recording holds its values.
+/// Rows for which each source of a recording holds its values; of one source at least.
 struct Holds {
   std::vector<Index> rows;
   std::size_t slowest() const {
@@ -137,6 +137,7 @@ std::vector<Source> sources_of(const Recording& recording, const System& system)
   }
   std::vector<Source> sources{measured, simulated, motion};
   std::erase_if(sources, [](const Source& source) { return source.columns.empty(); });
+  require(!sources.empty(), Exit::kData, recording.name, ": has no column that is known here");
   return sources;
 }
 

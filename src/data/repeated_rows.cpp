@@ -31,21 +31,6 @@ Repeats repeats_of(const Eigen::MatrixXd& values, Index begin, Index end) {
   return repeats;
 }
 
-void split_at_gaps(Recording& recording) {
-  const Eigen::VectorXd t = recording.column("t");
-  std::vector<Segment> segments;
-  for (const Segment& segment : recording.segments) {
-    segments.push_back({segment.begin, segment.end});
-    for (Index i = segment.begin + 1; i < segment.end; ++i) {
-      if (!is_gap(t[i] - t[i - 1], recording.dt)) continue;
-      segments.back().end = i;
-      segments.push_back({i, segment.end});
-    }
-  }
-  recording.segments = std::move(segments);
-  drop_short_stretches(recording);
-}
-
 }  // namespace
 
 void leave_out_repeats(Recording& recording, const std::vector<std::string>& columns) {
@@ -69,7 +54,8 @@ void leave_out_repeats(Recording& recording, const std::vector<std::string>& col
     return;
   }
   keep_rows(recording, kept);
-  split_at_gaps(recording);
+  recording.segments = split_at_gaps(recording.column("t"), recording.segments, recording.dt);
+  drop_short_stretches(recording);
   recording.notes.push_back(std::to_string(static_cast<Index>(seen)) + " rows repeat " +
                             columns.front() +
                             " and its companions of the row before: they count as lost");

@@ -144,9 +144,9 @@ std::vector<double> masses_of(const Search& search, const std::vector<Alternativ
   return odds;
 }
 
-// One that leaves what no noise explains stands beside an unknown, and has its odds too.
+// One that leaves what no noise explains stands beside an unknown, and has its prior odds too.
 std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldOut& holdout) {
-  static const double kBesideUnknown = elementary::log(prior::kUnknown / (1.0 - prior::kUnknown));
+  constexpr double kBesideUnknown = prior::kUnknown / (1.0 - prior::kUnknown);
   constexpr int kMostRounds = 6;  // a limit of computation: each round searches all places again
   Exchanges exchanges;
   for (int round = 0;; ++round) {
@@ -176,9 +176,9 @@ std::vector<std::vector<Alternative>> adopt_likelier(Search& search, const HoldO
     search.hold_untold();  // what a fault of the sensor has in common may be a mass
     search.leave_idle_names();
     if (remained || !search.remains()) continue;
-    if (elementary::log(most) + kBesideUnknown > elementary::log(prior::kLikelier)) continue;
+    if (most * kBesideUnknown > prior::kLikelier) continue;
     search.adopt(before);
-    best->log_support += kBesideUnknown;
+    best->log_support += elementary::log(kBesideUnknown);
     leave_out_improbable(search, alternatives);
     return alternatives;
   }

@@ -28,9 +28,10 @@ struct Tag4 {
     return type < 2000 && precision <= 5 && type % 10 <= 2 && imaginary <= 1 && name >= 2 &&
            name <= kLongestName4;
   }
-  std::uint64_t bytes() const {  // of what follows the tag
-    constexpr std::uint64_t kSizes[] = {8, 4, 4, 2, 2, 1};
-    return name + std::uint64_t{rows} * columns * kSizes[type / 10 % 100] * (1 + imaginary);
+  /// Of what follows the tag; a double, for the product may be beyond 64 bits.
+  double bytes() const {
+    constexpr double kSizes[] = {8.0, 4.0, 4.0, 2.0, 2.0, 1.0};
+    return name + 1.0 * rows * columns * kSizes[type / 10 % 100] * (1 + imaginary);
   }
 };
 Tag4 tag4_of(std::string_view bytes) {
@@ -48,9 +49,9 @@ MatOutline outline_of_mat4(std::ifstream& file, std::uint64_t size) {
     outline.cut = !file.read(bytes.data(), bytes.size());
     if (outline.cut) break;
     const Tag4 tag = tag4_of({bytes.data(), bytes.size()});
-    outline.cut = !tag.is_valid() || tag.bytes() > size - at - kTag4Bytes;
+    outline.cut = !tag.is_valid() || tag.bytes() > static_cast<double>(size - at - kTag4Bytes);
     if (outline.cut) break;
-    at += kTag4Bytes + tag.bytes();
+    at += kTag4Bytes + static_cast<std::uint64_t>(tag.bytes());
     ++outline.whole;
   }
   return outline;
