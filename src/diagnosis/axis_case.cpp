@@ -272,7 +272,7 @@ LoadedAxes load_axes(const DiagnosisRequest& request) {
     loaded.holdout = loaded.fit;
     for (const Recording& r : fit) loaded.fit.logs.push_back(make_log(r, loaded.fit));
     for (const Recording& r : holdout) loaded.holdout.logs.push_back(make_log(r, loaded.fit));
-    set_axis_motion(loaded.fit);
+    set_derivative(loaded.fit, loaded.fit.derivative);  // and the fastest speeds
     loaded.fit.axis_moves = moves(loaded.fit);
     set_axis_units(loaded.fit);
     set_axis_motion(loaded.holdout);
