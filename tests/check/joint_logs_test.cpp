@@ -80,6 +80,19 @@ TEST(JointLogs, SingleRowsAtZeroAreDropouts) {
   EXPECT_GE(probability_of(report_of(table), "dropouts", "tau_2"), check::kCertain);
 }
 
+// Of a torque that turns over within two rows, the one between may be exactly zero.
+TEST(JointLogs, ATorqueThatPassesThroughZeroDidNotDropOut) {
+  Table table = two_joints();
+  Rng rng({23});
+  auto tau = table.values.col(4);
+  const auto sign_at = [](Eigen::Index i) { return i / 40 % 2 == 0 ? 6.0 : -6.0; };
+  for (Eigen::Index i = 0; i < kRows; ++i) tau[i] = sign_at(i) + 0.1 * rng.normal();
+  for (Eigen::Index i = 40; i < kRows; i += 40) tau[i] = 0.0;
+  EXPECT_LT(probability_of(report_of(table), "dropouts", "tau_2"), check::kLikely);
+  for (Eigen::Index i = 60; i < kRows; i += 120) tau[i] = 0.0;
+  EXPECT_GE(probability_of(report_of(table), "dropouts", "tau_2"), check::kCertain);
+}
+
 TEST(JointLogs, OneFullTurnIsAWrap) {
   Table table = two_joints();
   table.values.col(1).tail(400).array() -= 2.0 * std::numbers::pi;
