@@ -89,32 +89,13 @@ void keep_every(Recording& recording, const std::vector<std::string>& columns, I
       " are held from row to row: one row in " + std::to_string(every) + " is used");
 }
 
-/// Rows for which each source of a recording holds its values; of one source at least.
-struct Holds {
-  std::vector<Index> rows;
-  std::size_t slowest() const {
-    return static_cast<std::size_t>(std::max_element(rows.begin(), rows.end()) - rows.begin());
-  }
+/// Columns that one source of a log writes together.
+struct Source {
+  std::vector<std::string> columns;
+  bool reading = false;  // of a sensor or a simulator; else of the motion
 };
 
-constexpr double kOfNewRate = 0.4;  // below half, for the slope of the low-pass
-
-void average_readings(Recording& recording, const std::vector<Source>& sources, const Holds& holds,
-                      Index every) {
-  const double hz = kOfNewRate / (static_cast<double>(every) * recording.dt);
-  for (std::size_t k = 0; k < sources.size(); ++k) {
-    const auto& columns = sources[k].columns;
-    if (!sources[k].reading || holds.rows[k] > 1) continue;
-    mend_spikes(recording, columns);
-    const Eigen::MatrixXd smooth = low_pass(recording.block(columns), recording, hz);
-    for (std::size_t j = 0; j < columns.size(); ++j) {
-      recording.set(columns[j], smooth.col(static_cast<Index>(j)));
-    }
-  }
-}
-
-}  // namespace
-
+/// Of a recording: what is measured, what is simulated, and the motion with all that follows it.
 std::vector<Source> sources_of(const Recording& recording, const System& system) {
   const auto add = [&](const std::vector<std::string>& names, Source& to) {
     for (const std::string& name : names) {
@@ -140,6 +121,32 @@ std::vector<Source> sources_of(const Recording& recording, const System& system)
   require(!sources.empty(), Exit::kData, recording.name, ": has no column that is known here");
   return sources;
 }
+
+/// Rows for which each source of a recording holds its values; of one source at least.
+struct Holds {
+  std::vector<Index> rows;
+  std::size_t slowest() const {
+    return static_cast<std::size_t>(std::max_element(rows.begin(), rows.end()) - rows.begin());
+  }
+};
+
+constexpr double kOfNewRate = 0.4;  // below half, for the slope of the low-pass
+
+void average_readings(Recording& recording, const std::vector<Source>& sources, const Holds& holds,
+                      Index every) {
+  const double hz = kOfNewRate / (static_cast<double>(every) * recording.dt);
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    const auto& columns = sources[k].columns;
+    if (!sources[k].reading || holds.rows[k] > 1) continue;
+    mend_spikes(recording, columns);
+    const Eigen::MatrixXd smooth = low_pass(recording.block(columns), recording, hz);
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      recording.set(columns[j], smooth.col(static_cast<Index>(j)));
+    }
+  }
+}
+
+}  // namespace
 
 void keep_new_rows(const std::vector<Recording*>& recordings, const System& system) {
   std::vector<std::vector<Source>> sources;

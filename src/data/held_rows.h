@@ -17,14 +17,6 @@ bool never_changes(const Eigen::VectorXd& column);
 /// than 20 changes tell.
 Index held_rows(const Recording& recording, const std::vector<std::string>& columns);
 
-/// Columns that one source of a log writes together.
-struct Source {
-  std::vector<std::string> columns;
-  bool reading = false;  ///< of a sensor or a simulator; else of the motion
-};
-/// Of a recording: what is measured, what is simulated, and the motion with all that follows it.
-std::vector<Source> sources_of(const Recording& recording, const System& system);
-
 /// Leaves the rows in which the slowest source of each recording has new values, so that all
 /// recordings keep one rate, and notes so: other rows repeat a reading beside a pose that has moved
 /// on, or a pose beside a reading that has. A reading that is new in every row loses its spikes and

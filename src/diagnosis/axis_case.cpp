@@ -4,10 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "data/held_rows.h"
 #include "data/median.h"
-#include "data/repeated_rows.h"
-#include "data/spikes.h"
 #include "dcnn/data/filter.h"
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/axis_sense.h"
@@ -232,16 +229,8 @@ LoadedAxes load_axes(const DiagnosisRequest& request) {
           ": describes a wrist tool; give --sim instead, or \"kind\": \"axes\"");
   auto fit = read_all(request.fit, request.read, system);
   auto holdout = read_all(request.holdout, request.read, system);
-  std::vector<Recording*> both;
-  for (auto* list : {&fit, &holdout}) {
-    for (Recording& recording : *list) both.push_back(&recording);
-  }
-  keep_new_rows(both, system);
-  for (Recording* recording : both) {
-    const std::vector<std::string> targets = find_targets(*recording, system).names;
-    leave_out_repeats(*recording, targets);
-    mend_spikes(*recording, targets);
-  }
+  const std::vector<Recording*> both =
+      with_usable_rows(fit, holdout, system, find_targets(fit.front(), system).names);
   if (machine) {
     for (Recording* recording : both) add_predictions(*machine, *recording);
     for (Axis& axis : system.axes) {

@@ -163,6 +163,21 @@ std::vector<Case::Driver> drivers_of(const std::vector<std::string>& names,
   return drivers;
 }
 
+std::vector<Recording*> with_usable_rows(std::vector<Recording>& fit,
+                                         std::vector<Recording>& holdout, const System& system,
+                                         const std::vector<std::string>& targets) {
+  std::vector<Recording*> both;
+  for (auto* list : {&fit, &holdout}) {
+    for (Recording& recording : *list) both.push_back(&recording);
+  }
+  keep_new_rows(both, system);
+  for (Recording* recording : both) {
+    leave_out_repeats(*recording, targets);
+    mend_spikes(*recording, targets);
+  }
+  return both;
+}
+
 void check_rates(const std::vector<Recording>& recordings) {
   constexpr double kTolerance = 0.01;
   const Recording& first = recordings.front();
@@ -210,17 +225,9 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   }
   auto fit = read_all(request.fit, request, study),
        holdout = read_all(request.holdout, request, study);
-  std::vector<Recording*> both;
-  for (auto* list : {&fit, &holdout}) {
-    for (Recording& recording : *list) both.push_back(&recording);
-  }
   std::vector<std::string> targets(kChannels.begin(), kChannels.end());
-  std::erase_if(targets, [&](const std::string& name) { return !both.front()->has(name); });
-  keep_new_rows(both, System());
-  for (Recording* recording : both) {
-    leave_out_repeats(*recording, targets);
-    mend_spikes(*recording, targets);
-  }
+  std::erase_if(targets, [&](const std::string& name) { return !fit.front().has(name); });
+  const std::vector<Recording*> both = with_usable_rows(fit, holdout, System(), targets);
   if (request.simulator) leave_out_inertial_force(both, study.simulator.model);
   std::vector<Recording> all = fit;
   all.insert(all.end(), holdout.begin(), holdout.end());

@@ -14,6 +14,12 @@ struct LoadedCase {
 };
 LoadedCase load_wrist(const DiagnosisRequest& request);
 
+/// All of these recordings, with the rows left that bring something new and single outliers mended
+/// in the columns `targets`: keep_new_rows(), leave_out_repeats(), mend_spikes().
+std::vector<Recording*> with_usable_rows(std::vector<Recording>& fit,
+                                         std::vector<Recording>& holdout, const System& system,
+                                         const std::vector<std::string>& targets);
+
 /// Error(kData) unless all recordings have one rate, or all are lists of poses: spectra, noise and
 /// events are judged on one clock.
 void check_rates(const std::vector<Recording>& recordings);
