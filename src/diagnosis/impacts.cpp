@@ -7,8 +7,8 @@
 
 #include "core/elementary.h"
 #include "data/median.h"
-#include "diagnosis/candidates.h"
 #include "diagnosis/evidence/priors.h"
+#include "diagnosis/impact_forces.h"
 #include "diagnosis/noise_floor.h"
 #include "diagnosis/slug.h"
 #include "physics/effect_law.h"
@@ -23,56 +23,22 @@ constexpr std::size_t kFewest = 4;                                      // ways 
 constexpr int kOtherTimes = 60;
 constexpr double kMostLog = 700.0;  // of a ratio, before its exponential overflows
 
-/// What finds a force that lasts 2 wide + 1 samples, whatever else goes through the samples around
-/// it as a parabola does, such as a tremor that the model has not quite: the least-squares weights
-/// of that force's mean.
-class Template {
- public:
-  explicit Template(Index wide) : far_(6 * wide + 3) {
-    const Index n = 2 * far_ + 1;
-    Eigen::MatrixXd parabola(n, 3);
-    weights_ = Eigen::VectorXd::Zero(n);
-    for (Index i = 0; i < n; ++i) {
-      const double t = static_cast<double>(i - far_) / static_cast<double>(far_);
-      parabola.row(i) << 1.0, t, t * t;
-      if (std::abs(i - far_) <= wide) weights_(i) = 1.0;
-    }
-    const Eigen::MatrixXd q = orthonormal(parabola);
-    weights_ -= q * (q.transpose() * weights_);
-    weights_ /= weights_.squaredNorm();
-  }
-  Index far() const { return far_; }
-  const Eigen::VectorXd& weights() const { return weights_; }
-  /// Deviation of the mean in white noise of deviation 1.
-  double deviation() const { return weights_.norm(); }
-
- private:
-  Index far_;
-  Eigen::VectorXd weights_;
-};
-
-/// A channel of a recording in deviations of its noise.
-class Channel {
- public:
-  Channel(const Eigen::VectorXd& r, const Eigen::VectorXd& level)
-      : level_(level), r_(r.cwiseQuotient(level)) {}
-  double level(Index i) const { return level_(i); }
-  /// The force about a sample; nothing near an end.
-  std::optional<double> above(Index at, const Template& shape) const {
-    const Index far = shape.far();
-    if (at < far || at + far >= r_.size()) return std::nullopt;
-    return shape.weights().dot(r_.segment(at - far, 2 * far + 1));
-  }
-
- private:
-  Eigen::VectorXd level_, r_;
-};
-
-/// What a slug of 1 kg would explain of what is heard.
+/// What a slug of 1 kg would explain.
 struct Evidence {
   double sum = 0.0, square = 0.0, most = 0.0;
+  void add(double found, double height) {
+    sum += found * height;
+    square += height * height;
+    most = std::max(most, found * height);
+  }
   double slug() const { return square > 0.0 ? sum / square : 0.0; }
   double strength() const { return square > 0.0 ? sum / std::sqrt(square) : 0.0; }
+};
+
+/// Of the forces, which tell the slug, and of their scores, which tell whether there is one: single
+/// outliers of a heavy-tailed noise count no more there than the greatest of as many normal values.
+struct Impulses {
+  Evidence forces, scores;
 };
 
 class Ear {
@@ -87,8 +53,9 @@ class Ear {
       fields_.push_back({felt_acceleration(moving, motion).col(study.channels[channel]), {}});
       channels_.emplace_back(left[k].col(static_cast<Index>(channel)),
                              levels[k].col(static_cast<Index>(channel)));
-      for (Index i = 0; i < motion.samples(); i += 3) {
-        if (const auto a = channels_.back().above(i, shape(1))) heights.push_back(std::abs(*a));
+      const Forces& forces = channels_.back().about(shape(1));
+      for (Index i = forces.far; forces.has(i); i += 3) {
+        heights.push_back(std::abs(forces.values(i)));
       }
     }
     if (!heights.empty()) sigma_ = kDeviationOfMedian * median(heights) / shape(1).deviation();
@@ -102,7 +69,7 @@ class Ear {
         for (const double rebound : {0.0, 0.3, 0.6}) take({gap, grip, rebound});
       }
     }
-    if (heard.strength() <= 0.0) return;
+    if (heard.scores.strength() <= 0.0) return;
     compare_with_other_times();
     weigh();
   }
@@ -116,9 +83,9 @@ class Ear {
         grip = tried.slug.grip;
         for (AxisField& field : fields_) field.leave(grip);
       }
-      all.push_back(take(tried.slug));
+      all.push_back(take(tried.slug).forces);
     }
-    if (heard.square <= 0.0) return 0.0;  // no impact is due
+    if (heard.forces.square <= 0.0) return 0.0;  // no impact is due
     compare_with_other_times();
     double sum = 0.0;
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -129,7 +96,7 @@ class Ear {
     return elementary::log(sum);
   }
 
-  double significance() const { return heard.strength() / scale; }
+  double significance() const { return heard.scores.strength() / scores_scale_; }
   bool is_heard() const {
     std::size_t ways = 0;
     Index last = -1;
@@ -137,15 +104,16 @@ class Ear {
       if (impact.from != last) ++ways;
       last = impact.from;
     }
-    const double others = significance() * (1.0 - heard.most / heard.sum);
+    const Evidence& e = heard.scores;
+    const double others = significance() * (1.0 - e.most / e.sum);
     return significance() > prior::kImpacts && others > prior::kImpactsWithoutOne &&
-           ways >= kFewest && heard.strength() > prior::kImpactsOverOthers * most_elsewhere;
+           ways >= kFewest && e.strength() > prior::kImpactsOverOthers * most_elsewhere;
   }
 
-  Evidence heard;
+  Impulses heard;
   std::vector<Impact> impacts;
-  double most_elsewhere = 0.0;
-  double scale = 1.0;  ///< deviation of strength() where there are no impacts
+  double most_elsewhere = 0.0;  ///< strength of the scores
+  double scale = 1.0;           ///< deviation of the forces' strength where there are no impacts
 
   /// Slug [kg] and gap [m], means over all that was tried, by likelihood; and their deviations.
   Eigen::Vector2d mean, deviation;
@@ -155,43 +123,47 @@ class Ear {
   const Template& shape(Index wide) const { return shapes_.try_emplace(wide, wide).first->second; }
 
   /// Matched to changes of momentum, `shift` samples after they are due.
-  Evidence evidence(const std::vector<Impact>& list, Index shift) const {
-    Evidence e;
+  Impulses evidence(const std::vector<Impact>& list, Index shift) const {
+    Impulses e;
     for (const Impact& impact : list) {
       const Channel& channel = channels_[impact.log];
       const double seconds = kSpread * dt_ * static_cast<double>(impact.at - impact.from);
       const Index wide = std::max<Index>(1, std::llround(std::max(kShortest, seconds) / dt_ - 0.5));
       const Template& found = shape(wide);
-      const auto above = channel.above(impact.at + shift, found);
-      if (!above) continue;
-      const double unit = sigma_ * found.deviation() * channel.level(impact.at + shift);
+      const Forces& forces = channel.about(found);
+      const Index at = impact.at + shift;
+      if (!forces.has(at)) continue;
+      const double unit = sigma_ * found.deviation() * channel.level(at);
       const double height = impact.change / (static_cast<double>(2 * wide + 1) * dt_) / unit;
-      const double share = *above / (sigma_ * found.deviation()) * height;
-      e.sum += share;
-      e.square += height * height;
-      e.most = std::max(e.most, share);
+      e.forces.add(forces.values(at) / (sigma_ * found.deviation()), height);
+      e.scores.add(forces.scores(at), height);
     }
     return e;
   }
 
-  Evidence take(const Slug& slug) {
+  Impulses take(const Slug& slug) {
     const std::vector<Impact> list = impacts_of(fields_, slug, dt_);
-    const Evidence e = evidence(list, 0);
-    tried_.push_back({slug, e});
-    if (e.square > 0.0 && (impacts.empty() || e.strength() > heard.strength())) {
+    const Impulses e = evidence(list, 0);
+    tried_.push_back({slug, e.forces});
+    strongest_ = std::max(strongest_, e.forces.strength());
+    if (e.scores.square > 0.0 &&
+        (impacts.empty() || e.scores.strength() > heard.scores.strength())) {
       heard = e, impacts = list;
     }
     return e;
   }
 
   void compare_with_other_times() {
-    std::vector<double> others;
+    std::vector<double> forces, scores;
     for (int k = 0; k < kOtherTimes; ++k) {
       const double seconds = (k % 2 ? 1.0 : -1.0) * (0.1 + 0.02 * k);
-      others.push_back(std::abs(evidence(impacts, std::llround(seconds / dt_)).strength()));
+      const Impulses e = evidence(impacts, std::llround(seconds / dt_));
+      forces.push_back(std::abs(e.forces.strength()));
+      scores.push_back(std::abs(e.scores.strength()));
     }
-    most_elsewhere = *std::max_element(others.begin(), others.end());
-    scale = std::max(1.0, kDeviationOfMedian * median(others));
+    most_elsewhere = *std::max_element(scores.begin(), scores.end());
+    scale = std::max(1.0, kDeviationOfMedian * median(forces));
+    scores_scale_ = std::max(1.0, kDeviationOfMedian * median(scores));
   }
 
   void weigh() {
@@ -199,7 +171,7 @@ class Ear {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero(), squares = Eigen::Vector2d::Zero();
     for (const auto& [slug, e] : tried_) {
       if (e.sum <= 0.0) continue;
-      const double below = heard.strength() * heard.strength() - e.strength() * e.strength();
+      const double below = strongest_ * strongest_ - e.strength() * e.strength();
       const double weight = elementary::exp(-0.5 * below / (scale * scale));
       const Eigen::Vector2d at(e.slug(), slug.gap);
       const Eigen::Vector2d own(scale * scale / e.square,
@@ -214,6 +186,7 @@ class Ear {
     for (Impacts::Tried& tried : likely) tried.probability /= all;
   }
 
+  double strongest_ = 0.0, scores_scale_ = 1.0;
   double dt_, sigma_ = 1.0;
   std::vector<AxisField> fields_;
   std::vector<Channel> channels_;

@@ -7,6 +7,7 @@
 
 #include "dcnn/core/random.h"
 #include "diagnosis/chain.h"
+#include "diagnosis/impact_forces.h"
 #include "diagnosis/impacts.h"
 #include "diagnosis/load.h"
 #include "diagnosis/search.h"
@@ -31,6 +32,48 @@ TEST(Heard, ImpactsOfAnotherRecordingBearThemOut) {
   EXPECT_NEAR(all, 1.0, 1e-9);
   EXPECT_GT(impacts_support(with.holdout, left(with.holdout), impacts), 5.0);
   EXPECT_LT(impacts_support(without.holdout, left(without.holdout), impacts), -5.0);
+}
+
+/// Student's t with 2 degrees of freedom, whose variance is infinite.
+Eigen::VectorXd heavy_tailed(Index n, Rng& rng) {
+  return Eigen::VectorXd::NullaryExpr(n, [&] {
+    const double a = rng.normal(), b = rng.normal();
+    return rng.normal() / std::sqrt(0.5 * (a * a + b * b));
+  });
+}
+
+TEST(Heard, ScoresOfForcesAreNormalWhateverTheTails) {
+  Rng rng({11u});
+  const Index n = 20000;
+  const Eigen::VectorXd noise = heavy_tailed(n, rng);
+  const Channel channel(noise, Eigen::VectorXd::Constant(n, 0.5));
+  const Template shape(2);
+  const Forces& forces = channel.about(shape);
+  ASSERT_TRUE(forces.has(shape.far()) && !forces.has(shape.far() - 1));
+  const Index inner = n - 2 * shape.far();
+  const auto scores = forces.scores.segment(shape.far(), inner).array();
+  EXPECT_NEAR(scores.square().mean(), 1.0, 0.01);
+  EXPECT_NEAR((scores.abs() < 1.0).cast<double>().mean(), 0.6827, 0.002);
+  EXPECT_NEAR(scores.abs().maxCoeff(), 4.2145, 0.001);  // normal quantile at 1 - 1/(4 n)
+  const double middle =
+      2.0 * shape.weights().dot(noise.segment(777 - shape.far(), 2 * shape.far() + 1));
+  EXPECT_NEAR(forces.values(777), middle, 1e-12);
+  EXPECT_GT(forces.values(777) * forces.scores(777), 0.0);
+}
+
+TEST(Heard, OutliersOfNoiseAreNoImpacts) {
+  const test::Bench firm(test::configuration(Json::array()));
+  const Case study = load_wrist(firm.request()).fit;
+  Rng rng({11u});
+  for (int draw = 0; draw < 10; ++draw) {
+    Signals noise;
+    for (const Log& log : study.logs) {
+      const Index n = log.motion.samples();
+      noise.emplace_back(n, 3);
+      for (Index j = 0; j < 3; ++j) noise.back().col(j) = 0.04 * heavy_tailed(n, rng);
+    }
+    EXPECT_FALSE(find_impacts(study, noise).member) << draw;
+  }
 }
 
 /// Of 0.05 N at 60 Hz, beside noise of 0.04 N. The phase that it has in the recording that is held
