@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kFresh = 5.0;  // resolutions that a value jumps when it is new, at least
 constexpr double kTwoWays = 0.5;
+constexpr double kMostRuns = 0.5;       // share of the runs
 constexpr std::size_t kFewestNew = 20;  // values, of which regularity is told
 
 /// Whether new values come every k rows: p-value of so many runs of one length, were a run's end as
@@ -32,6 +33,15 @@ double regularity_p(const std::vector<Run>& runs, double mean, Eigen::Index* len
   const double p =
       binomial_tail(static_cast<double>(*most), static_cast<double>(runs.size()), chance);
   return std::min(1.0, kLengths * p);
+}
+
+/// Share of the runs that a clock with new values every `length` rows makes, to within a row where
+/// its rate is no whole part of the log's, or where a value repeats.
+double share_of_clock(const std::vector<Run>& runs, Eigen::Index length) {
+  const auto fits = std::count_if(runs.begin(), runs.end(), [&](const Run& run) {
+    return std::abs(run.length - length) <= 1 || run.length % length == 0;
+  });
+  return static_cast<double>(fits) / static_cast<double>(runs.size());
 }
 
 /// Resolutions that the values of a column jump by when they are new, the median.
@@ -59,7 +69,8 @@ Held held_of(const Log& log, const std::vector<std::string>& names) {
   if (fresh < kFresh) return {};
   Held out;
   const double p = regularity_p(runs, mean, &out.length);
-  out.probability = posterior_of_p(p);
+  // A limit cycle at rest repeats its runs too, among more that are shorter.
+  if (share_of_clock(runs, out.length) >= kMostRuns) out.probability = posterior_of_p(p);
   return out;
 }
 

@@ -8,6 +8,7 @@
 
 #include "dcnn/check/check.h"
 #include "dcnn/core/random.h"
+#include "dcnn/data/system.h"
 
 namespace dcnn {
 namespace {
@@ -134,6 +135,46 @@ TEST(JointLogs, PositionsThatAreHeldSayNothingOfTheUnitsOfRates) {
       }
     }
   }
+}
+
+// A cylinder that is pushed to and fro against a regulated pressure, which the stroke moves: by
+// more than friction, and against it. Beside that pressure the log does not tell the sign.
+TEST(JointLogs, APressureBesideTheForceDoesNotTurnItsSign) {
+  Table table{{"t", "x", "pressure", "f"}, Eigen::MatrixXd(6000, 4)};
+  Rng rng({25});
+  for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+    const double t = 0.01 * static_cast<double>(i), w = 0.7;
+    const double x = 0.02 * std::sin(w * t + 0.5 * std::sin(w * t)),
+                 v = 0.02 * w * (1.0 + 0.5 * std::cos(w * t)) *
+                     std::cos(w * t + 0.5 * std::sin(w * t));
+    const double pressure = 3.0 - 0.1 * std::tanh(500.0 * v) + 0.002 * rng.normal();
+    table.values.row(i) << t, x, pressure,
+        49.0 * pressure + 3.0 * std::tanh(1000.0 * v) + 0.05 * rng.normal();
+  }
+  const Json axis{{"name", "piston"}, {"measured", "f"}, {"unit", "N"}, {"position", "x"}};
+  const auto probability = [&](const Json& base) {
+    Json described = axis;
+    described["base"] = base;
+    check::Declared declared;
+    declared.system = parse_system({{"kind", "axes"}, {"axes", {described}}}, "test");
+    return probability_of(check::check(check::make_log("c.csv", table, declared)), "power_sign",
+                          "f");
+  };
+  EXPECT_GE(probability(Json::array()), check::kLikely);  // of the force as it is alone
+  EXPECT_LT(probability({"pressure"}), check::kLikely);
+}
+
+// At rest a limit cycle of a controller makes runs of one length, among more that are shorter.
+TEST(JointLogs, ALimitCycleAtRestIsNotHeld) {
+  Table table{{"t", "q_1", "tau_1"}, Eigen::MatrixXd(1000, 3)};
+  Rng rng({26});
+  for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
+    const double t = 0.005 * static_cast<double>(i);
+    const double cycle = i / 19 % 2 ? 0.02 : -0.02;
+    const double moving = std::sin(3.0 * t) + 0.02 * rng.normal();
+    table.values.row(i) << t, std::min(t, 2.0) + 0.001 * rng.normal(), i < 400 ? moving : cycle;
+  }
+  EXPECT_LT(probability_of(report_of(table), "held", "tau_1"), check::kLikely);
 }
 
 }  // namespace

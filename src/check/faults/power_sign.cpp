@@ -5,6 +5,7 @@
 
 #include "check/joints.h"
 #include "check/rows.h"
+#include "check/statistics.h"
 #include "core/elementary.h"
 
 namespace dcnn::check {
@@ -71,12 +72,29 @@ double log_odds_of_mean(const Eigen::ArrayXd& values) {
   return std::copysign(0.5 * n * elementary::log(1.0 + n * mean * mean / (square + 1e-300)), mean);
 }
 
+/// What the description sets beside the joint's torque: a pressure, a simulated torque. Of unit
+/// length, of either sign, as far as there are ten rows to a column.
+void append_declared(const Log& log, const Joint& joint, const Sampled& rows, Eigen::MatrixXd& A) {
+  for (const Axis& axis : log.declared.system.axes) {
+    if (axis.measured != joint.measured) continue;
+    std::vector<std::string> names = axis.base;
+    names.push_back(axis.simulated);
+    for (const std::string& name : names) {
+      if (!log.has(name) || !varies(log.column(name)) || 10 * A.cols() >= A.rows()) continue;
+      const Eigen::VectorXd column = rows.smoothed(log.column(name), rows.value);
+      A.conservativeResize(Eigen::NoChange, A.cols() + 1);
+      A.rightCols(1) = column / column.norm();
+    }
+  }
+}
+
 /// What either sign leaves of each stretch of time on which it was not fitted. What no column
 /// describes is alike for seconds: it may favour one sign by far in some stretches, and not in all.
 SignEvidence sign_of(const Log& log, const Joint& joint, const Sampled& rows,
                      const std::vector<JointMotion>& motions, std::size_t own) {
   const Eigen::VectorXd y = joint.scale * rows.smoothed(log.column(joint.measured), rows.value);
-  const Eigen::MatrixXd A = torque_columns(motions, own, Place::kGravity);
+  Eigen::MatrixXd A = torque_columns(motions, own, Place::kGravity);
+  append_declared(log, joint, rows, A);
   // Rounding of a torque that is explained to the last digit is no evidence.
   const double floor = 1e-12 * y.squaredNorm() / static_cast<double>(y.size()) + 1e-300;
   return {joint.measured, log_odds_of_mean(left_out_ratios(A, y, floor))};
