@@ -174,6 +174,7 @@ void set_axis_motion(Case& study) {
       const Eigen::MatrixXd used = columns(Eigen::all, plan.columns);
       log.base.force.col(0) = -plan.sense * used * study.base_coefficients;
       if (plan.base_deviations.size() > 0) log.base_errors = used * plan.base_deviations;
+      if (study.base_shift.size() > 0) log.base.force.col(0) += log.base_errors * study.base_shift;
     }
     for (const Index k : plan.columns) {
       if (!plan.base_is_known) log.regressors.emplace_back(-plan.sense * columns.col(k));
@@ -185,10 +186,17 @@ void set_axis_motion(Case& study) {
     log.base.force.col(0) -=
         payload_columns(log.recording, plan.system, plan.index, study.derivative) * *plan.payload;
   }
-  if (!plan.columns.empty()) set_base(study, study.base_coefficients);
+  if (!plan.columns.empty() && !plan.base_is_known) set_base(study, study.base_coefficients);
 }
 
 void set_base(Case& study, const Eigen::VectorXd& coefficients) {
+  if (study.axis->base_is_known) {
+    const Eigen::VectorXd before =
+        study.base_shift.size() > 0 ? study.base_shift : Eigen::VectorXd::Zero(coefficients.size());
+    for (Log& log : study.logs) log.base.force.col(0) += log.base_errors * (coefficients - before);
+    study.base_shift = coefficients;
+    return;
+  }
   study.base_coefficients = coefficients;
   for (Log& log : study.logs) {
     if (log.regressors.empty()) continue;
@@ -197,6 +205,13 @@ void set_base(Case& study, const Eigen::VectorXd& coefficients) {
       log.base.force.col(0) += coefficients(static_cast<Index>(k)) * log.regressors[k];
     }
   }
+}
+
+Eigen::VectorXd base_parameters(const Case& study, const Eigen::VectorXd& fitted) {
+  if (fitted.size() == 0) return study.base_coefficients;
+  const AxisPlan& plan = *study.axis;
+  if (!plan.base_is_known) return fitted;
+  return study.base_coefficients - plan.sense * (plan.base_deviations * fitted);
 }
 
 Signals unfiltered_left(const Case& study, const std::vector<Member>& members) {

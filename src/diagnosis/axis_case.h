@@ -31,8 +31,10 @@ std::set<std::string> motion_columns(const AxisPlan& plan);
 /// Motion and base simulator of all logs by the case's estimator.
 void set_axis_motion(Case& study);
 
-/// Lets the base simulator of all logs have these coefficients.
+/// Lets the base simulator of all logs have these coefficients (JointFit::base).
 void set_base(Case& study, const Eigen::VectorXd& coefficients);
+/// The parameters of the base simulator's columns that this makes.
+Eigen::VectorXd base_parameters(const Case& study, const Eigen::VectorXd& fitted);
 
 /// measured - predicted, before the low-pass where there is one.
 Signals unfiltered_left(const Case& study, const std::vector<Member>& members);

@@ -55,6 +55,7 @@ struct Case {
   std::map<std::string, double> top_speed;  ///< m/s (rad/s) along each line that friction may take
   bool axis_moves = true;                   ///< by more than the noise of its position
   Eigen::VectorXd base_coefficients;        ///< of the base simulator's columns that are used
+  Eigen::VectorXd base_shift;               ///< of a known base, in its errors; empty: none
   double lowpass_hz =
       0.0;  ///< predictions pass the zero-phase filter that the measured have passed
   double motion_hz = 20.0;                  ///< above it nothing commanded moves

@@ -70,8 +70,9 @@ Json errors_json(const Search& search, const HoldOut& simulator, const HoldOut& 
   json["holdout_rmse_before"] = simulator.rmse({}, given.base);
   json["holdout_rmse_after"] = holdout.rmse(fit.members, fit.base);
   if (study.own_tool || study.axis) {
+    const std::vector<Member> numbers = own_parameters(study);
     const auto own =
-        given.base.size() > 0 ? given : joint_fit(search.setting(), own_parameters(study));
+        given.base.size() > 0 || numbers.empty() ? given : joint_fit(search.setting(), numbers);
     json["holdout_rmse_parameters"] = holdout.rmse(own.members, own.base);
   }
   return json;
@@ -170,7 +171,9 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   if (leave_refuted_variations(search, holdout) || search.even_out_gears())
     alternatives = adopt_likelier(search, holdout);
   const Case& study = search.study();
-  const JointFit &fit = search.fit(), given = joint_fit(search.setting(), {});
+  const JointFit& fit = search.fit();
+  JointFit given = joint_fit(search.setting(), {});
+  if (study.axis && study.axis->base_is_known) given.base.resize(0);  // without its errors
 
   Diagnosis diagnosis;
   Json& report = diagnosis.report;
@@ -275,8 +278,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
     for (std::size_t k = 0; k < then.size(); ++k) diagnosis.holdout[k].before = then[k];
   }
   diagnosis.portraits = portraits(search);
-  CaseDiagnosis result{
-      std::move(diagnosis), fit.base.size() > 0 ? fit.base : study.base_coefficients, {}};
+  CaseDiagnosis result{std::move(diagnosis), base_parameters(study, fit.base), {}};
   if (corrected && !first.empty()) result.uncorrected = first.rmse(fit.members, fit.base);
   return result;
 }

@@ -41,7 +41,9 @@ struct JointFit {
   Eigen::VectorXd residual;  ///< whitened, after members and nuisance
   Eigen::MatrixXd tangent;   ///< whitened derivatives by the free parameters, then the nuisance
   Eigen::VectorXd nuisance;  ///< coefficients
-  Eigen::VectorXd base;      ///< coefficients of the case's regressors, in all
+  /// Coefficients of the case's regressors, in all; of a known base those of its errors, each with
+  /// its deviation as a prior.
+  Eigen::VectorXd base;
   double chi2 = 0.0;
 
   /// Free parameters before the nuisance in `tangent`.

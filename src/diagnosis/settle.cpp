@@ -171,7 +171,7 @@ bool Search::floor_moved() const {
 void Search::fit_beside_base(const std::vector<Member>& members) {
   make_setting(members);
   fit_ = joint_fit(*setting_, members);
-  if (fit_.base.size() == 0) return;
+  if (study_.logs.front().regressors.empty()) return;
   // What filters and gains do to the base simulator they do to the fitted one.
   for (Case* study : cases()) set_base(*study, fit_.base);
   setting_->coarse = thinned(study_, setting_->whitener.coarse_stride());

@@ -102,6 +102,18 @@ TEST_F(SharedBase, PredictsAJointWhereItWasNotMoved) {
   }
 }
 
+// Where joints hardly turn, their weights are next to constants: what all joints together do not
+// tell from offsets is told by what each one leaves.
+TEST_F(SharedBase, IsCorrectedWhereItWasUncertain) {
+  DiagnosisRequest small = request(1.0);
+  write_arm(small.fit[0], 0.0, {0.12, 0.1}, 1.0, 1);
+  write_arm(small.holdout[0], 25.0, {0.12, 0.1}, 1.0, 2);
+  const Json report = diagnose(small, nullptr).report;
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_LT(report["fit"]["holdout_rmse_after"][k].get<double>(), 1.1 * kNoise) << k;
+  }
+}
+
 /// A joint whose scale is wrong cannot share the masses of the others.
 TEST_F(SharedBase, IsNotForcedOnAJointInOtherUnits) {
   const auto right = load_axes(request(1.0)).cases, wrong = load_axes(request(3.0)).cases;
