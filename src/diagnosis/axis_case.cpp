@@ -10,6 +10,7 @@
 #include "diagnosis/axis_sense.h"
 #include "diagnosis/axis_units.h"
 #include "diagnosis/evidence/priors.h"
+#include "diagnosis/lagging_rates.h"
 #include "diagnosis/motion_band.h"
 #include "diagnosis/noise_floor.h"
 #include "diagnosis/periodograms.h"
@@ -254,6 +255,9 @@ LoadedAxes load_axes(const DiagnosisRequest& request) {
       axis.has_base = false;
     }
   }
+  std::vector<double> motion_hz;
+  for (const Axis& axis : system.axes) motion_hz.push_back(end_of_motion(fit, system, axis));
+  if (!machine) leave_lagging_rates(fit, system, motion_hz);
   std::vector<Recording> all = fit;
   all.insert(all.end(), holdout.begin(), holdout.end());
   check_rates(all);
@@ -262,12 +266,11 @@ LoadedAxes load_axes(const DiagnosisRequest& request) {
     AxisPlan plan;
     plan.system = system;
     plan.index = k;
-    const double motion_hz = end_of_motion(fit, system, system.axes[k]);
-    const Case draft = axis_case(std::make_shared<const AxisPlan>(plan), motion_hz);
+    const Case draft = axis_case(std::make_shared<const AxisPlan>(plan), motion_hz[k]);
     plan.columns = used_columns(fit, system, k, draft.derivative);
     plan.sense = sense_of(fit, system, system.axes[k], draft.derivative);
     LoadedCase loaded;
-    loaded.fit = axis_case(std::make_shared<const AxisPlan>(std::move(plan)), motion_hz);
+    loaded.fit = axis_case(std::make_shared<const AxisPlan>(std::move(plan)), motion_hz[k]);
     loaded.fit.without = request.without;
     loaded.fit.base_coefficients =
         Eigen::VectorXd::Zero(static_cast<Index>(loaded.fit.axis->columns.size()));
