@@ -54,6 +54,7 @@ struct Case {
   double axis_length = 1.0, axis_seconds = 1.0;
   std::map<std::string, double> top_speed;  ///< m/s (rad/s) along each line that friction may take
   bool axis_moves = true;                   ///< by more than the noise of its position
+  bool rests_count = false;                 ///< rows at rest decide as others do (rest.h)
   Eigen::VectorXd base_coefficients;        ///< of the base simulator's columns that are used
   Eigen::VectorXd base_shift;               ///< of a known base, in its errors; empty: none
   double lowpass_hz =

@@ -24,6 +24,7 @@
 #include "diagnosis/plain_findings.h"
 #include "diagnosis/portrait.h"
 #include "diagnosis/rest.h"
+#include "diagnosis/resting_search.h"
 #include "diagnosis/weak_effects.h"
 #include "diagnosis/words.h"
 
@@ -142,8 +143,8 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   refuse_dead_channels(loaded.holdout);
   std::vector<Span> held_out;
   if (loaded.holdout.logs.empty()) held_out = held_out_blocks(loaded.fit, true);
-  Search search(std::move(loaded.fit), held_out, progress);
-  search.run();
+  const auto run = searched(loaded, held_out, progress);
+  Search& search = *run;
   if (progress) progress("evaluating on the held-out data");
   const HoldOut holdout(search.study(), loaded.holdout);
   const std::optional<double> noisy_hum = take_hum_for_noise(search, holdout);

@@ -21,7 +21,7 @@ constexpr double kLeastMovingShare = 0.1;  // of the time
 }  // namespace
 
 std::vector<Span> rests(const Case& study) {
-  if (!study.axis || study.is_static() || !study.axis_moves) return {};
+  if (!study.axis || study.is_static() || !study.axis_moves || study.rests_count) return {};
   std::vector<Eigen::VectorXd> speeds;
   std::vector<double> all;
   for (const Log& log : study.logs) {
