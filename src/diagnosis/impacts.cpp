@@ -106,8 +106,9 @@ class Ear {
     }
     const Evidence& e = heard.scores;
     const double others = significance() * (1.0 - e.most / e.sum);
-    return significance() > prior::kImpacts && others > prior::kImpactsWithoutOne &&
-           ways >= kFewest && e.strength() > prior::kImpactsOverOthers * most_elsewhere;
+    return heard.forces.sum > 0.0 && significance() > prior::kImpacts &&
+           others > prior::kImpactsWithoutOne && ways >= kFewest &&
+           e.strength() > prior::kImpactsOverOthers * most_elsewhere;
   }
 
   Impulses heard;
