@@ -7,6 +7,7 @@
 
 #include "dcnn/core/file.h"
 #include "dcnn/core/random.h"
+#include "dcnn/physics/axis_machine.h"
 #include "diagnosis/arm_senses.h"
 #include "diagnosis/axis_case.h"
 #include "diagnosis/axis_sense.h"
@@ -108,9 +109,15 @@ TEST_F(SharedBase, IsCorrectedWhereItWasUncertain) {
   DiagnosisRequest small = request(1.0);
   write_arm(small.fit[0], 0.0, {0.12, 0.1}, 1.0, 1);
   write_arm(small.holdout[0], 25.0, {0.12, 0.1}, 1.0, 2);
-  const Json report = diagnose(small, nullptr).report;
+  const Diagnosis found = diagnose(small, nullptr);
+  const AxisMachine machine = parse_axis_machine(found.model, "model.json", Exit::kData);
+  const Recording hold = read_recording(small.holdout[0], {}, machine.system);
+  const Eigen::MatrixXd predicted = predict_axes(machine, hold);
   for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_LT(report["fit"]["holdout_rmse_after"][k].get<double>(), 1.1 * kNoise) << k;
+    EXPECT_LT(found.report["fit"]["holdout_rmse_after"][k].get<double>(), 1.1 * kNoise) << k;
+    const Eigen::VectorXd left =
+        hold.column("tau_" + std::to_string(k + 1)) - predicted.col(static_cast<Index>(k));
+    EXPECT_LT(std::sqrt(left.squaredNorm() / double(left.size())), 1.1 * kNoise) << k;
   }
 }
 
