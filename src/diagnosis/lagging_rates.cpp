@@ -12,9 +12,9 @@
 namespace dcnn {
 namespace {
 
-constexpr double kMostly = 0.5;  // of a power
-constexpr double kEnds = 5.0;    // periods of the fastest motion at either end of a segment
-constexpr double kOfRate = 0.2;  // of the recordings' rate, beyond which no difference is one
+constexpr double kMostlyLate = 0.5;  // of a power
+constexpr double kEnds = 5.0;        // periods of the fastest motion at either end of a segment
+constexpr double kOfRate = 0.2;      // of the recordings' rate, beyond which no difference is one
 /// Steps of the clock: a difference of neighbouring rows is half a step late.
 constexpr double kLeastLag = 0.4;
 
@@ -45,7 +45,8 @@ double rate_lag(const std::vector<Recording>& recordings, const Axis& axis, doub
   if (recordings.empty() || turning <= 0.0) return 0.0;
   const double lag = match / turning;
   const double explained = lag * match;
-  const bool lags = lag >= kLeastLag * recordings.front().dt && explained > kMostly * difference &&
+  const bool lags = lag >= kLeastLag * recordings.front().dt &&
+                    explained > kMostlyLate * difference &&
                     explained > prior::kModelError * prior::kModelError * power;
   return lags ? lag : 0.0;
 }

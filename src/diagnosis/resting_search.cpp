@@ -9,7 +9,7 @@
 namespace dcnn {
 namespace {
 
-constexpr double kMostly = 0.5;  // of the rows
+constexpr double kMostlyAtRest = 0.5;  // of the rows
 
 std::unique_ptr<Search> run(Case study, const std::vector<Span>& held_out,
                             const std::function<void(const std::string&)>& progress) {
@@ -22,7 +22,7 @@ std::unique_ptr<Search> run(Case study, const std::vector<Span>& held_out,
 
 std::unique_ptr<Search> searched(LoadedCase& loaded, const std::vector<Span>& held_out,
                                  const std::function<void(const std::string&)>& progress) {
-  if (share_within(loaded.fit, rests(loaded.fit)) <= kMostly) {
+  if (share_within(loaded.fit, rests(loaded.fit)) <= kMostlyAtRest) {
     return run(std::move(loaded.fit), held_out, progress);
   }
   auto moving = run(loaded.fit, held_out, progress);

@@ -13,7 +13,7 @@
 namespace dcnn {
 namespace {
 
-constexpr double kStep = 0.002;  // s
+constexpr double kLoggedStep = 0.002;  // s
 
 double place(double t) { return 0.3 * std::sin(4.0 * t) + 0.1 * std::sin(11.0 * t + 1.0); }
 double speed(double t) { return 1.2 * std::cos(4.0 * t) + 1.1 * std::cos(11.0 * t + 1.0); }
@@ -23,7 +23,7 @@ Table slide(double late, double noise, std::uint64_t seed) {
   Table table{{"t", "x", "v", "f"}, Eigen::MatrixXd(8000, 4)};
   Rng rng({seed});
   for (Index i = 0; i < table.values.rows(); ++i) {
-    const double t = kStep * static_cast<double>(i);
+    const double t = kLoggedStep * static_cast<double>(i);
     const double a = -4.8 * std::sin(4.0 * t) - 12.1 * std::sin(11.0 * t + 1.0);
     table.values.row(i) << t, place(t), speed(t - late) + noise * rng.normal(),
         2.0 * a + 6.0 * std::tanh(speed(t) / 0.004) + 3.0 * speed(t) + 0.5 * rng.normal();
