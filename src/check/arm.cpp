@@ -237,7 +237,9 @@ double arm_weight(const Log& log, const Sampled& rows, const Reading& reading) {
   for (Index j = 0; j < fit.residual.cols(); ++j) {
     // In the units of the log: a density of what was logged.
     const double unit = std::abs(unit_of(log, reading, j));
-    sum -= 0.5 * fit.independent * log_variance(fit.residual.col(j) / unit, fit.floor[j] / unit);
+    const double independent =
+        rows.independent_torques.size() > 0 ? rows.independent_torques[j] : fit.independent;
+    sum -= 0.5 * independent * log_variance(fit.residual.col(j) / unit, fit.floor[j] / unit);
   }
   return sum;
 }

@@ -8,6 +8,7 @@
 #include "check/combined.h"
 #include "check/joints.h"
 #include "check/kind.h"
+#include "check/rows.h"
 #include "check/statistics.h"
 #include "data/held_rows.h"
 
@@ -78,13 +79,39 @@ struct Round {
   Index best = 0;
 };
 
-Round weigh(const Log& log, const Sampled& rows, Motions* motions, const Reading& base) {
-  Round round;
-  round.readings = readings_about(log, rows, base, motions ? &motions->of(base) : nullptr);
-  Eigen::VectorXd weights(static_cast<Index>(round.readings.size()));
+Eigen::VectorXd weights_of(const Log& log, const Sampled& rows, Motions* motions,
+                           const std::vector<Reading>& readings) {
+  Eigen::VectorXd weights(static_cast<Index>(readings.size()));
   for (Index k = 0; k < weights.size(); ++k) {
-    const Reading& reading = round.readings[static_cast<std::size_t>(k)];
+    const Reading& reading = readings[static_cast<std::size_t>(k)];
     weights[k] = finite_log_weight(log, rows, motions ? &motions->of(reading) : nullptr, reading);
+  }
+  return weights;
+}
+
+/// Of each joint, by the correlation of what a reading leaves.
+Eigen::VectorXd independent_torques(const Log& log, const Sampled& rows, const Reading& reading) {
+  const ArmFit fit = fit_arm(log, rows, reading);
+  Eigen::VectorXd independent(fit.residual.cols());
+  for (Index j = 0; j < independent.size(); ++j) {
+    independent[j] = std::min(fit.independent, independent_of(fit.residual.col(j)));
+  }
+  return independent;
+}
+
+Round weigh(const Log& log, const Sampled& sampled, Motions* motions, const Reading& base) {
+  Round round;
+  Sampled rows = sampled;
+  round.readings = readings_about(log, rows, base, motions ? &motions->of(base) : nullptr);
+  Eigen::VectorXd weights = weights_of(log, rows, motions, round.readings);
+  // What friction leaves of a joint at rest is alike for as long as it rests. How many residuals
+  // are independent the likeliest reading tells: what a wrong one leaves is alike for long, too.
+  Index likeliest_reading = 0;
+  weights.maxCoeff(&likeliest_reading);
+  const Reading& likeliest_of_all = round.readings[static_cast<std::size_t>(likeliest_reading)];
+  if (!likeliest_of_all.fault.empty() && can_fit_arm(log, rows)) {
+    rows.independent_torques = independent_torques(log, rows, likeliest_of_all);
+    weights = weights_of(log, rows, motions, round.readings);
   }
   round.probability = shares_of(weights);
   for (Index k = 0; k < weights.size(); ++k) {
