@@ -13,7 +13,8 @@ namespace dcnn {
 /// Stretches of at least half a second in which an axis moves by less than a hundredth of what it
 /// does at its 95th percentile of speed. Friction there is any force up to that which breaks loose,
 /// a constant of its own in each of them, and no law tells it. None where the axis moves for less
-/// than a tenth of the time, where rows at rest count as others do (resting_search.h), or of a tool.
+/// than a tenth of the time, where rows at rest count as others do (resting_search.h), or of a
+/// tool.
 std::vector<Span> rests(const Case& study);
 
 /// The rows of a recording in a span: the first, and the first after the last.
