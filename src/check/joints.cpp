@@ -17,11 +17,6 @@ using Eigen::VectorXd;
 constexpr Index kOfAnother = 6;     // columns
 constexpr double kDryTurns = 0.05;  // of the rms speed, over which smoothed dry friction turns
 
-void append(MatrixXd& A, const VectorXd& column) {
-  A.conservativeResize(column.size(), A.cols() + 1);
-  A.col(A.cols() - 1) = column / std::max(column.norm(), 1e-12);
-}
-
 void append_gravity(MatrixXd& A, const VectorXd& angle) {
   append(A, elementary::sin(angle.array()).matrix());
   append(A, elementary::cos(angle.array()).matrix());
@@ -54,6 +49,11 @@ double torque_weight(const Log& log, const Sampled& rows, const Joint& joint,
 }
 
 }  // namespace
+
+void append(MatrixXd& A, const VectorXd& column) {
+  A.conservativeResize(column.size(), A.cols() + 1);
+  A.col(A.cols() - 1) = column / std::max(column.norm(), 1e-12);
+}
 
 std::vector<const Joint*> driven_joints(const Log& log) {
   std::vector<const Joint*> joints;

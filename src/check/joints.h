@@ -27,6 +27,9 @@ enum class Place {
   kSlow      ///< a polynomial of the third degree
 };
 
+/// Appends a column, of unit length.
+void append(Eigen::MatrixXd& A, const Eigen::VectorXd& column);
+
 /// The torque's columns, of unit length: own inertia and dry friction; then what may have either
 /// sign: the rate, which viscous friction opposes and a controller's damping as well while another
 /// joint drives this one; a constant, the dependence on the angle, and what other joints transmit,

@@ -47,14 +47,8 @@ double median_step(const Eigen::VectorXd& t) {
 /// than half a step in all, stamps jitter, or are rounded: then the mean. (Of N steps of relative
 /// jitter s the median is wrong by 1.25 s/sqrt(N), the mean by 1.4 s/N; forces go with its square.)
 double step_of(const Eigen::VectorXd& t, double median) {
-  double time = 0.0, ticks = 0.0;
-  for (Index i = 1; i < t.size(); ++i) {
-    const double step = (t[i] - t[i - 1]) / median, whole = std::max(1.0, std::round(step));
-    if (is_gap(step, 1.0) || std::abs(step - whole) > kOff) continue;
-    time += step;
-    ticks += whole;
-  }
-  return std::abs(time - ticks) > 0.5 ? median * time / ticks : median;
+  const StepCount count = count_steps(t, median, kOff);
+  return std::abs(count.time - count.ticks) > 0.5 ? median * count.time / count.ticks : median;
 }
 
 /// The decimal digit to which the numbers were rounded, at most 1; 0 where they have many digits.
@@ -111,6 +105,17 @@ bool is_list_of_poses(const Recording& recording, double step, const std::string
 }  // namespace
 
 bool is_gap(double step, double dt) { return step > (kGap + kOff) * dt; }
+
+StepCount count_steps(const Eigen::VectorXd& t, double median, double most_off) {
+  StepCount count;
+  for (Index i = 1; i < t.size(); ++i) {
+    const double step = (t[i] - t[i - 1]) / median, whole = std::max(1.0, std::round(step));
+    if (is_gap(step, 1.0) || std::abs(step - whole) > most_off) continue;
+    count.time += step;
+    count.ticks += whole;
+  }
+  return count;
+}
 
 std::optional<double> step_of_rounded(const Eigen::VectorXd& t) {
   constexpr Index kFewestRows = 20;

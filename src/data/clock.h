@@ -17,6 +17,14 @@ std::optional<double> step_of_rounded(const Eigen::VectorXd& t);
 /// `dt` and than what jitter makes of five.
 bool is_gap(double step, double dt);
 
+/// What steps of a clock whose median step is known make in all, in medians, and how many ticks
+/// they are: rows that were lost count, gaps and steps that are off a whole number by more than
+/// `most_off` do not.
+struct StepCount {
+  double time = 0.0, ticks = 0.0;
+};
+StepCount count_steps(const Eigen::VectorXd& t, double median, double most_off);
+
 /// These stretches of rows, split where a step of their times is a gap.
 std::vector<Segment> split_at_gaps(const Eigen::VectorXd& t, const std::vector<Segment>& stretches,
                                    double dt);

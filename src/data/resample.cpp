@@ -46,21 +46,15 @@ Eigen::VectorXd interpolate(const Grid& grid, const Eigen::VectorXd& t, const Ei
   return out;
 }
 
-/// Mean step of an uneven clock [s]: of its jitter the median has an error by which the new rows
-/// wander through the intervals between old ones, and linear interpolation makes noise of them that
-/// comes and goes. Lost rows count. The median where both differ by more than that: no clock of one
-/// rate.
-double mean_step(const Recording& recording, const Eigen::VectorXd& t) {
-  constexpr double kErrorOfMedian = 0.01;
-  double seconds = 0.0, steps = 0.0;
-  for (const Segment& s : recording.segments) {
-    for (Index i = s.begin + 1; i < s.end; ++i) {
-      seconds += t[i] - t[i - 1];
-      steps += std::round((t[i] - t[i - 1]) / recording.dt);
-    }
-  }
-  const double mean = steps > 0.0 ? seconds / steps : recording.dt;
-  return std::abs(mean / recording.dt - 1.0) < kErrorOfMedian ? mean : recording.dt;
+/// Of a clock as uneven as it is, all steps counting: else the new rows wander through the
+/// intervals between old ones, and linear interpolation makes noise of them that comes and goes. As
+/// it was where the two differ by more than an error: no clock of one rate.
+double even_step(const Recording& recording, const Eigen::VectorXd& t) {
+  constexpr double kAnyStep = 0.5, kError = 0.01;
+  const StepCount count = count_steps(t, recording.dt, kAnyStep);
+  return recording.dt * (std::abs(count.time - count.ticks) < kError * count.ticks
+                             ? count.time / count.ticks
+                             : 1.0);
 }
 
 /// What is a gap at the old rate may be some rows of a slower clock.
@@ -87,7 +81,7 @@ void bridge_short_gaps(Recording& recording, const Eigen::VectorXd& t, double st
 void resample(Recording& recording, double hz, const std::vector<std::string>& smooth) {
   const Table old = recording.table;
   const Eigen::VectorXd t = recording.column("t");
-  if (hz == 0.0) hz = 1.0 / mean_step(recording, t);
+  if (hz == 0.0) hz = 1.0 / even_step(recording, t);
   constexpr double kMostRowsOfOne = 100.0;
   require(hz * recording.dt <= kMostRowsOfOne, Exit::kUsage, "resampling to ", hz,
           " Hz makes more than ", kMostRowsOfOne, " rows of each; the recording has ",

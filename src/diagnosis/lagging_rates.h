@@ -12,7 +12,7 @@ namespace dcnn {
 /// Lag [s] of a logged rate behind the derivative of its position, both below `hz`: least squares
 /// of v = q'(t - lag) to first order. 0 where that explains less than half of the power of v - q',
 /// or this is within the error of any law (kModelError): what differs is noise then, or another
-/// rate.
+/// rate; and where it is less than a difference of neighbouring rows is late.
 double rate_lag(const std::vector<Recording>& recordings, const Axis& axis, double hz);
 
 /// Leaves lagging rates out of the description of the axes, so that they are derived of the

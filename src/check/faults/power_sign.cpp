@@ -81,9 +81,7 @@ void append_declared(const Log& log, const Joint& joint, const Sampled& rows, Ei
     names.push_back(axis.simulated);
     for (const std::string& name : names) {
       if (!log.has(name) || !varies(log.column(name)) || 10 * A.cols() >= A.rows()) continue;
-      const Eigen::VectorXd column = rows.smoothed(log.column(name), rows.value);
-      A.conservativeResize(Eigen::NoChange, A.cols() + 1);
-      A.rightCols(1) = column / column.norm();
+      append(A, rows.smoothed(log.column(name), rows.value));
     }
   }
 }
