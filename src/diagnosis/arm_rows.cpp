@@ -5,17 +5,23 @@
 #include <cmath>
 
 #include "core/elementary.h"
+#include "core/linear_algebra.h"
 #include "dcnn/data/filter.h"
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/holdout.h"
 #include "diagnosis/left_out.h"
+#include "diagnosis/rest.h"
 
 namespace dcnn {
 namespace {
 
-constexpr double kDryWidths[] = {0.02, 0.1, 0.4};  // of the rms velocity, in which friction turns
+constexpr double kTailFreedom = 4.0;  // of Student's t
+constexpr int kTailPasses = 20;       // of expectation and maximisation
+constexpr double kTailRidge = 1e-9;   // of columns' squared length
+constexpr double kDryWidths[] = {0.005, 0.05, 0.3,
+                                 1.5};  // of the rms velocity, in which friction turns
 
-bool is_held(const std::vector<Span>& spans, std::size_t log, double t) {
+bool is_within(const std::vector<Span>& spans, std::size_t log, double t) {
   return std::any_of(spans.begin(), spans.end(), [&](const Span& s) { return s.holds(log, t); });
 }
 
@@ -81,8 +87,10 @@ LogRows rows_of_log(const Case& study, const Log& log, const Eigen::VectorXd& bo
 
 JointRows rows_of(const LoadedCase& loaded, const Eigen::VectorXd& bodies) {
   const Case& study = loaded.fit;
-  const auto held =
+  std::vector<Span> without =
       loaded.holdout.logs.empty() ? held_out_blocks(study, true) : std::vector<Span>();
+  const std::vector<Span> still = rests(study);
+  without.insert(without.end(), still.begin(), still.end());
   JointRows all;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     const Log& log = study.logs[k];
@@ -92,7 +100,7 @@ JointRows rows_of(const LoadedCase& loaded, const Eigen::VectorXd& bodies) {
     std::vector<Index> kept;
     for (Index i = 0; i < rows.arm.rows(); i += stride) {
       const double t = log.motion.t(i);
-      if (is_held(held, k, t)) continue;
+      if (is_within(without, k, t)) continue;
       kept.push_back(i);
       all.piece.push_back(static_cast<Index>(k) * kRecordingParts + part_of(log.motion, t));
     }
@@ -104,7 +112,28 @@ JointRows rows_of(const LoadedCase& loaded, const Eigen::VectorXd& bodies) {
     all.own.bottomRows(more) = rows.own(kept, Eigen::all);
     all.target.tail(more) = rows.target(kept);
   }
+  weigh_by_tails(all);
   return all;
+}
+
+void weigh_by_tails(JointRows& rows) {
+  const Index n = rows.target.size(), arm = rows.arm.cols();
+  Eigen::MatrixXd all(n, arm + rows.own.cols());
+  if (n < 2 * all.cols()) return;
+  all << rows.arm, rows.own;
+  Eigen::ArrayXd weight = Eigen::ArrayXd::Ones(n);
+  for (int pass = 0; pass < kTailPasses; ++pass) {
+    const Eigen::MatrixXd weighed = weight.matrix().asDiagonal() * all;
+    const Eigen::VectorXd x =
+        solve_gram(weighed.transpose() * all, weighed.transpose() * rows.target, kTailRidge);
+    const Eigen::ArrayXd square = (rows.target - all * x).array().square();
+    const double variance = std::max(1e-300, (weight * square).mean());
+    weight = (kTailFreedom + 1.0) / (kTailFreedom + square / variance);
+  }
+  const Eigen::VectorXd root = weight.sqrt();
+  rows.arm = root.asDiagonal() * rows.arm;
+  rows.own = root.asDiagonal() * rows.own;
+  rows.target = root.asDiagonal() * rows.target;
 }
 
 }  // namespace dcnn

@@ -6,9 +6,10 @@
 
 namespace dcnn {
 
-/// Own terms of a joint that are fitted beside an arm's base: an offset, viscous friction, and dry
-/// friction of three widths; then those that only a given base is tested against.
-constexpr Index kOwnFriction = 5;
+/// Own terms of a joint that are fitted beside an arm's base: an offset, viscous friction, and
+/// friction that turns within four widths of speed, of which the last is one that grows slower with
+/// it; then those that only a given base is tested against.
+constexpr Index kOwnFriction = 6;
 constexpr Index kOwnRate = 1;  ///< the column of viscous friction
 constexpr Index kOwnAliases =
     6;  ///< spring, drag, inertia, and the given torque, its rate, and its friction
@@ -21,9 +22,15 @@ struct JointRows {
   std::vector<Index> piece;  ///< of time: a sixth of a recording, counted over all of them
 };
 
-/// Of the fitted recordings, less what is held out within them. `bodies` (10·joints) or no rows:
+/// Of the fitted recordings, less what is held out within them and the joint's rests, weighed by
+/// their tails. `bodies` (10·joints) or no rows:
 /// those of a description with all bodies; columns `simulated` are taken off where the axis has
 /// one.
 JointRows rows_of(const LoadedCase& loaded, const Eigen::VectorXd& bodies);
+
+/// Divides each row by its likeliest deviation, where those of what all columns leave are
+/// Student's: just after a rest or a turn friction is any force up to that which breaks loose, and
+/// such rows would say of bodies what they do not know. Of fewer than two rows a column none tells.
+void weigh_by_tails(JointRows& rows);
 
 }  // namespace dcnn

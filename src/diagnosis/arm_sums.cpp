@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/linear_algebra.h"
+#include "diagnosis/evidence/priors.h"
 
 namespace dcnn {
 namespace {
@@ -165,7 +166,11 @@ Eigen::MatrixXd ArmRegression::left_out() const {
 void ArmRegression::compare(std::size_t joint, Index piece, const Eigen::VectorXd& x,
                             const ArmRegression& other, const Eigen::VectorXd& others,
                             evidence::BlockChange& change) const {
-  const double variance = variance_(static_cast<Index>(joint));
+  // All of a law's error may lie along what the two differ by.
+  double inexact = 0.0;
+  for (const ArmSums::Piece& each : pieces_[joint]) inexact += each.square;
+  const double variance =
+      variance_(static_cast<Index>(joint)) + prior::kModelError * prior::kModelError * inexact;
   const Eigen::VectorXd apart = coefficients(joint, x) - other.coefficients(joint, others);
   const auto p = static_cast<std::size_t>(piece);
   const Eigen::MatrixXd& gram = sums_.left_out_[joint][p].gram;

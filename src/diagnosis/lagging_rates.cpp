@@ -20,10 +20,10 @@ constexpr double kLeastLag = 0.4;
 
 }  // namespace
 
-double rate_lag(const std::vector<Recording>& recordings, const Axis& axis, double hz) {
-  double difference = 0.0, match = 0.0, turning = 0.0, power = 0.0;
+RateSums rate_sums(const std::vector<Recording>& recordings, const Axis& axis, double hz) {
+  RateSums sums;
   for (const Recording& recording : recordings) {
-    if (recording.dt <= 0.0) return 0.0;
+    if (recording.dt <= 0.0) return {};
     const double top = std::min(hz, kOfRate / recording.dt);
     const Derivatives of_position =
         differentiate(recording.column(axis.position), recording,
@@ -35,29 +35,49 @@ double rate_lag(const std::vector<Recording>& recordings, const Axis& axis, doub
     for (const Segment& s : recording.segments) {
       for (Index i = s.begin + end; i < s.end - end; ++i) {
         const double late = columns(i, 0) - columns(i, 1);
-        difference += late * late;
-        match -= late * columns(i, 2);
-        turning += columns(i, 2) * columns(i, 2);
-        power += columns(i, 1) * columns(i, 1);
+        sums.difference += late * late;
+        sums.match -= late * columns(i, 2);
+        sums.turning += columns(i, 2) * columns(i, 2);
+        sums.power += columns(i, 1) * columns(i, 1);
       }
     }
   }
-  if (recordings.empty() || turning <= 0.0) return 0.0;
-  const double lag = match / turning;
-  const double explained = lag * match;
-  const bool lags = lag >= kLeastLag * recordings.front().dt &&
-                    explained > kMostlyLate * difference &&
-                    explained > prior::kModelError * prior::kModelError * power;
+  return sums;
+}
+
+double rate_lag(const std::vector<RateSums>& axes, double step) {
+  RateSums all;
+  for (const RateSums& axis : axes) {
+    if (axis.difference <= 0.0) continue;
+    all.difference += 1.0;
+    all.match += axis.match / axis.difference;
+    all.turning += axis.turning / axis.difference;
+    all.power += axis.power / axis.difference;
+  }
+  if (all.turning <= 0.0) return 0.0;
+  const double lag = all.match / all.turning;
+  const double explained = lag * all.match;
+  const bool lags = lag >= kLeastLag * step && explained > kMostlyLate * all.difference &&
+                    explained > prior::kModelError * prior::kModelError * all.power;
   return lags ? lag : 0.0;
 }
 
 void leave_lagging_rates(std::vector<Recording>& recordings, System& system,
                          const std::vector<double>& motion_hz) {
-  for (std::size_t k = 0; k < system.axes.size(); ++k) {
+  if (recordings.empty()) return;
+  std::vector<RateSums> each(system.axes.size());
+  for (std::size_t k = 0; k < each.size(); ++k) {
+    const Axis& axis = system.axes[k];
+    if (!axis.position.empty() && !axis.velocity.empty()) {
+      each[k] = rate_sums(recordings, axis, motion_hz[k]);
+    }
+  }
+  const double step = recordings.front().dt;
+  const double together = rate_lag(each, step);
+  for (std::size_t k = 0; k < each.size(); ++k) {
     Axis& axis = system.axes[k];
-    if (axis.position.empty() || axis.velocity.empty()) continue;
-    const double lag = rate_lag(recordings, axis, motion_hz[k]);
-    if (lag <= 0.0) continue;
+    const double lag = together > 0.0 ? together : rate_lag({each[k]}, step);
+    if (lag <= 0.0 || each[k].difference <= 0.0) continue;
     recordings.front().notes.push_back(axis.velocity + " lags " + brief(1e3 * lag) +
                                        " ms behind the derivative of " + axis.position +
                                        ", which is used in its place");

@@ -49,13 +49,15 @@ Index terms_of(const ArmStructure& structure) {
 
 // Each joint's scale explains it as well.
 TEST(ArmStructure, OneBodyIsLikelierThanScalesOfAllJoints) {
+  Index terms = 0;
   for (const std::uint64_t seed : {1, 2, 3}) {
     std::vector<JointRows> joints = arm_noise(seed);
     for (JointRows& rows : joints) rows.target += rows.arm.col(0);
     const ArmStructure found = structure_of(joints);
     EXPECT_EQ(found.shared, 1U) << seed;
-    EXPECT_EQ(terms_of(found), 0) << seed;
+    terms += terms_of(found);
   }
+  EXPECT_LE(terms, 1);  // of 108 that noise may hold
 }
 
 TEST(ArmStructure, TheScaleOfOneJointIsNoBody) {
@@ -85,7 +87,7 @@ TEST(ArmStructure, ABodyStandsBesideATermOfOneJoint) {
 // The other pieces do not tell the friction of a joint that moves in one piece alone: that does not
 // hide a body on all of them.
 TEST(ArmStructure, FrictionInOnePieceHidesNoBody) {
-  for (const double mass : {0.0, 0.15}) {
+  for (const double mass : {0.0, 0.2}) {
     for (const std::uint64_t seed : {1, 2, 3}) {
       std::vector<JointRows> joints = arm_noise(seed);
       for (std::size_t j = 0; j < kArmJoints; ++j) {
@@ -100,6 +102,32 @@ TEST(ArmStructure, FrictionInOnePieceHidesNoBody) {
       }
       EXPECT_EQ(structure_of(joints).shared, mass > 0.0 ? 1U : 0U) << mass << ", " << seed;
     }
+  }
+}
+
+// A law of friction is wrong by a thousandth or more: what a body adds must exceed that.
+TEST(ArmStructure, WithinTheErrorOfALawThereIsNoBody) {
+  for (const double mass : {0.02, 0.5}) {
+    std::vector<JointRows> joints = arm_noise(4);
+    for (JointRows& rows : joints) {
+      rows.target *= 1e-3;
+      rows.target += mass * rows.arm.col(0) + 30.0 * rows.own.col(2);
+    }
+    EXPECT_EQ(structure_of(joints).shared, mass > 0.1 ? 1U : 0U) << mass;
+  }
+}
+
+// One row in twenty is far off, as beside a rest.
+TEST(ArmStructure, RowsFarOffHideNoBody) {
+  for (const bool weighed : {false, true}) {
+    std::vector<JointRows> joints = arm_noise(5);
+    Rng rng({6});
+    for (JointRows& rows : joints) {
+      rows.target += 0.3 * rows.arm.col(0);
+      for (Index i = 0; i < rows.target.size(); i += 20) rows.target(i) += 50.0 * rng.normal();
+      if (weighed) weigh_by_tails(rows);
+    }
+    EXPECT_EQ(structure_of(joints).shared, weighed ? 1U : 0U);
   }
 }
 

@@ -42,10 +42,13 @@ class LaggingRates : public testing::Test {
       "measured": "f", "unit": "N", "position": "x", "velocity": "v", "base": ["acceleration"]}]})");
     return folder_ / "slide.json";
   }
-  double lag_of(double late, double noise) const {
+  RateSums sums_of(const std::filesystem::path& log) const {
     const System described = read_system(system());
+    return rate_sums({read_recording(log, {}, described)}, described.axes[0], 20.0);
+  }
+  double lag_of(double late, double noise) const {
     const auto path = written("log.csv", slide(late, noise, 1));
-    return rate_lag({read_recording(path, {}, described)}, described.axes[0], 20.0);
+    return rate_lag({sums_of(path)}, kLoggedStep);
   }
 
  private:
@@ -57,6 +60,16 @@ TEST_F(LaggingRates, AreToldByTheDerivativeOfThePosition) {
   EXPECT_EQ(lag_of(0.0, 0.01), 0.0);
   EXPECT_EQ(lag_of(-0.004, 0.01), 0.0);  // ahead of its position
   EXPECT_EQ(lag_of(0.0005, 0.0), 0.0);   // less than a difference of two rows is late
+}
+
+// Of a rate whose noise hides its lag the driver's other rates tell it.
+TEST_F(LaggingRates, AreThoseOfOneDriver) {
+  const RateSums clear = sums_of(written("clear.csv", slide(0.004, 0.01, 4)));
+  const RateSums noisy = sums_of(written("noisy.csv", slide(0.004, 0.3, 5)));
+  EXPECT_EQ(rate_lag({noisy}, kLoggedStep), 0.0);
+  EXPECT_NEAR(rate_lag({clear, noisy}, kLoggedStep), 0.004, 1e-4);
+  const RateSums timely = sums_of(written("timely.csv", slide(0.0, 0.01, 6)));
+  EXPECT_EQ(rate_lag({timely, timely, clear}, kLoggedStep), 0.0);
 }
 
 // Beside the late rate the reading would seem to lead the motion.

@@ -162,7 +162,7 @@ std::vector<JointRows> coupled_joints(const Eigen::VectorXd& truth, const Eigen:
     rows.arm = taken(j) * arm;
     rows.own.resize(kJointRows, kOwnFriction);
     rows.own << Eigen::VectorXd::Ones(kJointRows), v.matrix(), (v / 0.02).tanh().matrix(),
-        (v / 0.1).tanh().matrix(), (v / 0.4).tanh().matrix();
+        (v / 0.1).tanh().matrix(), (v / 0.4).tanh().matrix(), (v / 1.5).tanh().matrix();
     rows.target = truth(j) * (arm * links + rows.own.col(3)) + 0.1 * noise(kJointRows, 1);
     for (Index i = 0; i < kJointRows; ++i) rows.piece.push_back(i * kTimePieces / kJointRows);
     joints.push_back(std::move(rows));
