@@ -11,6 +11,8 @@ constexpr double kEarthGravity = 9.81;  ///< m/s^2; it varies by 0.5 % over the 
 constexpr double kFaultPrior = 0.004;
 /// Probability that a joint's measured column is what its drive was told, a constant for a while.
 constexpr double kCommanded = 0.05;
+/// Probability that a joint's rate is logged of another shaft, through a gear.
+constexpr double kOtherShaft = 0.001;
 /// Probability that a sensor's reading has at most two significant digits: of four that are written
 /// 90 of 9000.
 constexpr double kTwoDigits = 0.01;
@@ -77,7 +79,7 @@ constexpr Typical kSubtracted{1.0, 0.5,
 constexpr double kPartly = 0.2;  ///< of logs with a subtracted weight: another mass than the tool's
 constexpr Typical kOffset{3.0, 1.3, 1.3};    ///< of a sensor [N]
 constexpr Typical kLever{0.08, 1.0, 1.0};    ///< torque over force, gravity on a tool [m]
-constexpr double kNominalLeverSpread = 0.5;  ///< of the logarithm of c over sim.json's
+constexpr double kNominalLeverSpread = 0.5;  ///< of c about sim.json's, over its length
 /// Von Neumann's ratio of a channel: of a motion; of poses in an order that somebody chose, where
 /// that channel goes from one end to the other, and where it does not.
 constexpr Typical kMovingRows{0.03, 2.0, 2.0}, kOrderedSlow{0.05, 1.5, 1.5},

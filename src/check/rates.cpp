@@ -9,12 +9,15 @@
 #include "check/statistics.h"
 #include "core/elementary.h"
 #include "data/held_rows.h"
+#include "dcnn/core/number.h"
 
 namespace dcnn::check {
 namespace {
 
 using Eigen::Index;
 constexpr double kPerDegree = 180.0 / std::numbers::pi;
+constexpr double kRateOff = 0.1;     // of a factor that matters: filters lower a rate, too
+constexpr double kDecades = 4.0;     // that another unit's factor may have
 constexpr double kRateError = 0.03;  // of a rate's deviation: its own filter, its own delay
 
 /// Rows that move by more than the rms of the motion: at rest there is nothing to compare, and the
@@ -67,6 +70,22 @@ double unrelated_cost(const Eigen::MatrixXd& logged, const Eigen::MatrixXd& rate
   return rate_cost(logged, {rate, 0.0, "unrelated"}, independent);
 }
 
+std::optional<RateMeaning> scaled_rate(const Eigen::MatrixXd& logged,
+                                       const std::vector<RateMeaning>& known) {
+  const std::vector<Index> moving = moving_rows(known[0].rate);
+  const Eigen::MatrixXd rate = known[0].rate(moving, Eigen::all);
+  const double factor =
+      logged(moving, Eigen::all).cwiseProduct(rate).sum() / std::max(rate.squaredNorm(), 1e-300);
+  if (factor <= 0.0) return std::nullopt;
+  const bool is_known = std::any_of(known.begin(), known.end(), [&](const RateMeaning& meaning) {
+    return std::abs(factor / meaning.scale - 1.0) < kRateOff;
+  });
+  if (is_known) return std::nullopt;
+  const double price = elementary::log(kDecades * std::numbers::ln10 / kRateError);
+  const std::string words = brief(factor) + " times that: in another unit, or by another clock";
+  return RateMeaning{known[0].rate, factor, words, price};
+}
+
 std::vector<JointRate> joint_rates(const Log& log, const Sampled& rows, const Reading& reading) {
   std::vector<JointRate> out;
   const double dt = log.step * reading.clock;
@@ -76,7 +95,8 @@ std::vector<JointRate> joint_rates(const Log& log, const Sampled& rows, const Re
     const double angle = joint.turns ? reading.angle : 1.0, unit = joint.turns ? reading.rate : 1.0;
     const Eigen::MatrixXd rate = angle / dt * rows.smoothed(log.column(joint.position), rows.first);
     if (rate.norm() == 0.0) continue;
-    out.push_back({joint.velocity, rows.smoothed(log.column(joint.velocity), rows.value), unit,
+    out.push_back({joint.velocity, joint.position, joint.turns,
+                   rows.smoothed(log.column(joint.velocity), rows.value), unit,
                    rate_meanings(rate, joint.turns, angle == unit && angle == 1.0)});
   }
   return out;

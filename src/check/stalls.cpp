@@ -97,15 +97,15 @@ Stalls stalls_of_sensor(const Log& log, const std::vector<std::string>& columns)
   return out;
 }
 
-Stalls stalls_of_pose(const Log& log) {
+Stalls stalls_of_positions(const Log& log, const std::vector<std::string>& names,
+                           const std::vector<std::vector<std::string>>& sensor_columns) {
   Stalls out;
-  const std::vector<std::string> names = log.positions();
   if (names.empty() || log.rows() < 2 * kFewestInRun) return out;
   const Eigen::MatrixXd columns = log.block(names);
   const std::vector<Run> runs = group_runs(columns);
   const Eigen::VectorXd steps = relative_steps(columns);
   std::vector<Eigen::MatrixXd> sensors;
-  for (const auto& sensor : log.sensors()) sensors.push_back(log.block(sensor));
+  for (const auto& sensor : sensor_columns) sensors.push_back(log.block(sensor));
   const auto count = static_cast<Index>(runs.size());
   const auto step_before = [&](Index k) {
     return double(steps[runs[static_cast<std::size_t>(k)].begin - 1]);

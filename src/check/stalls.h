@@ -16,9 +16,10 @@ struct Stalls {
 /// repeat as often as those of the other runs do.
 Stalls stalls_of_sensor(const Log& log, const std::vector<std::string>& columns);
 
-/// A pose that stands still and then jumps to where the robot has gone: the step at the end against
-/// those about the run, under Student's tail with five degrees of freedom. One that rests starts
-/// gently.
-Stalls stalls_of_pose(const Log& log);
+/// Positions, of a pose or of one joint, that stand still and then jump to where the robot has gone
+/// while its sensors go on: the step at the end against those about the run, under Student's tail
+/// with five degrees of freedom. One that rests starts gently.
+Stalls stalls_of_positions(const Log& log, const std::vector<std::string>& names,
+                           const std::vector<std::vector<std::string>>& sensors);
 
 }  // namespace dcnn::check

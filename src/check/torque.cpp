@@ -116,20 +116,23 @@ TorqueFit TorqueDesign::fit(const TorqueReading& reading) const {
 }
 
 double TorqueDesign::lever_weight(const TorqueFit& fit) const {
-  Typical typical = kLever;
-  if (e_.log.declared.model && e_.log.declared.model->com.norm() > kShortestLever) {
-    typical = {e_.log.declared.model->com.norm(), kNominalLeverSpread, kNominalLeverSpread};
+  const double residuals = e_.adopted.independent, mass = e_.adopted.fit.mass;
+  const auto& model = e_.log.declared.model;
+  if (model && model->com.norm() > kShortestLever) {
+    const double spread = kNominalLeverSpread * mass * model->com.norm();
+    const Matrix3d both = fit.covariance / residuals + spread * spread * Matrix3d::Identity();
+    const Vector3d off = fit.moment - mass * model->com;
+    return std::max(-0.5 * off.dot(both.ldlt().solve(off)), -kMostSurprise);
   }
-  const double lever = std::max(fit.moment.norm() / e_.adopted.fit.mass, kShortestLever);
+  const double lever = std::max(fit.moment.norm() / mass, kShortestLever);
   const double told = fit.moment.dot(fit.covariance.ldlt().solve(fit.moment));
-  const double residuals = e_.adopted.independent;
   // The likeliest lever under its prior and the recording together, as for a mass.
   double best = -1e300;
   for (int k = 0; k <= kLeverSteps; ++k) {
     const double share = static_cast<double>(k) / kLeverSteps;
-    const double factor = elementary::pow(typical.median / lever, share);
+    const double factor = elementary::pow(kLever.median / lever, share);
     best = std::max(
-        best, plausibility(factor * lever, typical) -
+        best, plausibility(factor * lever, kLever) -
                   0.5 * residuals * elementary::log(1.0 + (factor - 1.0) * (factor - 1.0) * told));
   }
   return best;

@@ -12,7 +12,7 @@
 #include "diagnosis/evidence/priors.h"
 #include "diagnosis/lagging_rates.h"
 #include "diagnosis/motion_band.h"
-#include "diagnosis/noise_floor.h"
+#include "diagnosis/moving.h"
 #include "diagnosis/periodograms.h"
 #include "diagnosis/position_bins.h"
 #include "diagnosis/shared_base.h"
@@ -89,31 +89,6 @@ std::vector<Index> used_columns(const std::vector<Recording>& recordings, const 
     for (Index k = 0; k < rows; ++k) all.row(before + k) = columns.row(5 * k);
   }
   return independent_columns(all, kBaseTolerance);
-}
-
-/// Whether the axis' position varies by more than ten deviations of its noise within the motion's
-/// band, read above that: else its rate is noise.
-bool moves(const Case& study) {
-  const std::string& name = study.axis->axis().position;
-  if (name.empty() || study.is_static()) return true;
-  Signals position;
-  double square = 0.0, rows = 0.0;
-  for (const Log& log : study.logs) {
-    const Eigen::VectorXd q = log.recording.column(name);
-    square += (q.array() - q.mean()).square().sum();
-    rows += static_cast<double>(q.size());
-    position.emplace_back(q);
-  }
-  const Periodograms p = periodograms(study, position, 0);
-  const Eigen::VectorXd density = density_of(p);
-  std::vector<double> quiet;
-  for (Index i = 0; i < p.hz.size() && p.power.cols() > 0; ++i) {
-    if (p.hz(i) >= quiet_band(study) && p.hz(i) <= 0.49 / study.dt()) quiet.push_back(density(i));
-  }
-  if (quiet.empty()) return square > 0.0;
-  // White noise of density s^2 has variance s^2 f/f_Nyquist below f.
-  const double noise = median(quiet) * std::min(1.0, 2.0 * study.motion_hz * study.dt());
-  return square / rows > prior::kMoves * prior::kMoves * noise;
 }
 
 /// Where an axis' motion ends, and what its position alone makes, 20 Hz or more; a low-pass that is

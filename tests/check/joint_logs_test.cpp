@@ -82,6 +82,53 @@ TEST(JointLogs, SingleRowsAtZeroAreDropouts) {
 }
 
 // Of a torque that turns over within two rows, the one between may be exactly zero.
+// The position of a joint that turns on comes back 0.2 rad away.
+TEST(JointLogs, APositionThatStandsStillAndJumpsIsFrozen) {
+  Table table = two_joints();
+  table.values.col(2).segment(300, 40).setConstant(double(table.values(300, 2)));
+  EXPECT_GE(probability_of(report_of(table), "frozen", "q_2"), check::kLikely);
+}
+
+TEST(JointLogs, PositionsAtZeroAreDropouts) {
+  Table table = two_joints();
+  for (const Eigen::Index row : {260, 261, 505, 790}) table.values(row, 2) = 0.0;
+  EXPECT_GE(probability_of(report_of(table), "dropouts", "q_2"), check::kCertain);
+}
+
+/// The same with rates, of the positions as they were.
+Table with_rates(double factor) {
+  const Table without = two_joints();
+  Table table{{"t", "q_1", "q_2", "tau_1", "tau_2", "qd_1", "qd_2"},
+              Eigen::MatrixXd::Zero(kRows, 7)};
+  table.values.leftCols(5) = without.values;
+  for (Eigen::Index i = 1; i + 1 < kRows; ++i) {
+    for (const Eigen::Index j : {1, 2}) {
+      table.values(i, j + 4) =
+          factor * (without.values(i + 1, j) - without.values(i - 1, j)) / 0.02;
+    }
+  }
+  return table;
+}
+
+TEST(JointLogs, RatesOfExchangedJointsAreNamed) {
+  Table table = with_rates(1.0);
+  EXPECT_LT(probability_of(report_of(table), "rates", "qd_1"), check::kLikely);
+  const Eigen::VectorXd first = table.values.col(5);
+  table.values.col(5) = table.values.col(6);
+  table.values.col(6) = first;
+  const check::Report report = report_of(table);
+  EXPECT_GE(probability_of(report, "rates", "qd_1"), check::kCertain);
+  EXPECT_GE(probability_of(report, "rates", "qd_2"), check::kCertain);
+}
+
+// Another shaft's, perhaps: told, but nothing stops for it.
+TEST(JointLogs, RatesByAnotherFactorAreLikelyAFault) {
+  EXPECT_LT(probability_of(report_of(with_rates(0.95)), "rates", "qd_1"), check::kLikely);
+  const double found = probability_of(report_of(with_rates(0.65)), "rates", "qd_1");
+  EXPECT_GE(found, check::kLikely);
+  EXPECT_LT(found, check::kCertain);
+}
+
 TEST(JointLogs, ATorqueThatPassesThroughZeroDidNotDropOut) {
   Table table = two_joints();
   Rng rng({23});

@@ -18,7 +18,7 @@ void find_dropouts_in(const Log& log, const std::vector<std::string>& names,
                       std::vector<Fault>& out) {
   const Eigen::MatrixXd values = log.block(names);
   const auto joint = std::find_if(log.joints.begin(), log.joints.end(), [&](const Joint& one) {
-    return one.measured == names[0] && !one.position.empty();
+    return (one.measured == names[0] && !one.position.empty()) || one.position == names[0];
   });
   const RelativeSpeed speed =
       joint == log.joints.end() ? RelativeSpeed(log) : RelativeSpeed(log, {joint->position});
@@ -86,7 +86,13 @@ void find_dropouts_in(const Log& log, const std::vector<std::string>& names,
 std::vector<Fault> find_dropouts(const Evidence& e) {
   std::vector<Fault> out;
   if (!e.log.smooth) return out;
-  for (const auto& names : e.log.sensors()) {
+  std::vector<std::vector<std::string>> sources = e.log.sensors();
+  if (e.log.joints.empty()) sources.push_back(e.log.positions());
+  for (const Joint& joint : e.log.joints) {
+    if (!joint.position.empty()) sources.push_back({joint.position});
+  }
+  for (const auto& names : sources) {
+    if (names.empty()) continue;
     const std::size_t before = out.size();
     find_dropouts_in(e.log, names, out);
     if (out.size() > before || names.size() == 1) continue;

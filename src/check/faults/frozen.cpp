@@ -59,13 +59,16 @@ void find_frozen_column(const Log& log, const std::string& name, std::vector<Fau
   out.push_back(fault);
 }
 
-void add_stalls(const Log& log, const Stalls& stalls, const std::string& name,
+void add_stalls(const Log& log, const Stalls& stalls, const std::vector<std::string>& names,
                 std::vector<Fault>& out) {
   if (stalls.runs.empty()) return;
   const Run& longest = stalls.runs[0];
+  const std::string& name = names[0];
+  const bool alone = names.size() == 1;
   const std::size_t times = stalls.runs.size();
   Fault fault = fault_of(frozen_fault, posterior_of_p(stalls.p), name,
-                         name + " and its companions keep their values for " +
+                         (alone ? name + " keeps its value for "
+                                : name + " and its companions keep their values for ") +
                              std::to_string(longest.length) + " rows" +
                              (times > 1 ? " at most, " + std::to_string(times) + " times," : "") +
                              " while the robot moves");
@@ -81,10 +84,17 @@ std::vector<Fault> find_frozen(const Evidence& e) {
                                  [](const Fault& fault) { return fault.probability >= kLikely; });
   if (found) return out;
   for (const auto& names : e.log.sensors()) {
-    if (names.size() > 1) add_stalls(e.log, stalls_of_sensor(e.log, names), names[0], out);
+    if (names.size() > 1) add_stalls(e.log, stalls_of_sensor(e.log, names), names, out);
   }
   const std::vector<std::string> positions = e.log.positions();
-  if (!positions.empty()) add_stalls(e.log, stalls_of_pose(e.log), positions[0], out);
+  if (!positions.empty()) {
+    add_stalls(e.log, stalls_of_positions(e.log, positions, e.log.sensors()), positions, out);
+  }
+  for (const Joint& joint : e.log.joints) {
+    if (joint.position.empty() || joint.measured.empty() || positions.size() == 1) continue;
+    add_stalls(e.log, stalls_of_positions(e.log, {joint.position}, {{joint.measured}}),
+               {joint.position}, out);
+  }
   return out;
 }
 

@@ -13,6 +13,7 @@ namespace dcnn::check {
 namespace {
 
 using Eigen::Index;
+constexpr double kMovesToo = 0.1;  // of the fastest joint: one at rest trembles as others do
 
 /// The first meaning is the declared one.
 void compare_rates(const Eigen::MatrixXd& logged, const std::vector<RateMeaning>& meanings,
@@ -21,21 +22,43 @@ void compare_rates(const Eigen::MatrixXd& logged, const std::vector<RateMeaning>
                                    unrelated_cost(logged, meanings[0].rate, independent));
   Eigen::VectorXd gain(static_cast<Index>(meanings.size()) - 1);
   for (Index k = 0; k < gain.size(); ++k) {
-    gain[k] = declared - rate_cost(logged, meanings[static_cast<std::size_t>(k) + 1], independent);
+    const RateMeaning& meaning = meanings[static_cast<std::size_t>(k) + 1];
+    gain[k] = declared - rate_cost(logged, meaning, independent) - meaning.price;
   }
   Index best = 0;
   gain.maxCoeff(&best);
   const double log_odds =
       elementary::log(kFaultPrior / static_cast<double>(gain.size())) + log_sum(gain);
-  out.push_back(fault_of(rates_fault, probability_of_log_odds(log_odds), channel,
-                         channel + " is not the derivative of its position: it is " +
-                             meanings[static_cast<std::size_t>(best) + 1].words));
+  const RateMeaning& meaning = meanings[static_cast<std::size_t>(best) + 1];
+  double probability = probability_of_log_odds(log_odds);
+  if (meaning.price > 0.0) {
+    probability = std::min(probability, kFaultPrior / (kFaultPrior + kOtherShaft));
+  }
+  out.push_back(
+      fault_of(rates_fault, probability, channel,
+               channel + " is not the derivative of its position: it is " + meaning.words));
 }
 
 void find_joint_rates(const Evidence& e, std::vector<Fault>& out) {
   const Adopted& a = e.adopted;
-  for (const JointRate& joint : joint_rates(e.log, a.rows, a.reading)) {
-    compare_rates(joint.unit * joint.logged, joint.meanings, a.independent, joint.channel, out);
+  const std::vector<JointRate> joints = joint_rates(e.log, a.rows, a.reading);
+  double fastest = 0.0;
+  for (const JointRate& joint : joints) {
+    fastest = std::max(fastest, joint.meanings[0].rate.norm());
+  }
+  const auto moves = [&](const JointRate& joint) {
+    return joint.meanings[0].rate.norm() > kMovesToo * fastest;
+  };
+  for (const JointRate& joint : joints) {
+    const Eigen::MatrixXd logged = joint.unit * joint.logged;
+    std::vector<RateMeaning> meanings = joint.meanings;
+    if (const auto scaled = scaled_rate(logged, meanings)) meanings.push_back(*scaled);
+    for (const JointRate& other : joints) {
+      if (other.channel == joint.channel || other.turns != joint.turns) continue;
+      if (!moves(joint) || !moves(other)) continue;
+      meanings.push_back({other.meanings[0].rate, 1.0, "that of " + other.position});
+    }
+    compare_rates(logged, meanings, a.independent, joint.channel, out);
   }
 }
 
