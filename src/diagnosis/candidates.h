@@ -35,6 +35,9 @@ bool is_testable(const Case& study, const EffectKind& kind, std::string* why = n
 /// another rest is then an offset.
 bool is_in_base(const Case& study, const EffectKind& kind);
 
+/// A constant offset beside them, where it is listed and none of them is one.
+void add_constant(const Case& study, std::vector<Member>& members);
+
 /// Members that are the simulator's own numbers.
 std::vector<Member> own_parameters(const Case& study);
 

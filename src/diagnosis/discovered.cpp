@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "diagnosis/candidates.h"
+#include "diagnosis/confidence.h"
 #include "diagnosis/laws.h"
 #include "diagnosis/names_alone.h"
 
@@ -141,27 +143,55 @@ bool name_in_place_of_one(Search& search, Laws& laws) {
   return false;
 }
 
-/// Names along one axis may be one law that no catalogue has: where it explains more than they,
-/// each number of either at its price, by what any law must gain, and held-out data do not speak
-/// against it, it stands in their place.
+/// Places of the names that one law may stand for: those along one axis; and of a machine, whose
+/// laws all act along its own, all that are none of its numbers, readings that settle too, where
+/// the shape of one is at its bound: the catalogue does not have it, and names of other axes mend
+/// it.
+std::set<std::vector<std::size_t>> laws_in_parts(const Case& study,
+                                                 const std::vector<Member>& members) {
+  const std::vector<Member> own = own_parameters(study);
+  const auto is_own = [&](const Member& member) {
+    return std::any_of(own.begin(), own.end(),
+                       [&](const Member& number) { return number.kind == member.kind; });
+  };
+  std::map<std::string, std::vector<std::size_t>> along;
+  std::vector<std::size_t> all;
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    const Member& member = members[m];
+    if (member.fixed || member.interval_s) continue;
+    const Stage stage = member.kind->stage;
+    if (stage == Stage::kForce) along[member.axis].push_back(m);
+    const bool settles = stage == Stage::kDynamics && member.amplitudes.size() > 0;
+    if ((stage == Stage::kForce || settles) && !is_own(member)) all.push_back(m);
+  }
+  std::set<std::vector<std::size_t>> parts;
+  for (const auto& [axis, names] : along) parts.insert(names);
+  const bool at_bound =
+      std::any_of(all.begin(), all.end(), [&](std::size_t m) { return is_degenerate(members[m]); });
+  if (study.axis && at_bound) parts.insert(all);
+  return parts;
+}
+
+/// Names may be one law that no catalogue has: where it explains more than they, each number of
+/// either at its price, by what any law must gain, and held-out data do not speak against it, it
+/// stands in their place.
 Laws in_place_of_names(Search& search, const HoldOut& holdout) {
   const Setting& setting = search.setting();
   const JointFit& fit = search.fit();
-  std::map<std::string, std::vector<std::size_t>> along;  // names by axis
-  for (std::size_t m = 0; m < fit.members.size(); ++m) {
-    const Member& member = fit.members[m];
-    if (!member.fixed && !member.interval_s && member.kind->stage == Stage::kForce) {
-      along[member.axis].push_back(m);
-    }
-  }
-  for (const auto& [axis, names] : along) {
+  for (const std::vector<std::size_t>& names : laws_in_parts(search.study(), fit.members)) {
     std::vector<Member> rest = fit.members;
     int numbers = 0;
+    bool at_bound = false;
     for (auto m = names.rbegin(); m != names.rend(); ++m) {
       numbers += rest[*m].parameters();
+      at_bound = at_bound || is_degenerate(rest[*m]);
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(*m));
     }
-    if (numbers <= kFewestNumbers) continue;
+    if (numbers <= kFewestNumbers && !at_bound) continue;
+    // A spring's rest, or what creeps, may have held the machine's.
+    const std::size_t left = rest.size();
+    if (search.study().axis) add_constant(search.study(), rest);
+    numbers -= static_cast<int>(rest.size() - left);
     Laws laws = worthy_laws(setting, joint_fit(setting, rest));
     if (laws.found.empty() || !laws.found.front().established) continue;
     laws.found.resize(1);  // the loudest; what it leaves is looked at beside it

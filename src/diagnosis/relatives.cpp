@@ -93,14 +93,8 @@ bool Search::remove_near_laws() {
   const auto at = static_cast<std::size_t>(worst - far.begin());
   std::vector<Member> rest = members_without(at);
   // What is certain of a drift that is none is its mean.
-  const auto& kinds = effect_kinds();
-  const EffectKind& bias = **std::find_if(kinds.begin(), kinds.end(),
-                                          [](const EffectKind* kind) { return kind->is_constant; });
   const bool drifts = fit_.members[at].kind->stage == Stage::kOffset;
-  if (rest_loudness() > 1.0 && drifts && is_listed(study_, bias) &&
-      std::none_of(rest.begin(), rest.end(), [&](const Member& m) { return m.kind == &bias; })) {
-    rest.push_back(make_member(study_, bias, bias.fits[0], "", {}));
-  }
+  if (rest_loudness() > 1.0 && drifts) add_constant(study_, rest);
   settle(rest);
   return true;
 }

@@ -78,6 +78,17 @@ bool is_in_base(const Case& study, const EffectKind& kind) {
   return std::count(base.begin(), base.end(), kind.base_signal) > 0;
 }
 
+void add_constant(const Case& study, std::vector<Member>& members) {
+  const auto& kinds = effect_kinds();
+  const EffectKind& constant = **std::find_if(
+      kinds.begin(), kinds.end(), [](const EffectKind* kind) { return kind->is_constant; });
+  const bool has_one = std::any_of(members.begin(), members.end(),
+                                   [&](const Member& m) { return m.kind == &constant; });
+  if (is_listed(study, constant) && !has_one) {
+    members.push_back(make_member(study, constant, constant.fits[0], "", {}));
+  }
+}
+
 std::vector<Member> own_parameters(const Case& study) {
   std::vector<Member> members;
   // An arm's links are fitted to these recordings: their scale is no number of its own.

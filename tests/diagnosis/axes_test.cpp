@@ -447,6 +447,22 @@ TEST(DiagnoseAxes, OneLawStandsInThePlaceOfTwoNames) {
   EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 1.05 * kAxisNoise);
 }
 
+// Beside a constant, which a spring far from its rest had held, one law explains more than names of
+// several kinds.
+TEST(DiagnoseAxes, OneLawAndAConstantStandInThePlaceOfNames) {
+  const Json report = AxisBench([](const State& s) {
+                        const double u = s.v / 0.7;
+                        return 0.3 + 1.5 * u / (1.0 + u * u);
+                      })
+                          .diagnose(one_axis())
+                          .report;
+  const Json *constant = find(report, "bias"), *law = find(report, "discovered");
+  ASSERT_TRUE(constant && law) << report["findings"].dump(1);
+  EXPECT_EQ(report["findings"].size(), 2U) << report["findings"].dump(1);
+  EXPECT_NEAR(number(*constant, "delta_bias", "N*m"), 0.3, 0.01);
+  EXPECT_NEAR(number(*law, "scale_1", "rad/s"), 0.7, 0.03);
+}
+
 // A force that grows with the square of the speed and has one sign begins as friction that differs
 // between the directions; beside the law nothing is left of that.
 TEST(DiagnoseAxes, ANameThatALawMakesNeedlessGoes) {
