@@ -15,12 +15,17 @@ using Names = std::vector<std::string>;
 
 bool varies(const LogChannel& channel) { return channel.finite > 1 && channel.high > channel.low; }
 
+/// Whether a column may be meant: no clock, and nothing that was wanted or simulated.
+bool may_be_meant(const LogChannel& channel, const std::string& clock) {
+  return channel.name != clock && !is_no_measurement(words_of_name(channel.name));
+}
+
 /// Columns that are called alike but for their last number, in the order of the log.
 std::vector<Names> groups_of(const LogStream& stream, const std::string& clock) {
   std::vector<Names> groups;
   std::map<std::string, std::size_t> known;
   for (const LogChannel& channel : stream.channels) {
-    if (channel.name == clock || channel.finite == 0) continue;
+    if (!may_be_meant(channel, clock) || channel.finite == 0) continue;
     const auto name = counted(channel.name);
     const std::string key = name ? name->before + "#" + name->after : channel.name;
     const auto [at, fresh] = known.emplace(key, groups.size());
@@ -93,7 +98,7 @@ std::string how_to_name(const ForeignLog& log) {
   if (maps.empty()) {
     Names moving;
     for (const LogChannel& channel : longest->channels) {
-      if (channel.name != clock && varies(channel)) moving.push_back(channel.name);
+      if (may_be_meant(channel, clock) && varies(channel)) moving.push_back(channel.name);
     }
     if (moving.size() < 2) return begin;
     maps = map_of("q:1", moving.front()) + map_of("tau:1", moving.back());

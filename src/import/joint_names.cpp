@@ -55,7 +55,7 @@ bool is_foreign(const std::string& stem) {
 
 bool says_nothing(const std::string& word) {
   return stands_in(
-      word, {"actual", "measured", "meas", "msr", "state", "states", "current", "field", "motor",
+      word, {"actual", "act", "measured", "meas", "msr", "state", "states", "current", "field", "motor",
              "feedback", "fb", "data", "disturb", "disturbance", "value"});
 }
 

@@ -62,7 +62,7 @@ std::string joint_word(const std::string& word) {
   const std::string stem = word.substr(0, digit), number = word.substr(digit);
   if (is_one_of(stem, {"q", "joint", "theta", "pos"})) return "q:" + number;
   if (is_one_of(stem, {"dq", "qd", "qdot", "vel"})) return "qd:" + number;
-  if (is_one_of(stem, {"tau", "torque", "effort"})) return "tau:" + number;
+  if (is_one_of(stem, {"tau", "torque", "torques", "effort", "efforts"})) return "tau:" + number;
   return "";
 }
 
@@ -88,13 +88,6 @@ std::string matrix_element(const Words& words, int index) {
   if (row > 2) return "";
   if (column == 3) return with_axis("", row);
   return "r" + std::to_string(row + 1) + std::to_string(column + 1);
-}
-
-/// What a controller wants, what was simulated or a statistic is no measurement.
-bool is_no_measurement(const Words& words) {
-  return has_word(words, {"covariance", "target", "desired", "des", "goal", "setpoint", "reference",
-                          "ref", "cmd", "command", "commanded", "bias", "std", "raw_counts",
-                          "gravity", "sim", "soll", "rsol", "aspos"});
 }
 
 /// Whose unit says what the axis in its name is of: "Sensor X (N)".
@@ -165,6 +158,12 @@ std::string joint_state(const std::string& channel) {
 }
 
 }  // namespace
+
+bool is_no_measurement(const Words& words) {
+  return has_word(words, {"covariance", "target", "desired", "des", "goal", "setpoint", "reference",
+                          "ref", "cmd", "command", "commanded", "bias", "std", "raw_counts",
+                          "gravity", "sim", "soll", "rsol", "aspos"});
+}
 
 Words words_of_name(const std::string& name) {
   const std::string text = name_without_unit(name);
@@ -246,8 +245,9 @@ int clock_rank(const std::string& channel) {
   const Words own = words_of_name(channel.substr(channel.find_last_of('.') + 1));
   if (own.empty()) return 0;
   words = own;
-  if (words.size() <= 2 && is_one_of(words.back(), {"time", "timestamp", "timestamps", "stamp",
-                                                    "clock", "tout", "datetime", "duration"})) {
+  if (words.size() <= 2 &&
+      is_one_of(words.back(), {"time", "times", "timestamp", "timestamps", "stamp", "clock", "tout",
+                               "datetime", "duration"})) {
     return 2;
   }
   if (words.size() == 1 && is_one_of(words[0], {"zeit", "datum", "date", "ipoc"})) return 2;

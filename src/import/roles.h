@@ -20,6 +20,9 @@ std::string how_to_name(const ForeignLog& log);
 /// Lower-case words of a name: "Force[X] (N)" is {force, x}.
 std::vector<std::string> words_of_name(const std::string& name);
 
+/// What a controller wants, what was simulated or a statistic, by the words of its name.
+bool is_no_measurement(const std::vector<std::string>& words);
+
 /// A clock's column: 3 header stamp, 2 a word for time, 1 the single letter; 0 no clock.
 int clock_rank(const std::string& channel);
 /// Whole seconds (1) and nanoseconds (2) of a stamp in two columns; 0 neither.

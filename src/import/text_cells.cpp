@@ -112,6 +112,10 @@ std::optional<int> zone_seconds(std::string_view text) {
 
 void split_cells(std::string_view line, char separator, std::vector<std::string_view>* cells) {
   cells->clear();
+  if (separator != ';') {
+    const std::size_t last = line.find_last_not_of(" \t\r");
+    if (last != line.npos && line[last] == ';') line = line.substr(0, last);
+  }
   for (std::size_t begin = 0;;) {
     if (separator == ' ') {
       while (begin < line.size() && is_blank(line[begin])) ++begin;

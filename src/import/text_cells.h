@@ -11,7 +11,8 @@ namespace dcnn {
 
 enum class CellKind { kNumber, kMissing, kText };
 
-/// Cells of one line. Quotes protect separators; ' ' separates by runs of blanks and tabs.
+/// Cells of one line. Quotes protect separators; ' ' separates by runs of blanks and tabs; a ';'
+/// that ends a line and separates nothing is no part of its last cell.
 void split_cells(std::string_view line, char separator, std::vector<std::string_view>* cells);
 
 /// A decimal number with '.' or ',' (`decimal`), a date or a time of day (clock_seconds), or one of

@@ -76,6 +76,7 @@ const std::array kUnits = {UnitRow{"s", "time"},
                            UnitRow{"rpm", "rate", std::numbers::pi / 30.0},
                            UnitRow{"rev", "angle", 2.0 * std::numbers::pi},
                            UnitRow{"rev/s", "rate", 2.0 * std::numbers::pi},
+                           UnitRow{"turns/s", "rate", 2.0 * std::numbers::pi},
                            UnitRow{"m/s2", "acceleration"},
                            UnitRow{"mm/s2", "acceleration", 1e-3},
                            UnitRow{"g", "acceleration", kGravity},
@@ -101,13 +102,14 @@ const std::array kUnits = {UnitRow{"s", "time"},
                            UnitRow{"mA", "current", 1e-3},
                            UnitRow{"1", "number"},
                            UnitRow{"-", "number"},
+                           UnitRow{"#", "number"},
                            UnitRow{"counts", "counts"},
                            UnitRow{"count", "counts"},
                            UnitRow{"lsb", "counts"},
                            UnitRow{"ticks", "counts"}};
 
 /// Units written out, in any case, with or without an s behind.
-constexpr std::array<std::pair<std::string_view, const char*>, 15> kWrittenOut = {
+constexpr std::array<std::pair<std::string_view, const char*>, 17> kWrittenOut = {
     {{"radian", "rad"},
      {"meter", "m"},
      {"metre", "m"},
@@ -122,6 +124,8 @@ constexpr std::array<std::pair<std::string_view, const char*>, 15> kWrittenOut =
      {"millisecond", "ms"},
      {"microsecond", "us"},
      {"rpm", "rpm"},
+     {"turn", "rev"},
+     {"revolution", "rev"},
      {"nanosecond", "ns"}}};
 
 /// "N*m", "N.m", "N m", "N·m" are "Nm"; "m/s^2" and "m/s²" are "m/s2".

@@ -2,6 +2,8 @@
 // Comments above a table: remarks with as many cells as the table, names, units.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "import/logs.h"
 
 namespace dcnn {
@@ -47,6 +49,22 @@ TEST(CommentLines, UnitsInThemAreTaken) {
   const Imported imported = import_text("# t, fx, fy, fz\n# ms, mN, mN, mN\n0,1,2,3\n10,1,2,3\n");
   EXPECT_DOUBLE_EQ(test::cell(imported, "t", 1), 0.01);
   EXPECT_DOUBLE_EQ(test::cell(imported, "fz", 1), 0.003);
+}
+
+TEST(CommentLines, UnitsOfNothingAndOfTurnsAreUnits) {
+  const std::string rows = "0,1,0.5,2,1\n1,1,0.5,2,2\n2,1,0.5,2,3\n";
+  ImportWishes wishes;
+  wishes.rate_hz = 100.0;
+  wishes.map = {{"q:1", "position"}, {"tau:1", "effort"}};
+  const Imported imported = import_text(
+      "% step,voltage,position,velocity,effort\n% [#],[V],[turns],[turns/s],[Nm]\n" + rows, wishes);
+  EXPECT_NEAR(test::cell(imported, "q_1", 1), std::numbers::pi, 1e-12);
+}
+
+TEST(CommentLines, AMarkThatEndsEachRowIsNoCell) {
+  const Imported imported =
+      import_text("% settings\n% t,fx,fy,fz\n0,1,2,3;\n0.01,1,2,4;\n0.02,1,2,5; \n");
+  EXPECT_DOUBLE_EQ(test::cell(imported, "fz", 1), 4.0);
 }
 
 // Whole numbers in two columns are no decimal commas where the names are two.

@@ -255,12 +255,21 @@ TEST(JointColumns, OfALogOfOneJointNeedNoNumber) {
   EXPECT_EQ(cell(recording, "tau_1", 3), 1.5);
 }
 
+TEST(JointColumns, OfArraysAreCalledInThePlural) {
+  const Imported imported = import_text(
+      "time,positions[0],positions[1],positions[2],positions[3],torques[0],torques[1],torques[2],"
+      "torques[3],target_positions[0]\n0,1,2,3,4,5,6,7,8,9\n0.01,1,2,3,4,5,6,7,8,9\n");
+  EXPECT_EQ(cell(imported, "q_3", 1), 4.0);
+  EXPECT_EQ(cell(imported, "tau_0", 1), 5.0);
+}
+
 // Two positions may be a motor's and its load's; a position beside a pose is the tool's.
 TEST(JointColumns, WhereMoreThanOneMayBeMeantAreAskedFor) {
   EXPECT_EQ(lone_quantity({"measured", "torque"}), "tau:");
   EXPECT_EQ(lone_quantity({"current"}), "current:");
   EXPECT_EQ(lone_quantity({"motor", "position"}), "q:");
   EXPECT_EQ(lone_quantity({"iq"}), "current:");
+  EXPECT_EQ(lone_quantity({"dq", "act"}), "qd:");
   EXPECT_EQ(lone_quantity({"current", "position"}), "q:");
   EXPECT_EQ(lone_quantity({"desired", "torque"}), "");
   EXPECT_EQ(lone_quantity({"q", "torque"}), "");
@@ -272,6 +281,14 @@ TEST(JointColumns, WithoutTorquesSayHowToNameThem) {
   const Proposal proposal = propose(read_log({folder / "log.csv"}, {}), {});
   ASSERT_EQ(proposal.notes.size(), 1U);
   EXPECT_NE(proposal.notes[0].find("--map tau:1=CHANNEL"), std::string::npos) << proposal.notes[0];
+}
+
+// A command with columns that were wanted in the place of those that were measured misleads.
+TEST(JointColumns, ThatWereWantedAreNotProposed) {
+  const TemporaryFolder folder;
+  spill(folder / "log.csv", "t,a_des,a_seen,b_seen,b_cmd\n0,1,2,3,4\n0.01,2,3,4,5\n");
+  const std::string words = how_to_name(read_log({folder / "log.csv"}, {}));
+  EXPECT_NE(words.find("--map q:1=a_seen --map tau:1=b_seen"), std::string::npos) << words;
 }
 
 TEST(JointColumns, ArraysOfTwoFilesAreNotStrungTogether) {
