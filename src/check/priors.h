@@ -13,6 +13,8 @@ constexpr double kFaultPrior = 0.004;
 constexpr double kCommanded = 0.05;
 /// Probability that a joint's rate is logged of another shaft, through a gear.
 constexpr double kOtherShaft = 0.001;
+/// Decades that the factor of an unknown unit of a rate may lie in, each place of them as probable.
+constexpr double kRateDecades = 4.0;
 /// Probability that a sensor's reading has at most two significant digits: of four that are written
 /// 90 of 9000.
 constexpr double kTwoDigits = 0.01;

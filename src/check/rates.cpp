@@ -17,7 +17,6 @@ namespace {
 using Eigen::Index;
 constexpr double kPerDegree = 180.0 / std::numbers::pi;
 constexpr double kRateOff = 0.1;     // of a factor that matters: filters lower a rate, too
-constexpr double kDecades = 4.0;     // that another unit's factor may have
 constexpr double kRateError = 0.03;  // of a rate's deviation: its own filter, its own delay
 
 /// Rows that move by more than the rms of the motion: at rest there is nothing to compare, and the
@@ -81,7 +80,7 @@ std::optional<RateMeaning> scaled_rate(const Eigen::MatrixXd& logged,
     return std::abs(factor / meaning.scale - 1.0) < kRateOff;
   });
   if (is_known) return std::nullopt;
-  const double price = elementary::log(kDecades * std::numbers::ln10 / kRateError);
+  const double price = elementary::log(kRateDecades * std::numbers::ln10 / kRateError);
   const std::string words = brief(factor) + " times that: in another unit, or by another clock";
   return RateMeaning{known[0].rate, factor, words, price};
 }

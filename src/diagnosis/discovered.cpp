@@ -6,7 +6,6 @@
 #include <set>
 
 #include "diagnosis/candidates.h"
-#include "diagnosis/confidence.h"
 #include "diagnosis/laws.h"
 #include "diagnosis/names_alone.h"
 
@@ -168,7 +167,7 @@ std::set<std::vector<std::size_t>> laws_in_parts(const Case& study,
   for (const auto& [axis, names] : along) parts.insert(names);
   const bool at_bound =
       std::any_of(all.begin(), all.end(), [&](std::size_t m) { return is_degenerate(members[m]); });
-  if (study.axis && at_bound) parts.insert(all);
+  if (at_bound && study.axis) parts.insert(all);
   return parts;
 }
 
@@ -181,7 +180,7 @@ Laws in_place_of_names(Search& search, const HoldOut& holdout) {
   for (const std::vector<std::size_t>& names : laws_in_parts(search.study(), fit.members)) {
     std::vector<Member> rest = fit.members;
     int numbers = 0;
-    bool at_bound = false;
+    bool at_bound = false;  // of a shape
     for (auto m = names.rbegin(); m != names.rend(); ++m) {
       numbers += rest[*m].parameters();
       at_bound = at_bound || is_degenerate(rest[*m]);
