@@ -89,8 +89,11 @@ JointRows rows_of(const LoadedCase& loaded, const Eigen::VectorXd& bodies) {
   const Case& study = loaded.fit;
   std::vector<Span> without =
       loaded.holdout.logs.empty() ? held_out_blocks(study, true) : std::vector<Span>();
-  const std::vector<Span> still = rests(study);
-  without.insert(without.end(), still.begin(), still.end());
+  const bool is_given = bodies.size() > 0 || !study.axis->axis().simulated.empty();
+  if (is_given) {
+    const std::vector<Span> still = rests(study);
+    without.insert(without.end(), still.begin(), still.end());
+  }
   JointRows all;
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     const Log& log = study.logs[k];
@@ -112,7 +115,7 @@ JointRows rows_of(const LoadedCase& loaded, const Eigen::VectorXd& bodies) {
     all.own.bottomRows(more) = rows.own(kept, Eigen::all);
     all.target.tail(more) = rows.target(kept);
   }
-  weigh_by_tails(all);
+  if (is_given) weigh_by_tails(all);
   return all;
 }
 

@@ -22,10 +22,10 @@ struct JointRows {
   std::vector<Index> piece;  ///< of time: a sixth of a recording, counted over all of them
 };
 
-/// Of the fitted recordings, less what is held out within them and the joint's rests, weighed by
-/// their tails. `bodies` (10·joints) or no rows:
-/// those of a description with all bodies; columns `simulated` are taken off where the axis has
-/// one.
+/// Of the fitted recordings, less what is held out within them. Where all is given that the links
+/// make, the joint's rests are left out, too, and rows weighed by their tails; else rests are
+/// needed to tell weights from frictions. `bodies` (10·joints) or no rows: those of a description
+/// with all bodies; columns `simulated` are taken off where the axis has one.
 JointRows rows_of(const LoadedCase& loaded, const Eigen::VectorXd& bodies);
 
 /// Divides each row by its likeliest deviation, where those of what all columns leave are
