@@ -142,10 +142,14 @@ bool name_in_place_of_one(Search& search, Laws& laws) {
   return false;
 }
 
+/// Whether a law's curve, its first shape, goes as far as it may: the catalogue does not have it.
+/// The second of friction before sliding is its damping, which few recordings tell.
+bool is_out_of_shape(const Member& member) {
+  return member.own_shapes() > 0 && is_at_bound(member, 0);
+}
+
 /// Places of the names that one law may stand for: those along one axis; and of a machine, whose
-/// laws all act along its own, all that are none of its numbers, readings that settle too, where
-/// the shape of one is at its bound: the catalogue does not have it, and names of other axes mend
-/// it.
+/// laws all act along its own, all that are none of its numbers, where one is out of shape.
 std::set<std::vector<std::size_t>> laws_in_parts(const Case& study,
                                                  const std::vector<Member>& members) {
   const std::vector<Member> own = own_parameters(study);
@@ -165,8 +169,8 @@ std::set<std::vector<std::size_t>> laws_in_parts(const Case& study,
   }
   std::set<std::vector<std::size_t>> parts;
   for (const auto& [axis, names] : along) parts.insert(names);
-  const bool at_bound =
-      std::any_of(all.begin(), all.end(), [&](std::size_t m) { return is_degenerate(members[m]); });
+  const bool at_bound = std::any_of(all.begin(), all.end(),
+                                    [&](std::size_t m) { return is_out_of_shape(members[m]); });
   if (at_bound && study.axis) parts.insert(all);
   return parts;
 }
@@ -183,13 +187,13 @@ Laws in_place_of_names(Search& search, const HoldOut& holdout) {
     bool at_bound = false;  // of a shape
     for (auto m = names.rbegin(); m != names.rend(); ++m) {
       numbers += rest[*m].parameters();
-      at_bound = at_bound || is_degenerate(rest[*m]);
+      at_bound = at_bound || is_out_of_shape(rest[*m]);
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(*m));
     }
     if (numbers <= kFewestNumbers && !at_bound) continue;
     // A spring's rest, or what creeps, may have held the machine's.
     const std::size_t left = rest.size();
-    if (search.study().axis) add_constant(search.study(), rest);
+    if (at_bound && search.study().axis) add_constant(search.study(), rest);
     numbers -= static_cast<int>(rest.size() - left);
     Laws laws = worthy_laws(setting, joint_fit(setting, rest));
     if (laws.found.empty() || !laws.found.front().established) continue;
