@@ -71,7 +71,8 @@ std::vector<Span> outlying(const Setting& setting, const Signals& left,
   for (double& size : sizes) size = std::abs(size - middle);
   const double deviation = kDeviationOfMedian * median(sizes);
   std::vector<Span> spans;
-  double theirs = 0.0, whole = 0.0, left_out = 0.0;
+  double theirs = 0.0, whole = 0.0;
+  std::size_t foreign = 0;
   for (const HalfSecond& s : all) {
     const double energy = elementary::exp(s.size);
     const double tail = deviation > 0.0 ? normal_tail((s.size - middle) / deviation) : 1.0;
@@ -83,11 +84,11 @@ std::vector<Span> outlying(const Setting& setting, const Signals& left,
     const bool continues = !spans.empty() && spans.back().log == s.log && begin <= spans.back().end;
     if (!continues) spans.push_back({s.log, begin, end});
     spans.back().end = end;
-    theirs += energy;
+    theirs += energy, ++foreign;
   }
-  for (const Span& span : spans) left_out += span.end - span.begin;
   // With less of the energy they decide about no number.
-  const bool are_few = left_out <= prior::kMostForeign * seconds * static_cast<double>(all.size());
+  const bool are_few =
+      static_cast<double>(foreign) <= prior::kMostForeign * static_cast<double>(all.size());
   return are_few && theirs >= kMachineShare * whole ? spans : std::vector<Span>{};
 }
 
