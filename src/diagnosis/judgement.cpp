@@ -195,7 +195,9 @@ double flip_p_value(const Setting& setting, const JointFit& fit, std::size_t mem
     scores.row(static_cast<Index>(b)) =
         (c(blocks[b], Eigen::all).transpose() * r(blocks[b])).transpose();
   }
-  const Eigen::MatrixXd inverse = normal_inverse(scores.transpose() * scores);
+  // What chi-square falls by where the member's columns are fitted to blocks of these signs. (By the
+  // covariance of the blocks' scores few blocks, as of some seconds, tell nothing.)
+  const Eigen::MatrixXd inverse = normal_inverse(c.transpose() * c);
   const auto statistic = [&](const Eigen::VectorXd& sum) { return sum.dot(inverse * sum); };
   const double actual = statistic(scores.colwise().sum().transpose());
   Rng rng({0x5167u, static_cast<std::uint64_t>(member)});
