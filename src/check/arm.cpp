@@ -231,17 +231,19 @@ ArmFit fit_arm(const Log& log, const Sampled& all, const Reading& reading) {
   return fit;
 }
 
-double arm_weight(const Log& log, const Sampled& rows, const Reading& reading) {
+ArmWeight arm_weight(const Log& log, const Sampled& rows, const Reading& reading) {
   const ArmFit fit = fit_arm(log, rows, reading);
-  double sum = -fit.surprise;
+  ArmWeight weight{-fit.surprise, VectorXd::Zero(static_cast<Index>(log.joints.size()))};
   for (Index j = 0; j < fit.residual.cols(); ++j) {
+    const auto column = static_cast<Index>(reading.arm.joint[static_cast<std::size_t>(j)]);
     // In the units of the log: a density of what was logged.
     const double unit = std::abs(unit_of(log, reading, j));
     const double independent =
-        rows.independent_torques.size() > 0 ? rows.independent_torques[j] : fit.independent;
-    sum -= 0.5 * independent * log_variance(fit.residual.col(j) / unit, fit.floor[j] / unit);
+        rows.independent_torques.size() > 0 ? rows.independent_torques[column] : fit.independent;
+    weight.of_torque[column] =
+        -0.5 * independent * log_variance(fit.residual.col(j) / unit, fit.floor[j] / unit);
   }
-  return sum;
+  return weight;
 }
 
 std::optional<VectorXd> torque_factors(const Log& log, const Reading& reading) {

@@ -27,7 +27,12 @@ bool can_fit_arm(const Log& log, const Sampled& rows);
 ArmFit fit_arm(const Log& log, const Sampled& rows, const Reading& reading);
 
 /// Log of the posterior's part that the described arm adds, but for a constant.
-double arm_weight(const Log& log, const Sampled& rows, const Reading& reading);
+struct ArmWeight {
+  double of_links = 0.0;      ///< of the links found, under their description
+  Eigen::VectorXd of_torque;  ///< of each of the log's joints, 0 where the arm has it not
+  double sum() const { return of_links + of_torque.sum(); }
+};
+ArmWeight arm_weight(const Log& log, const Sampled& rows, const Reading& reading);
 
 /// (joints) what each logged torque has to be multiplied by for the links as they are described;
 /// nothing where the motion tells it of no joint. A joint that does not tell its own takes the

@@ -89,14 +89,30 @@ Eigen::VectorXd weights_of(const Log& log, const Sampled& rows, Motions* motions
   return weights;
 }
 
-/// Of each joint, by the correlation of what a reading leaves.
+/// Of each of the log's joints, by the correlation of what a reading leaves.
 Eigen::VectorXd independent_torques(const Log& log, const Sampled& rows, const Reading& reading) {
   const ArmFit fit = fit_arm(log, rows, reading);
-  Eigen::VectorXd independent(fit.residual.cols());
-  for (Index j = 0; j < independent.size(); ++j) {
-    independent[j] = std::min(fit.independent, independent_of(fit.residual.col(j)));
+  Eigen::VectorXd independent = Eigen::VectorXd::Zero(static_cast<Index>(log.joints.size()));
+  for (Index j = 0; j < fit.residual.cols(); ++j) {
+    independent[static_cast<Index>(reading.arm.joint[static_cast<std::size_t>(j)])] =
+        std::min(fit.independent, independent_of(fit.residual.col(j)));
   }
   return independent;
+}
+
+/// Columns of joints are exchanged where two torques at least say so: what one alone gains by it
+/// may be something that nobody described, as a cable or another joint's friction that it feels.
+/// Such a reading has the weight that it has without the torque that gains most.
+void weigh_orders(const Log& log, const Sampled& rows, const std::vector<Reading>& readings,
+                  Eigen::VectorXd& weights) {
+  if (!can_fit_arm(log, rows)) return;
+  const Eigen::VectorXd declared = arm_weight(log, rows, readings[0]).of_torque;
+  for (Index k = 1; k < weights.size(); ++k) {
+    const Reading& reading = readings[static_cast<std::size_t>(k)];
+    if (weights[k] <= weights[0] || reading.arm.joint == readings[0].arm.joint) continue;
+    const Eigen::VectorXd gains = arm_weight(log, rows, reading).of_torque - declared;
+    weights[k] -= std::max(0.0, gains.maxCoeff());
+  }
 }
 
 Round weigh(const Log& log, const Sampled& sampled, Motions* motions, const Reading& base) {
@@ -113,6 +129,7 @@ Round weigh(const Log& log, const Sampled& sampled, Motions* motions, const Read
     rows.independent_torques = independent_torques(log, rows, likeliest_of_all);
     weights = weights_of(log, rows, motions, round.readings);
   }
+  weigh_orders(log, rows, round.readings, weights);
   round.probability = shares_of(weights);
   for (Index k = 0; k < weights.size(); ++k) {
     round.of_fault[round.readings[static_cast<std::size_t>(k)].fault] += round.probability[k];

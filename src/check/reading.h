@@ -59,7 +59,8 @@ struct Sampled {
   std::vector<Eigen::Index> centres;
   Eigen::Index half = 0;  ///< of the window [rows]; 0: single rows of a list of poses
   Eigen::VectorXd value, first, second;  ///< weights of the window
-  /// Effective numbers of residuals of an arm's torques, by their correlation; empty: unknown.
+  /// Effective numbers of residuals of the torques of the log's joints, by their correlation;
+  /// empty: unknown.
   Eigen::VectorXd independent_torques;
 
   /// Seconds in so many rows of the log; 0 of poses.

@@ -105,7 +105,7 @@ double log_weight(const Log& log, const Sampled& rows, const Kinematics* motion,
     if (log.step > 0.0) sum += rates_weight(log, rows, reading);
     if (log.arm.empty()) sum += angles_weight(log, rows, reading);
   }
-  if (can_fit_arm(log, rows)) sum += arm_weight(log, rows, reading);
+  if (can_fit_arm(log, rows)) sum += arm_weight(log, rows, reading).sum();
   if (motion == nullptr) return sum;
   sum += motion_weight(log, *motion, reading);
   const auto weight = [&](const Reading& as) {

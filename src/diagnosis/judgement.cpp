@@ -176,6 +176,10 @@ std::vector<Constancy> constancy(const Setting& setting, const JointFit& fit) {
   return list;
 }
 
+double least_flip_p_value(const Setting& setting) {
+  return std::ldexp(2.0, -static_cast<int>(time_blocks(setting, kFlipSeconds).size()));
+}
+
 double flip_p_value(const Setting& setting, const JointFit& fit, std::size_t member) {
   const auto [first, count] = tangent_columns(fit, member);
   if (count == 0) return 1.0 / (kFlips + 1.0);
@@ -195,8 +199,8 @@ double flip_p_value(const Setting& setting, const JointFit& fit, std::size_t mem
     scores.row(static_cast<Index>(b)) =
         (c(blocks[b], Eigen::all).transpose() * r(blocks[b])).transpose();
   }
-  // What chi-square falls by where the member's columns are fitted to blocks of these signs. (By the
-  // covariance of the blocks' scores few blocks, as of some seconds, tell nothing.)
+  // What chi-square falls by where the member's columns are fitted to blocks of these signs. (By
+  // the covariance of the blocks' scores few blocks, as of some seconds, tell nothing.)
   const Eigen::MatrixXd inverse = normal_inverse(c.transpose() * c);
   const auto statistic = [&](const Eigen::VectorXd& sum) { return sum.dot(inverse * sum); };
   const double actual = statistic(scores.colwise().sum().transpose());

@@ -73,6 +73,8 @@ std::vector<std::vector<Estimate>> estimates(const Setting& setting, const Joint
 /// Sign-flip p value of one member with all others in the model: block scores keep their size and
 /// lose their sign if it is nothing but noise of any colour.
 double flip_p_value(const Setting& setting, const JointFit& fit, std::size_t member);
+/// Below which no law falls in that test, however constant: 2^(1 - blocks), of all signs alike.
+double least_flip_p_value(const Setting& setting);
 
 /// First column of a member in the tangent, and how many it has.
 std::pair<Index, Index> tangent_columns(const JointFit& fit, std::size_t member);

@@ -105,11 +105,13 @@ bool Search::still_has_impacts() {
 }
 
 /// Takes back, the most doubtful first, what signs drawn at random for each second explain as
-/// often: a coincidence of a few moments, not a law. (An event has too few seconds for this test.)
+/// often: a coincidence of a few moments, not a law. (An event has too few seconds for this test,
+/// and so has a recording of less than six: no law would pass it.)
 /// A delay or a lag at the end of its range is no estimate, but what comes nearest to another law.
 void Search::drop_coincidences() {
   constexpr double kMostLikely = 0.05;
   if (study_.is_static() || study_.without.flips) return;
+  const bool tells = least_flip_p_value(*setting_) <= kMostLikely;
   while (true) {
     double most = kMostLikely;
     std::optional<std::size_t> worst;
@@ -119,6 +121,7 @@ void Search::drop_coincidences() {
           fit_.members[m].amplitudes.size() > 0 || !is_degenerate(fit_.members[m]);
       if (estimate && net_gain(m) > prior::kCertainGain * setting_->price)
         continue;  // nor have a few moves
+      if (estimate && !tells) continue;
       const double p = estimate ? flip_p_value(*setting_, fit_, m) : 1.0;
       if (p > most) most = p, worst = m;
     }
