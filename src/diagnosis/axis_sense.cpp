@@ -18,7 +18,8 @@ constexpr int kDelays = 60;            // either way: steps that no motion below
 
 /// Offset, velocity, acceleration, position of one recording, of a turning axis its sine and cosine
 /// (a link in gravity) and their rates, for a weight read some milliseconds late is no drag; and
-/// its reading.
+/// its reading. All have passed the filter that derivatives pass, where that is one: beyond it a
+/// position would stand for the inertia.
 constexpr Index kColumns = 8, kWithoutGravity = 4, kVelocity = 1, kAcceleration = 2, kPlace = 3;
 struct LaggedRows {
   Eigen::MatrixXd motion;
@@ -94,7 +95,10 @@ LaggedRows lagged_rows(const Recording& recording, const System& system, const A
   Targets target;
   target.names = {axis.measured};
   LaggedRows rows;
-  const Motion motion = axis_motion(recording, axis, derivative);
+  DerivativeSpec linear = derivative;  // the same for all columns
+  linear.subtraction = 0.0;
+  linear.most_noise.clear();
+  const Motion motion = axis_motion(recording, axis, linear);
   if (motion.v_B.rows() == 0) return rows;
   rows.motion = Eigen::MatrixXd::Zero(motion.samples(), kColumns);
   rows.motion.col(0).setOnes();
@@ -114,6 +118,14 @@ LaggedRows lagged_rows(const Recording& recording, const System& system, const A
     }
   }
   rows.reading = without_spikes(measured(recording, target, system, true).col(0));
+  if (recording.dt > 0.0 && linear.kind == DerivativeSpec::Kind::kSpectral) {
+    const auto passed = [&](const Eigen::MatrixXd& columns) {
+      return differentiate(columns, recording, linear).value;
+    };
+    rows.reading = passed(rows.reading);
+    rows.motion.rightCols(kColumns - kPlace) = passed(rows.motion.rightCols(kColumns - kPlace));
+    if (!axis.velocity.empty()) rows.motion.col(kVelocity) = passed(rows.motion.col(kVelocity));
+  }
   rows.segments = recording.segments;
   rows.dt = recording.dt;
   constexpr Index kEnough = 20'000;  // rows: a limit of computation

@@ -112,6 +112,36 @@ TEST(AxisSense, OfAMotionToAndFroIsToldAtTheShorterDelay) {
   }
 }
 
+/// Steps to and fro, of which the filter of the derivatives passes the first harmonic alone.
+TEST(AxisSense, IsToldOfBothSidesBehindOneFilter) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "steps.csv";
+  write_file(folder / "machine.json", machine({"acceleration"}).dump());
+  System system = read_system(folder / "machine.json");
+  system.axes[0].velocity = system.axes[0].acceleration = "";
+  DerivativeSpec slow;
+  slow.kind = DerivativeSpec::Kind::kSpectral;
+  slow.cutoff_hz = 2.0;
+  for (const double sense : {1.0, -1.0}) {
+    Rng rng({11});
+    Table table{{"t", "pos", "torque"}, Eigen::MatrixXd(2000, 3)};
+    for (Index k = 0; k < table.values.rows(); ++k) {
+      const double t = 0.01 * static_cast<double>(k);
+      double q = 0.0, v = 0.0, a = 0.0;
+      for (const double order : {1.0, 3.0, 5.0}) {
+        const double w = 2.0 * std::numbers::pi * order, size = 5e-3 / order;
+        q += size * std::sin(w * t);
+        v += size * w * std::cos(w * t);
+        a -= size * w * w * std::sin(w * t);
+      }
+      table.values.row(k) << t, q, sense * (2.1 * a + 14.0 * v) + 0.05 * rng.normal();
+    }
+    write_csv(path, table);
+    const std::vector<Recording> logs{read_recording(path, {}, system)};
+    EXPECT_EQ(sense_of(logs, system, system.axes[0], slow), sense);
+  }
+}
+
 /// A swing-up: the weight is most of the torque, and its sine is no line of the position.
 TEST(AxisSense, OfAPendulumIsNotThatOfItsWeight) {
   const test::TemporaryFolder folder;
