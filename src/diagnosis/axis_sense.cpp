@@ -20,7 +20,8 @@ constexpr int kDelays = 60;            // either way: steps that no motion below
 /// (a link in gravity) and their rates, for a weight read some milliseconds late is no drag; and
 /// its reading. All have passed the filter that derivatives pass, where that is one: beyond it a
 /// position would stand for the inertia.
-constexpr Index kColumns = 8, kWithoutGravity = 4, kVelocity = 1, kAcceleration = 2, kPlace = 3;
+constexpr Index kColumns = 8, kWithoutGravity = 4, kVelocity = 1, kAcceleration = 2, kPlace = 3,
+                kRates = 6;
 struct LaggedRows {
   Eigen::MatrixXd motion;
   Eigen::VectorXd reading;
@@ -58,9 +59,14 @@ struct SenseFit {
   double more = 0.0;  ///< the same without the term that tells the sense, beyond `left`
 };
 
-/// Of the first so many columns.
-SenseFit sense_fit(const LaggedSums& sums, Index columns) {
-  const Eigen::MatrixXd gram = sums.gram.topLeftCorner(columns, columns);
+/// Of the first so many columns. `pieces`: independent ones of the motion; a weight of no more than
+/// the reading comes by the usual delay late, which bounds what its rates explain.
+SenseFit sense_fit(const LaggedSums& sums, Index columns, double pieces) {
+  Eigen::MatrixXd gram = sums.gram.topLeftCorner(columns, columns);
+  constexpr double kSeldomLess = 1.0;
+  const double late =
+      sums.rows / std::max(kSeldomLess, pieces) / (prior::kUsualDelay * prior::kUsualDelay);
+  for (Index c = kRates; c < columns; ++c) gram(c, c) += late;
   const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();
   scaled.diagonal().array() += 1e-9;
@@ -112,8 +118,8 @@ LaggedRows lagged_rows(const Recording& recording, const System& system, const A
         const double v = rows.motion(i, kVelocity);
         rows.motion(i, 4) = elementary::sin(q(i));
         rows.motion(i, 5) = elementary::cos(q(i));
-        rows.motion(i, 6) = v * rows.motion(i, 5);
-        rows.motion(i, 7) = v * rows.motion(i, 4);
+        rows.motion(i, kRates) = v * rows.motion(i, 5);
+        rows.motion(i, kRates + 1) = v * rows.motion(i, 4);
       }
     }
   }
@@ -167,7 +173,7 @@ double sense_of(const std::vector<Recording>& recordings, const System& system, 
       sums.add(log, std::llround(kStep * k / log.dt));
     }
     // Behind a delay a sine of the position is no weight: it would stand for friction's harmonics.
-    const SenseFit fit = sense_fit(sums, k == 0 ? kColumns : kWithoutGravity);
+    const SenseFit fit = sense_fit(sums, k == 0 ? kColumns : kWithoutGravity, turns);
     // Of a motion to and fro half a period later is the opposite: the shorter delay is likelier.
     const double prior = k == 0 ? 0.0 : delayed - kStep * std::abs(k) / kUsual;
     const double likely = -0.5 * turns * elementary::log(std::max(fit.left, 1e-12)) + prior;

@@ -168,6 +168,34 @@ TEST(AxisSense, OfAPendulumIsNotThatOfItsWeight) {
   }
 }
 
+/// Over a small range the rates of a weight are the velocity again: what a weight can be late by
+/// bounds them, or no drag would tell the sense.
+TEST(AxisSense, OfASmallRangeIsToldByItsDrag) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "small.csv";
+  write_file(folder / "machine.json", machine({"acceleration"}).dump());
+  System system = read_system(folder / "machine.json");
+  system.axes[0].velocity = system.axes[0].acceleration = "";
+  system.axes[0].position_unit = "rad";
+  for (const double sense : {1.0, -1.0}) {
+    Rng rng({5});
+    Table table{{"t", "pos", "torque"}, Eigen::MatrixXd(2000, 3)};
+    for (Index k = 0; k < table.values.rows(); ++k) {
+      const double t = 0.01 * static_cast<double>(k);
+      double q = 0.2, v = 0.0;
+      for (const double w : {1.3, 2.9, 4.7}) {
+        q += 0.06 * std::sin(w * t);
+        v += 0.06 * w * std::cos(w * t);
+      }
+      const double drag = 0.03 * std::tanh(v / 0.05) + 0.01 * v;
+      table.values.row(k) << t, q, sense * drag + 0.005 * rng.normal();
+    }
+    write_csv(path, table);
+    const std::vector<Recording> logs{read_recording(path, {}, system)};
+    EXPECT_EQ(sense_of(logs, system, system.axes[0], {}), sense);
+  }
+}
+
 TEST(NamePrior, FrictionIsTheRuleOnAMachineAlone) {
   const auto rare = [](double p) { return elementary::log(p / (1.0 - p)); };
   Case tool, axis;
