@@ -132,10 +132,13 @@ Json merged_errors(const std::vector<Json>& reports) {
 }
 
 Json merged_unnamed(const std::vector<Json>& reports, const System& system) {
-  Json part{{"excess_rms", Json::array()}, {"formula", nullptr}, {"words", nullptr}};
+  Json part{{"excess_rms", Json::array()},
+            {"remains", Json::array()},
+            {"formula", nullptr},
+            {"words", nullptr}};
   std::string words;
   for (std::size_t k = 0; k < reports.size(); ++k) {
-    append(part["excess_rms"], reports[k]["unnamed"]["excess_rms"]);
+    for (const char* key : {"excess_rms", "remains"}) append(part[key], reports[k]["unnamed"][key]);
     if (reports[k]["unnamed"]["words"].is_null()) continue;
     words += (words.empty() ? "" : "; ") + reports[k]["unnamed"]["words"].get<std::string>() +
              " on " + system.axes[k].name;

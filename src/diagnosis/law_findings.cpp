@@ -134,6 +134,8 @@ Json unnamed_part(const Search& search, const std::vector<BandTest>& bands, cons
                     brief(refuted->ratio) + " times " +
                     (refuted->of_fit ? "that of the fitted recordings" : "its noise");
   }
+  const auto remains = [&](bool does) { return Json(std::vector<bool>(excess.size(), does)); };
+  part["remains"] = remains(search.remains());
   if (!search.remains()) return part;
   const auto most =
       std::max_element(bands.begin(), bands.end(),
@@ -147,6 +149,7 @@ Json unnamed_part(const Search& search, const std::vector<BandTest>& bands, cons
                                  [](const Json& law) { return law["law"]["established"] == true; });
   part["suffices"] = held_out && !refuted && !laws.empty() && holds;
   if (part["suffices"] == true) {
+    part["remains"] = remains(false);
     part["words"] = "no effect of the catalogue has this form, and held-out data show nothing else";
   }
   std::string formula;

@@ -187,12 +187,16 @@ std::string headline_without(const Json& report) {
 }
 
 /// "the sensor's noise is 0.02 N"; where the error that is left bounds it, no more is known of it.
+/// It is not all of an error in which something without a name remains.
 std::string noise_words(const Json& report, std::size_t j) {
   constexpr double kSame = 1e-9;  // of it
   const Json& fit = report["fit"];
   const double noise = heldout_noise(fit)[j];
   if (noise >= (1.0 - kSame) * fit["holdout_rmse_after"][j].get<double>()) {
-    return "all of it may be the sensor's noise";
+    const Json remains = report["unnamed"].value("remains", Json::array());
+    return j < remains.size() && remains[j] == true
+               ? "how much of it is the sensor's noise is not known"
+               : "all of it may be the sensor's noise";
   }
   return "the sensor's noise is " + brief(noise) + " " +
          unit_text(report["units"][j].get<std::string>());

@@ -103,6 +103,12 @@ TEST(Headline, SaysThatNoiseWhichTheErrorBoundsMayBeAllOfIt) {
   EXPECT_EQ(headline(report),
             "Dry friction of 0.4 N. The hold-out error of fx falls from 1 to 0.04 N; all of it "
             "may be the sensor's noise.");
+  report["unnamed"] = {{"words", "something that no effect of the catalogue explains"},
+                       {"remains", {true, true}}};
+  EXPECT_EQ(headline(report),
+            "Dry friction of 0.4 N; and something that no effect of the catalogue explains. The "
+            "hold-out error of fx falls from 1 to 0.04 N; how much of it is the sensor's noise is "
+            "not known.");
 }
 
 TEST(Headline, SaysThatALawLeavesNothingElse) {
