@@ -99,7 +99,7 @@ JointRows rows_of(const LoadedCase& loaded, const Eigen::VectorXd& bodies) {
     const Log& log = study.logs[k];
     const LogRows rows = rows_of_log(study, log, bodies);
     // Two samples in a period of the fastest motion, times two.
-    const Index stride = std::max<Index>(1, std::llround(0.25 / study.motion_hz / study.dt()));
+    const Index stride = std::max<Index>(1, std::llround(0.25 / study.shown_hz() / study.dt()));
     std::vector<Index> kept;
     for (Index i = 0; i < rows.arm.rows(); i += stride) {
       const double t = log.motion.t(i);

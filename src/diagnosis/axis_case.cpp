@@ -91,11 +91,8 @@ std::vector<Index> used_columns(const std::vector<Recording>& recordings, const 
   return independent_columns(all, kBaseTolerance);
 }
 
-/// Where an axis' motion ends, and what its position alone makes, 20 Hz or more; a low-pass that is
-/// declared ends it.
-double end_of_motion(const std::vector<Recording>& recordings, const System& system,
-                     const Axis& axis) {
-  if (system.lowpass_hz > 0.0) return system.lowpass_hz;
+/// Where an axis' motion ends, and what its position alone makes, 20 Hz or more.
+double end_of_motion(const std::vector<Recording>& recordings, const Axis& axis) {
   std::vector<Eigen::VectorXd> positions, forces;
   for (const Recording& recording : recordings) {
     if (!recording.has(axis.position)) continue;
@@ -231,7 +228,7 @@ LoadedAxes load_axes(const DiagnosisRequest& request) {
     }
   }
   std::vector<double> motion_hz;
-  for (const Axis& axis : system.axes) motion_hz.push_back(end_of_motion(fit, system, axis));
+  for (const Axis& axis : system.axes) motion_hz.push_back(end_of_motion(fit, axis));
   if (!machine) leave_lagging_rates(fit, system, motion_hz);
   std::vector<Recording> all = fit;
   all.insert(all.end(), holdout.begin(), holdout.end());

@@ -2,6 +2,7 @@
 // What a diagnosis is about: recordings, the simulator at hand, and the quantities both give.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
@@ -59,7 +60,9 @@ struct Case {
   Eigen::VectorXd base_shift;               ///< of a known base, in its errors; empty: none
   double lowpass_hz =
       0.0;  ///< predictions pass the zero-phase filter that the measured have passed
-  double motion_hz = 20.0;                  ///< above it nothing commanded moves
+  double motion_hz = 20.0;  ///< above it nothing commanded moves
+  /// Up to which what is measured shows motion.
+  double shown_hz() const { return lowpass_hz > 0.0 ? std::min(lowpass_hz, motion_hz) : motion_hz; }
   std::vector<int> channels;                ///< columns of (fx,fy,fz,tx,ty,tz) that are measured
   std::vector<std::string> targets, units;  ///< of the channels
   std::vector<Log> logs;                    ///< to fit on

@@ -65,8 +65,8 @@ std::vector<BandTest> bands_of(const Case& study) {
   std::vector<BandTest> bands{
       {0.0, 0.5, 0, 0}, {0.5, 2, 0, 0}, {2, 5, 0, 0}, {5, 12, 0, 0}, {12, 25.5, 0, 0}};
   for (BandTest& band : bands) {
-    band.from_hz *= study.motion_hz / 20.0;
-    band.to_hz *= study.motion_hz / 20.0;
+    band.from_hz *= study.shown_hz() / 20.0;
+    band.to_hz *= study.shown_hz() / 20.0;
   }
   return bands;
 }

@@ -134,7 +134,7 @@ double position_bin(const Case& study) {
     rows += static_cast<double>(log.motion.samples());
   }
   const double range = high - low, speed = std::sqrt(square / rows);
-  const double order = speed > 0.0 ? 2.0 * std::numbers::pi * study.motion_hz / speed : 0.0;
+  const double order = speed > 0.0 ? 2.0 * std::numbers::pi * study.shown_hz() / speed : 0.0;
   return range / std::clamp(order * range / kLargestPhase, kPositionBins, kMostBins);
 }
 

@@ -24,8 +24,11 @@ constexpr int kMostTunings = 6;
 /// lines the steps of its encoder make above that would be no motion.
 DerivativeSpec low_pass_spec(const Case& study, double cutoff_hz, double subtraction,
                              const std::vector<double>& most_noise = {}) {
-  constexpr double kFastestMachine = 50.0;  // Hz; a low-pass that is declared ends the motion
-  const double machine = study.lowpass_hz > 0.0 ? study.lowpass_hz : kFastestMachine;
+  constexpr double kFastestMachine = 50.0;  // Hz
+  constexpr double kShown = 2.0;            // of a low-pass: above it 0.4 % is left
+  const double machine = study.lowpass_hz > 0.0
+                             ? std::min(kFastestMachine, kShown * study.lowpass_hz)
+                             : kFastestMachine;
   return {.kind = DerivativeSpec::Kind::kSpectral,
           .cutoff_hz = cutoff_hz,
           .subtraction = subtraction,
@@ -141,7 +144,7 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
   }
   say("choosing the smoother");
   std::vector<double> grid;
-  const double pace = std::max(1.0, study_.motion_hz / 20.0);
+  const double pace = std::max(1.0, study_.shown_hz() / 20.0);
   const double top = std::min(45.0 * pace, (pace > 1.0 ? 0.4 : 0.2) / study_.dt());
   for (double hz = 5.0 * pace; hz < top; hz *= 1.4) grid.push_back(hz);
   if (grid.empty()) grid.push_back(0.1 / study_.dt());

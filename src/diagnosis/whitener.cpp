@@ -39,7 +39,7 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors, const Si
     : floors_(floors), channels_(study.channel_count()) {
   const bool moving = !study.is_static();
   const double dt = moving ? study.dt() : 1.0;
-  block_ = moving ? std::max<Index>(1, std::llround(kBlockPeriods / study.motion_hz / dt)) : 1;
+  block_ = moving ? std::max<Index>(1, std::llround(kBlockPeriods / study.shown_hz() / dt)) : 1;
   if (block_ > 3) block_ += block_ % 2;  // two halves: coarse_stride()
   block_seconds_ = static_cast<double>(block_) * dt;
   block_deviation_.resize(channels_);
@@ -90,7 +90,7 @@ Whitener::Whitener(const Case& study, const std::vector<Floor>& floors, const Si
   for (std::size_t k = 0; k < study.logs.size(); ++k) {
     std::vector<Index> before;  // sizes of the segments before this one
     for (const Segment& s : study.logs[k].motion.segments) {
-      double end = moving ? kEnd / study.motion_hz : 0.0;
+      double end = moving ? kEnd / study.shown_hz() : 0.0;
       if (moves_fast(study)) {
         end = std::max(end, end_seconds(study, dt * static_cast<double>(s.size())));
       }

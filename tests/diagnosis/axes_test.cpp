@@ -498,6 +498,51 @@ TEST(DiagnoseAxes, LowPassesBothSidesAndShowsTheRawFiguresBeside) {
   EXPECT_EQ(report["lowpass_hz"], 10);
 }
 
+/// Derivatives that end at a low-pass which motion reaches would be another inertia's.
+TEST(DiagnoseAxes, AMotionBeyondTheLowPassKeepsItsInertia) {
+  const test::TemporaryFolder folder;
+  for (const auto& [file, seed] : {std::pair{"fit.csv", 1u}, {"hold.csv", 2u}}) {
+    Rng rng({seed});
+    Table table{{"t", "q", "torque"}, Eigen::MatrixXd(2400, 3)};
+    std::vector<double> phases(40);
+    for (double& phase : phases) phase = rng.uniform(0.0, 2.0 * std::numbers::pi);
+    for (Index k = 0; k < table.values.rows(); ++k) {
+      const double t = 0.005 * static_cast<double>(k);
+      double q = 0.0, v = 0.0, a = 0.0;
+      for (std::size_t i = 0; i < phases.size(); ++i) {  // up to 6 Hz
+        const double w = 2.0 * std::numbers::pi * 0.15 * static_cast<double>(i + 1);
+        const double size = 0.3 / (1.0 + w);
+        q += size * std::sin(w * t + phases[i]);
+        v += size * w * std::cos(w * t + phases[i]);
+        a -= size * w * w * std::sin(w * t + phases[i]);
+      }
+      const double torque = 0.19 * a + 0.4 * std::tanh(v / 0.02);
+      table.values.row(k) << t, q + 1e-4 * rng.normal(), torque + 0.1 * rng.normal();
+    }
+    write_csv(folder / file, table);
+  }
+  const Json system = {{"kind", "axes"},
+                       {"lowpass_hz", 4},
+                       {"axes",
+                        {{{"name", "link"},
+                          {"measured", "torque"},
+                          {"unit", "N*m"},
+                          {"position", "q"},
+                          {"base", Json::array()}}}}};
+  write_file(folder / "system.json", system.dump());
+  DiagnosisRequest request;
+  request.system = folder / "system.json";
+  request.fit = {folder / "fit.csv"};
+  request.holdout = {folder / "hold.csv"};
+  const Json report = diagnose(request, nullptr).report;
+  const Json* inertia = find(report, "inertia");
+  ASSERT_TRUE(inertia) << report["findings"].dump(1);
+  EXPECT_NEAR((*inertia)["parameters"]["delta_inertia"]["value"].get<double>(), 0.19, 0.004);
+  EXPECT_TRUE(find(report, "coulomb_friction")) << report["findings"].dump(1);
+  // White noise behind 4 Hz of 100 is 0.02; the rest is friction's change of sign.
+  EXPECT_LT(report["fit"]["holdout_rmse_after"][0].get<double>(), 0.06);
+}
+
 TEST(DiagnoseAxes, PutsAxesSideBySide) {
   const AxisBench bench([](const State& s) { return 0.8 * std::tanh(s.v / 0.01); });
   Json system = one_axis();
