@@ -24,11 +24,8 @@ constexpr int kMostTunings = 6;
 /// lines the steps of its encoder make above that would be no motion.
 DerivativeSpec low_pass_spec(const Case& study, double cutoff_hz, double subtraction,
                              const std::vector<double>& most_noise = {}) {
-  constexpr double kFastestMachine = 50.0;  // Hz
-  constexpr double kShown = 2.0;            // of a low-pass: above it 0.4 % is left
-  const double machine = study.lowpass_hz > 0.0
-                             ? std::min(kFastestMachine, kShown * study.lowpass_hz)
-                             : kFastestMachine;
+  constexpr double kFastestMachine = 50.0;  // Hz; a low-pass that is declared ends the motion
+  const double machine = study.lowpass_hz > 0.0 ? study.lowpass_hz : kFastestMachine;
   return {.kind = DerivativeSpec::Kind::kSpectral,
           .cutoff_hz = cutoff_hz,
           .subtraction = subtraction,
@@ -146,8 +143,10 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
   std::vector<double> grid;
   const double pace = std::max(1.0, study_.shown_hz() / 20.0);
   const double top = std::min(45.0 * pace, (pace > 1.0 ? 0.4 : 0.2) / study_.dt());
-  for (double hz = 5.0 * pace; hz < top; hz *= 1.4) grid.push_back(hz);
-  if (grid.empty()) grid.push_back(0.1 / study_.dt());
+  // What a low-pass of both sides shows passes whole: at twice its edge it leaves 0.4 %.
+  const double first = std::max(5.0 * pace, 2.0 * study_.lowpass_hz);
+  for (double hz = first; hz < top; hz *= 1.4) grid.push_back(hz);
+  if (grid.empty()) grid.push_back(std::min(first, 0.1 / study_.dt()));
   // Each cut-off without and, where the pose is differentiated, with the Wiener gain.
   // Its spectrum is averaged over half a hertz, which must hold five bins.
   constexpr double kWienerSeconds = 10.0;  // s
@@ -163,8 +162,8 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
   const auto least = std::min_element(all.begin(), all.end()) - all.begin();
   const std::size_t kind = static_cast<std::size_t>(least) / grid.size();
   const std::size_t best = static_cast<std::size_t>(least) % grid.size();
-  const auto first = all.begin() + static_cast<std::ptrdiff_t>(kind * grid.size());
-  const std::vector<double> misfit(first, first + static_cast<std::ptrdiff_t>(grid.size()));
+  const auto begin = all.begin() + static_cast<std::ptrdiff_t>(kind * grid.size());
+  const std::vector<double> misfit(begin, begin + static_cast<std::ptrdiff_t>(grid.size()));
   study_.derivative.subtraction = kind == 0 ? 0.0 : 1.0;
   study_.derivative.most_noise.clear();
   other_filter_.reset();
