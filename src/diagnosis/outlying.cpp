@@ -70,26 +70,34 @@ std::vector<Span> outlying(const Setting& setting, const Signals& left,
   const double middle = median(sizes);
   for (double& size : sizes) size = std::abs(size - middle);
   const double deviation = kDeviationOfMedian * median(sizes);
-  std::vector<Span> spans;
-  double theirs = 0.0, whole = 0.0;
-  std::size_t foreign = 0;
+  std::vector<HalfSecond> foreign;
+  std::map<std::size_t, double> of_log, foreign_of_log;
+  double whole = 0.0;
   for (const HalfSecond& s : all) {
-    const double energy = elementary::exp(s.size);
+    whole += elementary::exp(s.size);
+    of_log[s.log] += 1.0;
     const double tail = deviation > 0.0 ? normal_tail((s.size - middle) / deviation) : 1.0;
-    whole += energy;
     if (tail * static_cast<double>(all.size()) >= kByChance) continue;
+    foreign_of_log[s.log] += 1.0;
+    foreign.push_back(s);
+  }
+  // A recording that is so for long shows other motion, as a faster one.
+  std::erase_if(foreign, [&](const HalfSecond& s) {
+    return foreign_of_log[s.log] > prior::kMostForeign * of_log[s.log];
+  });
+  std::vector<Span> spans;
+  double theirs = 0.0;
+  for (const HalfSecond& s : foreign) {
     const Eigen::VectorXd& t = setting.study.logs[s.log].motion.t;
     const double begin = std::max(s.begin - seconds, double(t(0))),
                  end = std::min(s.begin + 2.0 * seconds, double(t(t.size() - 1)));
     const bool continues = !spans.empty() && spans.back().log == s.log && begin <= spans.back().end;
     if (!continues) spans.push_back({s.log, begin, end});
     spans.back().end = end;
-    theirs += energy, ++foreign;
+    theirs += elementary::exp(s.size);
   }
   // With less of the energy they decide about no number.
-  const bool are_few =
-      static_cast<double>(foreign) <= prior::kMostForeign * static_cast<double>(all.size());
-  return are_few && theirs >= kMachineShare * whole ? spans : std::vector<Span>{};
+  return theirs >= kMachineShare * whole ? spans : std::vector<Span>{};
 }
 
 }  // namespace dcnn

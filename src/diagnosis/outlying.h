@@ -11,8 +11,8 @@ namespace dcnn {
 /// A collision, a hand on the machine, a controller that oscillates: half seconds whose mean square
 /// of the whitened residual `left` is larger than a log-normal distribution with the median and the
 /// median deviation of all half seconds makes in one recording of a hundred. Each with half a
-/// second on either side; none where they are more than a fifth of the recordings. Rows in
-/// `held_out` are not looked at.
+/// second on either side; none of a recording of which they are more than a fifth: that shows other
+/// motion. Rows in `held_out` are not looked at.
 std::vector<Span> outlying(const Setting& setting, const Signals& left,
                            const std::vector<Span>& held_out);
 
