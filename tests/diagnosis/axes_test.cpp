@@ -498,6 +498,17 @@ TEST(DiagnoseAxes, LowPassesBothSidesAndShowsTheRawFiguresBeside) {
   EXPECT_EQ(report["lowpass_hz"], 10);
 }
 
+// Its edge is beyond what the rows of a search at a stride could hold.
+TEST(DiagnoseAxes, AFastLowPassHidesNothing) {
+  const AxisBench bench(
+      [](const State& s) { return 0.3 * std::sin(2.0 * std::numbers::pi * 13.2 * s.t); });
+  Json system = one_axis();
+  system["lowpass_hz"] = 56;
+  const Json report = bench.diagnose(system).report;
+  EXPECT_TRUE(find(report, "hum")) << report["findings"].dump(1);
+  EXPECT_EQ(report["verdict"], "explained");
+}
+
 /// Derivatives that end at a low-pass which motion reaches would be another inertia's.
 TEST(DiagnoseAxes, AMotionBeyondTheLowPassKeepsItsInertia) {
   const test::TemporaryFolder folder;
