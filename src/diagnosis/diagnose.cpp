@@ -213,7 +213,8 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
   std::optional<HoldOut::Excess> refuted;
   if (!search.loose_load()) refuted = holdout.excess(search, heldout_floors);
   // A machine's noise is of no shape that is known: a band of it may be louder than the rest.
-  if (study.axis && fit.members.empty() && holdout.is_noise(search, heldout_floors))
+  const double most = search.posterior().nothing > 0.5 ? prior::kMostOverNoise : 1.0;
+  if (study.axis && fit.members.empty() && holdout.is_noise(search, heldout_floors, most))
     search.take_rest_for_noise();
   report["findings"] = findings_json(search, holdout, alternatives, heldout_floors,
                                      search.remains() || refuted.has_value());

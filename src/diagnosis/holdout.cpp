@@ -255,11 +255,11 @@ std::optional<HoldOut::Excess> HoldOut::excess(const Search& search,
   return worst;
 }
 
-bool HoldOut::is_noise(const Search& search, const std::vector<Floor>& floors) const {
+bool HoldOut::is_noise(const Search& search, const std::vector<Floor>& floors, double most) const {
   if (empty()) return false;
   const std::vector<double> errors = rmse(search.fit().members, search.fit().base);
   for (std::size_t j = 0; j < errors.size(); ++j) {
-    if (errors[j] > (1.0 + kSameError) * floors[j].deviation()) return false;
+    if (errors[j] > most * (1.0 + kSameError) * floors[j].deviation()) return false;
   }
   return true;
 }

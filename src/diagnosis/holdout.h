@@ -41,8 +41,8 @@ class HoldOut {
     bool of_fit;   ///< which is what the model leaves of the fitted recordings
   };
   std::optional<Excess> excess(const Search& search, const std::vector<Floor>& floors) const;
-  /// Whether something was held out and no channel's error exceeds its noise at all.
-  bool is_noise(const Search& search, const std::vector<Floor>& floors) const;
+  /// Whether something was held out and no channel's error exceeds so many times its noise.
+  bool is_noise(const Search& search, const std::vector<Floor>& floors, double most) const;
   /// The noise of the held-out recordings, by what the model leaves of them above the motion's
   /// band; of held-out blocks that of the fitted rows, but never more than the error; of poses at
   /// rest that of the fitted ones.

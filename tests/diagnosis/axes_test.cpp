@@ -509,6 +509,34 @@ TEST(DiagnoseAxes, AFastLowPassHidesNothing) {
   EXPECT_EQ(report["verdict"], "explained");
 }
 
+// A tenth of it is slower than the band in which the floor is read: likelier noise than physics.
+TEST(DiagnoseAxes, SlowNoiseBesideASimulatorIsNothingMissing) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const test::TemporaryFolder folder;
+    for (const auto& [file, rows] : {std::pair{"fit.csv", 6000}, {"hold.csv", 4000}}) {
+      Rng rng({seed, static_cast<std::uint64_t>(rows)});
+      Table table{{"t", "q", "simulated", "torque"}, Eigen::MatrixXd(rows, 4)};
+      double slow = rng.normal();
+      for (Index k = 0; k < rows; ++k) {
+        const double t = 0.01 * static_cast<double>(k), kept = std::exp(-0.01);
+        slow = kept * slow + std::sqrt(1.0 - kept * kept) * rng.normal();
+        const double q = 0.5 * std::sin(1.1 * t) + 0.3 * std::sin(2.9 * t);
+        const double torque = 3.0 * (0.55 * std::cos(1.1 * t) + 0.87 * std::cos(2.9 * t));
+        table.values.row(k) << t, q, torque, torque + 0.1 * rng.normal() + 0.045 * slow;
+      }
+      write_csv(folder / file, table);
+    }
+    write_file(folder / "system.json", R"({"kind": "axes", "axes": [{"name": "joint",
+        "measured": "torque", "simulated": "simulated", "unit": "N*m", "position": "q"}]})");
+    DiagnosisRequest request;
+    request.system = folder / "system.json";
+    request.fit = {folder / "fit.csv"};
+    request.holdout = {folder / "hold.csv"};
+    const Json report = diagnose(request, nullptr).report;
+    EXPECT_EQ(report["verdict"], "consistent") << seed;
+  }
+}
+
 /// Derivatives that end at a low-pass which motion reaches would be another inertia's.
 TEST(DiagnoseAxes, AMotionBeyondTheLowPassKeepsItsInertia) {
   const test::TemporaryFolder folder;
