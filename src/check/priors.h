@@ -82,6 +82,9 @@ constexpr double kPartly = 0.2;  ///< of logs with a subtracted weight: another 
 constexpr Typical kOffset{3.0, 1.3, 1.3};    ///< of a sensor [N]
 constexpr Typical kLever{0.08, 1.0, 1.0};    ///< torque over force, gravity on a tool [m]
 constexpr double kNominalLeverSpread = 0.5;  ///< of c about sim.json's, over its length
+/// Probability that the lever is nothing like sim.json's: of another tool, or a force from which a
+/// controller takes the weight off beside a torque from which it does not.
+constexpr double kOtherLever = 0.01;
 /// Von Neumann's ratio of a channel: of a motion; of poses in an order that somebody chose, where
 /// that channel goes from one end to the other, and where it does not.
 constexpr Typical kMovingRows{0.03, 2.0, 2.0}, kOrderedSlow{0.05, 1.5, 1.5},

@@ -117,25 +117,27 @@ TorqueFit TorqueDesign::fit(const TorqueReading& reading) const {
 
 double TorqueDesign::lever_weight(const TorqueFit& fit) const {
   const double residuals = e_.adopted.independent, mass = e_.adopted.fit.mass;
-  const auto& model = e_.log.declared.model;
-  if (model && model->com.norm() > kShortestLever) {
-    const double spread = kNominalLeverSpread * mass * model->com.norm();
-    const Matrix3d both = fit.covariance / residuals + spread * spread * Matrix3d::Identity();
-    const Vector3d off = fit.moment - mass * model->com;
-    return std::max(-0.5 * off.dot(both.ldlt().solve(off)), -kMostSurprise);
-  }
   const double lever = std::max(fit.moment.norm() / mass, kShortestLever);
   const double told = fit.moment.dot(fit.covariance.ldlt().solve(fit.moment));
   // The likeliest lever under its prior and the recording together, as for a mass.
-  double best = -1e300;
+  double any = -1e300;
   for (int k = 0; k <= kLeverSteps; ++k) {
     const double share = static_cast<double>(k) / kLeverSteps;
     const double factor = elementary::pow(kLever.median / lever, share);
-    best = std::max(
-        best, plausibility(factor * lever, kLever) -
-                  0.5 * residuals * elementary::log(1.0 + (factor - 1.0) * (factor - 1.0) * told));
+    any = std::max(
+        any, plausibility(factor * lever, kLever) -
+                 0.5 * residuals * elementary::log(1.0 + (factor - 1.0) * (factor - 1.0) * told));
   }
-  return best;
+  const auto& model = e_.log.declared.model;
+  if (!model || model->com.norm() <= kShortestLever) return any;
+  const double spread = kNominalLeverSpread * mass * model->com.norm();
+  const Matrix3d both = fit.covariance / residuals + spread * spread * Matrix3d::Identity();
+  const Vector3d off = fit.moment - mass * model->com;
+  const double described = -0.5 * off.dot(both.ldlt().solve(off));
+  // At the lever that is described, over the logarithm of its length and its directions, the
+  // density of any lever, (2 pi)^(-1/2)/(4 pi kLever.above), over that of the normal distribution.
+  const double wider = elementary::pow(kNominalLeverSpread, 3.0) / (2.0 * kLever.above);
+  return std::max({described, elementary::log(kOtherLever * wider) + any, -kMostSurprise});
 }
 
 /// The force shows the tool's moment, too, by its turns: by -m (dw x c + w x (w x c)). A force that
