@@ -143,10 +143,13 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
   std::vector<double> grid;
   const double pace = std::max(1.0, study_.shown_hz() / 20.0);
   const double top = std::min(45.0 * pace, (pace > 1.0 ? 0.4 : 0.2) / study_.dt());
-  // What a low-pass of both sides shows passes whole: at twice its edge it leaves 0.4 %.
-  const double first = std::max(5.0 * pace, 2.0 * study_.lowpass_hz);
-  for (double hz = first; hz < top; hz *= 1.4) grid.push_back(hz);
-  if (grid.empty()) grid.push_back(std::min(first, 0.1 / study_.dt()));
+  // What a low-pass of both sides shows of the motion passes whole: at twice its edge 0.4 % is
+  // left.
+  const double edge = study_.lowpass_hz;
+  const double whole = edge < study_.motion_hz ? std::min(2.0 * edge, study_.motion_hz) : 0.0;
+  for (double hz = std::max(5.0 * pace, whole); hz < top; hz *= 1.4) grid.push_back(hz);
+  if (grid.empty())
+    grid.push_back(whole > 0.0 ? std::min(whole, 0.4 / study_.dt()) : 0.1 / study_.dt());
   // Each cut-off without and, where the pose is differentiated, with the Wiener gain.
   // Its spectrum is averaged over half a hertz, which must hold five bins.
   constexpr double kWienerSeconds = 10.0;  // s
