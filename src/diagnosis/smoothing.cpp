@@ -20,12 +20,15 @@ namespace {
 constexpr double kTuning = 1.25;  // from one cut-off to the next
 constexpr int kMostTunings = 6;
 
+/// Whether a low-pass of both sides takes motion off.
+bool is_cut(const Case& study) { return study.shown_hz() < study.motion_hz; }
+
 /// A hand trembles at up to 14 Hz; a machine turns within some hundredths of a second, and what
 /// lines the steps of its encoder make above that would be no motion.
 DerivativeSpec low_pass_spec(const Case& study, double cutoff_hz, double subtraction,
                              const std::vector<double>& most_noise = {}) {
-  constexpr double kFastestMachine = 50.0;  // Hz; a low-pass that is declared ends the motion
-  const double machine = study.lowpass_hz > 0.0 ? study.lowpass_hz : kFastestMachine;
+  constexpr double kFastestMachine = 50.0;  // Hz; a low-pass below the motion's end ends it
+  const double machine = is_cut(study) ? study.lowpass_hz : kFastestMachine;
   return {.kind = DerivativeSpec::Kind::kSpectral,
           .cutoff_hz = cutoff_hz,
           .subtraction = subtraction,
@@ -145,11 +148,10 @@ void Search::choose_cutoff(const std::vector<Member>& members) {
   const double top = std::min(45.0 * pace, (pace > 1.0 ? 0.4 : 0.2) / study_.dt());
   // What a low-pass of both sides shows of the motion passes whole: at twice its edge 0.4 % is
   // left.
-  const double edge = study_.lowpass_hz;
-  const double whole = edge < study_.motion_hz ? std::min(2.0 * edge, study_.motion_hz) : 0.0;
+  const double whole = is_cut(study_) ? std::min(2.0 * study_.lowpass_hz, study_.motion_hz) : 0.0;
   for (double hz = std::max(5.0 * pace, whole); hz < top; hz *= 1.4) grid.push_back(hz);
   if (grid.empty())
-    grid.push_back(whole > 0.0 ? std::min(whole, 0.4 / study_.dt()) : 0.1 / study_.dt());
+    grid.push_back(is_cut(study_) ? std::min(whole, 0.4 / study_.dt()) : 0.1 / study_.dt());
   // Each cut-off without and, where the pose is differentiated, with the Wiener gain.
   // Its spectrum is averaged over half a hertz, which must hold five bins.
   constexpr double kWienerSeconds = 10.0;  // s
