@@ -5,10 +5,8 @@
 #include <cmath>
 
 #include "dcnn/core/random.h"
-#include "diagnosis/axis_case.h"
 #include "diagnosis/judgement.h"
-#include "diagnosis/search.h"
-#include "support/process.h"
+#include "diagnosis/one_joint.h"
 
 namespace dcnn {
 namespace {
@@ -21,9 +19,8 @@ struct Flips {
 /// lasts for a quarter of a second.
 Flips flips_of(double seconds, double fc, std::uint64_t seed) {
   constexpr double kStep = 0.005, kKept = 0.98;  // of the noise from row to row
-  const test::TemporaryFolder folder;
   Rng rng({seed});
-  Table table{{"t", "q", "torque"}, Eigen::MatrixXd(static_cast<Index>(seconds / kStep), 3)};
+  Table table = test::joint_table(static_cast<Index>(seconds / kStep));
   double slow = 0.5 * rng.normal();
   for (Index i = 0; i < table.values.rows(); ++i) {
     const double t = kStep * static_cast<double>(i), phase = static_cast<double>(seed);
@@ -32,13 +29,7 @@ Flips flips_of(double seconds, double fc, std::uint64_t seed) {
     table.values.row(i) << t, 0.5 * std::sin(4.6 * t + phase) + 0.132 * std::sin(9.1 * t),
         fc * std::tanh(v / 0.1) + slow + 0.01 * rng.normal();
   }
-  write_csv(folder / "log.csv", table);
-  write_file(folder / "system.json", R"({"kind": "axes", "axes": [
-    {"name": "joint", "measured": "torque", "unit": "N*m", "position": "q", "base": []}]})");
-  DiagnosisRequest request;
-  request.system = folder / "system.json";
-  request.fit = {folder / "log.csv"};
-  Search search(load_axes(request).cases[0].fit, {}, nullptr);
+  Search search = test::search_of_joint({table});
   const EffectKind& dry = *find_effect("coulomb_friction");
   search.settle(
       {make_member(search.study(), dry, dry.fits[0], "base_x", Eigen::VectorXd::Constant(1, 0.1))});

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <numbers>
 
@@ -86,114 +87,87 @@ TEST_F(MachineNames, ACommandMayBeConstantASensorMayNot) {
   EXPECT_THROW(diagnose(both, nullptr), Error);
 }
 
+/// Of t, the sense and noise: t, pos, torque.
+using SensedRow = std::function<Eigen::RowVector3d(double t, double sense, Rng& rng)>;
+/// That both senses are told of the logs that `row` makes.
+void expect_senses(const SensedRow& row, double step, std::uint64_t seed = 0,
+                   const DerivativeSpec& derivative = {}) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "machine.json", machine({"acceleration"}).dump());
+  System system = read_system(folder / "machine.json");
+  system.axes[0].velocity = system.axes[0].acceleration = "";
+  for (const double sense : {1.0, -1.0}) {
+    Rng rng({seed});
+    Table table{{"t", "pos", "torque"}, Eigen::MatrixXd(2000, 3)};
+    for (Index k = 0; k < table.values.rows(); ++k) {
+      table.values.row(k) = row(step * static_cast<double>(k), sense, rng);
+    }
+    write_csv(folder / "log.csv", table);
+    const std::vector<Recording> logs{read_recording(folder / "log.csv", {}, system)};
+    EXPECT_EQ(sense_of(logs, system, system.axes[0], derivative), sense) << seed;
+  }
+}
+
 // Of a motion to and fro at one frequency half a period later is the opposite: only that long
 // delays are rare tells a drive from its reaction.
 TEST(AxisSense, OfAMotionToAndFroIsToldAtTheShorterDelay) {
   constexpr double kTurns = 4.0 * std::numbers::pi, kSwing = 8.0;  // rad/s, rad
-  const test::TemporaryFolder folder;
-  const std::filesystem::path path = folder / "sine.csv";
-  write_file(folder / "machine.json", machine({"acceleration"}).dump());
-  System system = read_system(folder / "machine.json");
-  system.axes[0].velocity = system.axes[0].acceleration = "";
-  for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    for (const double sense : {1.0, -1.0}) {
-      Rng rng({seed});
-      Table table{{"t", "pos", "torque"}, Eigen::MatrixXd(2000, 3)};
-      for (Index k = 0; k < table.values.rows(); ++k) {
-        const double t = 0.004 * static_cast<double>(k), v = kSwing * kTurns * std::cos(kTurns * t);
-        const double q = kSwing * std::sin(kTurns * t), a = -kTurns * kTurns * q;
-        const double drive = 1.9e-4 * a + 1.5e-4 * v + 0.075 * std::tanh(v / 10.0);
-        table.values.row(k) << t, q + 1e-3 * rng.normal(), sense * drive + 0.0155 * rng.normal();
-      }
-      write_csv(path, table);
-      const std::vector<Recording> logs{read_recording(path, {}, system)};
-      EXPECT_EQ(sense_of(logs, system, system.axes[0], {}), sense) << seed;
-    }
-  }
+  const auto row = [](double t, double sense, Rng& rng) {
+    const double v = kSwing * kTurns * std::cos(kTurns * t);
+    const double q = kSwing * std::sin(kTurns * t), a = -kTurns * kTurns * q;
+    const double drive = 1.9e-4 * a + 1.5e-4 * v + 0.075 * std::tanh(v / 10.0);
+    const double shown = q + 1e-3 * rng.normal();
+    return Eigen::RowVector3d(t, shown, sense * drive + 0.0155 * rng.normal());
+  };
+  for (std::uint64_t seed = 0; seed < 5; ++seed) expect_senses(row, 0.004, seed);
 }
 
-/// Steps to and fro, of which the filter of the derivatives passes the first harmonic alone.
+// Steps to and fro, of which the filter of the derivatives passes the first harmonic alone.
 TEST(AxisSense, IsToldOfBothSidesBehindOneFilter) {
-  const test::TemporaryFolder folder;
-  const std::filesystem::path path = folder / "steps.csv";
-  write_file(folder / "machine.json", machine({"acceleration"}).dump());
-  System system = read_system(folder / "machine.json");
-  system.axes[0].velocity = system.axes[0].acceleration = "";
   DerivativeSpec slow;
   slow.kind = DerivativeSpec::Kind::kSpectral;
   slow.cutoff_hz = 2.0;
-  for (const double sense : {1.0, -1.0}) {
-    Rng rng({11});
-    Table table{{"t", "pos", "torque"}, Eigen::MatrixXd(2000, 3)};
-    for (Index k = 0; k < table.values.rows(); ++k) {
-      const double t = 0.01 * static_cast<double>(k);
-      double q = 0.0, v = 0.0, a = 0.0;
-      for (const double order : {1.0, 3.0, 5.0}) {
-        const double w = 2.0 * std::numbers::pi * order, size = 5e-3 / order;
-        q += size * std::sin(w * t);
-        v += size * w * std::cos(w * t);
-        a -= size * w * w * std::sin(w * t);
-      }
-      table.values.row(k) << t, q, sense * (2.1 * a + 14.0 * v) + 0.05 * rng.normal();
+  const auto row = [](double t, double sense, Rng& rng) {
+    double q = 0.0, v = 0.0, a = 0.0;
+    for (const double order : {1.0, 3.0, 5.0}) {
+      const double w = 2.0 * std::numbers::pi * order, size = 5e-3 / order;
+      q += size * std::sin(w * t);
+      v += size * w * std::cos(w * t);
+      a -= size * w * w * std::sin(w * t);
     }
-    write_csv(path, table);
-    const std::vector<Recording> logs{read_recording(path, {}, system)};
-    EXPECT_EQ(sense_of(logs, system, system.axes[0], slow), sense);
-  }
+    return Eigen::RowVector3d(t, q, sense * (2.1 * a + 14.0 * v) + 0.05 * rng.normal());
+  };
+  expect_senses(row, 0.01, 11, slow);
 }
 
-/// A swing-up: the weight is most of the torque, and its sine is no line of the position.
+// A swing-up: the weight is most of the torque, and its sine is no line of the position.
 TEST(AxisSense, OfAPendulumIsNotThatOfItsWeight) {
-  const test::TemporaryFolder folder;
-  const std::filesystem::path path = folder / "swings.csv";
-  write_file(folder / "machine.json", machine({"acceleration"}).dump());
-  System system = read_system(folder / "machine.json");
-  system.axes[0].velocity = system.axes[0].acceleration = "";
-  system.axes[0].position_unit = "rad";
-  for (const double sense : {1.0, -1.0}) {
-    Rng rng({7});
-    Table table{{"t", "pos", "torque"}, Eigen::MatrixXd(2000, 3)};
-    for (Index k = 0; k < table.values.rows(); ++k) {
-      // Swings that grow, and a turn over the top.
-      const double t = 0.004 * static_cast<double>(k), w = 5.0, grow = 0.35 * t;
-      const double q = grow * std::sin(w * t),
-                   v = 0.35 * std::sin(w * t) + grow * w * std::cos(w * t),
-                   a = 0.7 * w * std::cos(w * t) - grow * w * w * std::sin(w * t);
-      const double drive = 0.17 * a + 3.5 * std::sin(q) + 0.11 * std::tanh(v / 0.05);
-      table.values.row(k) << t, q + 1e-3 * rng.normal(), sense * drive + 0.1 * rng.normal();
-    }
-    write_csv(path, table);
-    const std::vector<Recording> logs{read_recording(path, {}, system)};
-    EXPECT_EQ(sense_of(logs, system, system.axes[0], {}), sense);
-  }
+  const auto row = [](double t, double sense, Rng& rng) {
+    // Swings that grow, and a turn over the top.
+    const double w = 5.0, grow = 0.35 * t;
+    const double q = grow * std::sin(w * t),
+                 v = 0.35 * std::sin(w * t) + grow * w * std::cos(w * t),
+                 a = 0.7 * w * std::cos(w * t) - grow * w * w * std::sin(w * t);
+    const double drive = 0.17 * a + 3.5 * std::sin(q) + 0.11 * std::tanh(v / 0.05);
+    const double shown = q + 1e-3 * rng.normal();
+    return Eigen::RowVector3d(t, shown, sense * drive + 0.1 * rng.normal());
+  };
+  expect_senses(row, 0.004, 7);
 }
 
-/// Over a small range the rates of a weight are the velocity again: what a weight can be late by
-/// bounds them, or no drag would tell the sense.
+// Over a small range the rates of a weight are the velocity again: what a weight can be late by
+// bounds them, or no drag would tell the sense.
 TEST(AxisSense, OfASmallRangeIsToldByItsDrag) {
-  const test::TemporaryFolder folder;
-  const std::filesystem::path path = folder / "small.csv";
-  write_file(folder / "machine.json", machine({"acceleration"}).dump());
-  System system = read_system(folder / "machine.json");
-  system.axes[0].velocity = system.axes[0].acceleration = "";
-  system.axes[0].position_unit = "rad";
-  for (const double sense : {1.0, -1.0}) {
-    Rng rng({5});
-    Table table{{"t", "pos", "torque"}, Eigen::MatrixXd(2000, 3)};
-    for (Index k = 0; k < table.values.rows(); ++k) {
-      const double t = 0.01 * static_cast<double>(k);
-      double q = 0.2, v = 0.0;
-      for (const double w : {1.3, 2.9, 4.7}) {
-        q += 0.06 * std::sin(w * t);
-        v += 0.06 * w * std::cos(w * t);
-      }
-      const double drag = 0.03 * std::tanh(v / 0.05) + 0.01 * v;
-      table.values.row(k) << t, q, sense * drag + 0.005 * rng.normal();
+  const auto row = [](double t, double sense, Rng& rng) {
+    double q = 0.2, v = 0.0;
+    for (const double w : {1.3, 2.9, 4.7}) {
+      q += 0.06 * std::sin(w * t);
+      v += 0.06 * w * std::cos(w * t);
     }
-    write_csv(path, table);
-    const std::vector<Recording> logs{read_recording(path, {}, system)};
-    EXPECT_EQ(sense_of(logs, system, system.axes[0], {}), sense);
-  }
+    const double drag = 0.03 * std::tanh(v / 0.05) + 0.01 * v;
+    return Eigen::RowVector3d(t, q, sense * drag + 0.005 * rng.normal());
+  };
+  expect_senses(row, 0.01, 5);
 }
 
 TEST(NamePrior, FrictionIsTheRuleOnAMachineAlone) {

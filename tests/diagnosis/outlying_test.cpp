@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "dcnn/core/random.h"
-#include "diagnosis/axis_case.h"
-#include "support/process.h"
+#include "diagnosis/one_joint.h"
 
 namespace dcnn {
 namespace {
@@ -15,22 +14,17 @@ namespace {
 /// Of two recordings of noise, of 30 s and 6.5 s, where six times as much is left of the second
 /// from one time to another, in s.
 std::vector<Span> spans_beside(double from, double to) {
-  const test::TemporaryFolder folder;
-  DiagnosisRequest request;
+  std::vector<Table> tables;
   for (const double seconds : {30.0, 6.5}) {
-    Rng rng({7, request.fit.size()});
-    Table table{{"t", "q", "torque"}, Eigen::MatrixXd(static_cast<Index>(200.0 * seconds), 3)};
+    Rng rng({7, tables.size()});
+    Table table = test::joint_table(static_cast<Index>(200.0 * seconds));
     for (Index i = 0; i < table.values.rows(); ++i) {
       const double t = 0.005 * static_cast<double>(i);
       table.values.row(i) << t, std::sin(3.0 * t), rng.normal();
     }
-    request.fit.push_back(folder / (std::to_string(request.fit.size()) + ".csv"));
-    write_csv(request.fit.back(), table);
+    tables.push_back(std::move(table));
   }
-  write_file(folder / "system.json", R"({"kind": "axes", "axes": [
-    {"name": "joint", "measured": "torque", "unit": "N*m", "position": "q", "base": []}]})");
-  request.system = folder / "system.json";
-  Search search(load_axes(request).cases[0].fit, {}, nullptr);
+  Search search = test::search_of_joint(tables);
   search.settle({});
   Signals left;
   for (const Log& log : search.study().logs) left.push_back(log.measured);

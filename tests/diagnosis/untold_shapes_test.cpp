@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "dcnn/core/random.h"
-#include "diagnosis/axis_case.h"
 #include "diagnosis/load.h"
-#include "diagnosis/search.h"
+#include "diagnosis/one_joint.h"
 #include "diagnosis/support.h"
 
 namespace dcnn {
@@ -42,9 +41,8 @@ TEST(UntoldShapes, AConstantHasNone) {
 /// The names on an axis with viscous friction and with dry friction `fc` that varies by `a` with 9
 /// times the position, after both were fitted to it and what is not told of gears was left out.
 std::vector<std::string> names_beside_gears(double a, double fc = 1.0) {
-  const test::TemporaryFolder folder;
   Rng rng({4});
-  Table table{{"t", "q", "torque"}, Eigen::MatrixXd(5000, 3)};
+  Table table = test::joint_table(5000);
   for (Index i = 0; i < table.values.rows(); ++i) {
     const double t = 0.004 * static_cast<double>(i);
     const double q = std::sin(1.1 * t) + 0.4 * std::sin(2.9 * t),
@@ -52,13 +50,7 @@ std::vector<std::string> names_beside_gears(double a, double fc = 1.0) {
     table.values.row(i) << t, q,
         2.0 * v + fc * (1.0 + a * std::sin(9.0 * q)) * std::tanh(v / 0.02) + 0.05 * rng.normal();
   }
-  write_csv(folder / "log.csv", table);
-  write_file(folder / "system.json", R"({"kind": "axes", "axes": [
-    {"name": "joint", "measured": "torque", "unit": "N*m", "position": "q", "base": []}]})");
-  DiagnosisRequest request;
-  request.system = folder / "system.json";
-  request.fit = {folder / "log.csv"};
-  Search search(load_axes(request).cases[0].fit, {}, nullptr);
+  Search search = test::search_of_joint({table});
   const EffectKind &gears = *find_effect("gear_friction"),
                    &viscous = *find_effect("viscous_friction");
   search.settle({make_member(search.study(), viscous, viscous.fits[0], "alpha:base_x", {}),
