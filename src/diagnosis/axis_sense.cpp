@@ -63,9 +63,7 @@ struct SenseFit {
 /// the reading comes by the usual delay late, which bounds what its rates explain.
 SenseFit sense_fit(const LaggedSums& sums, Index columns, double pieces) {
   Eigen::MatrixXd gram = sums.gram.topLeftCorner(columns, columns);
-  constexpr double kSeldomLess = 1.0;
-  const double late =
-      sums.rows / std::max(kSeldomLess, pieces) / (prior::kUsualDelay * prior::kUsualDelay);
+  const double late = sums.rows / std::max(1.0, pieces) / (prior::kUsualDelay * prior::kUsualDelay);
   for (Index c = kRates; c < columns; ++c) gram(c, c) += late;
   const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd scaled = scale.asDiagonal() * gram * scale.asDiagonal();

@@ -27,7 +27,8 @@ bool is_cut(const Case& study) { return study.shown_hz() < study.motion_hz; }
 /// lines the steps of its encoder make above that would be no motion.
 DerivativeSpec low_pass_spec(const Case& study, double cutoff_hz, double subtraction,
                              const std::vector<double>& most_noise = {}) {
-  constexpr double kFastestMachine = 50.0;  // Hz; a low-pass below the motion's end ends it
+  // Hz: the bandwidth of a machine's motion; what a low-pass takes off is none.
+  constexpr double kFastestMachine = 50.0;
   const double machine = is_cut(study) ? study.lowpass_hz : kFastestMachine;
   return {.kind = DerivativeSpec::Kind::kSpectral,
           .cutoff_hz = cutoff_hz,

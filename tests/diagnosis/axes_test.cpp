@@ -95,6 +95,19 @@ double number(const Json& finding, const char* name, const char* unit) {
   return finding["parameters"][name]["value"];
 }
 
+/// Of fit.csv and hold.csv in a folder, whose only axis has these keys, a position q beside them.
+Json report_of_axis(const test::TemporaryFolder& folder, Json axis, double lowpass_hz = 0.0) {
+  axis["position"] = "q";
+  const Json system{
+      {"kind", "axes"}, {"lowpass_hz", lowpass_hz}, {"axes", Json::array({std::move(axis)})}};
+  write_file(folder / "system.json", system.dump());
+  DiagnosisRequest request;
+  request.system = folder / "system.json";
+  request.fit = {folder / "fit.csv"};
+  request.holdout = {folder / "hold.csv"};
+  return diagnose(request, nullptr).report;
+}
+
 TEST(DiagnoseAxes, SaysThatNothingIsMissing) {
   const Json report = AxisBench([](const State&) { return 0.0; }).diagnose(one_axis()).report;
   EXPECT_EQ(report["verdict"], "consistent") << report["findings"].dump(1);
@@ -123,19 +136,8 @@ TEST(DiagnoseAxes, FrictionThatGrowsWithThePositionIsNoColourOfNoise) {
     }
     write_csv(folder / name, table);
   }
-  const Json system{{"kind", "axes"},
-                    {"axes",
-                     {{{"name", "knob"},
-                       {"measured", "I"},
-                       {"unit", "mA"},
-                       {"position", "q"},
-                       {"base", Json::array()}}}}};
-  write_file(folder / "system.json", system.dump());
-  DiagnosisRequest request;
-  request.system = folder / "system.json";
-  request.fit = {folder / "fit.csv"};
-  request.holdout = {folder / "hold.csv"};
-  const Json report = diagnose(request, nullptr).report;
+  const Json report = report_of_axis(
+      folder, {{"name", "knob"}, {"measured", "I"}, {"unit", "mA"}, {"base", Json::array()}});
   EXPECT_NE(report["verdict"], "explained") << report["findings"].dump(1);
   EXPECT_NE(report["verdict"], "consistent");
 }
@@ -526,13 +528,9 @@ TEST(DiagnoseAxes, SlowNoiseBesideASimulatorIsNothingMissing) {
       }
       write_csv(folder / file, table);
     }
-    write_file(folder / "system.json", R"({"kind": "axes", "axes": [{"name": "joint",
-        "measured": "torque", "simulated": "simulated", "unit": "N*m", "position": "q"}]})");
-    DiagnosisRequest request;
-    request.system = folder / "system.json";
-    request.fit = {folder / "fit.csv"};
-    request.holdout = {folder / "hold.csv"};
-    const Json report = diagnose(request, nullptr).report;
+    const Json report = report_of_axis(
+        folder,
+        {{"name", "joint"}, {"measured", "torque"}, {"unit", "N*m"}, {"simulated", "simulated"}});
     EXPECT_EQ(report["verdict"], "consistent") << seed;
   }
 }
@@ -560,20 +558,9 @@ TEST(DiagnoseAxes, AMotionBeyondTheLowPassKeepsItsInertia) {
     }
     write_csv(folder / file, table);
   }
-  const Json system = {{"kind", "axes"},
-                       {"lowpass_hz", 4},
-                       {"axes",
-                        {{{"name", "link"},
-                          {"measured", "torque"},
-                          {"unit", "N*m"},
-                          {"position", "q"},
-                          {"base", Json::array()}}}}};
-  write_file(folder / "system.json", system.dump());
-  DiagnosisRequest request;
-  request.system = folder / "system.json";
-  request.fit = {folder / "fit.csv"};
-  request.holdout = {folder / "hold.csv"};
-  const Json report = diagnose(request, nullptr).report;
+  const Json report = report_of_axis(
+      folder, {{"name", "link"}, {"measured", "torque"}, {"unit", "N*m"}, {"base", Json::array()}},
+      4.0);
   const Json* inertia = find(report, "inertia");
   ASSERT_TRUE(inertia) << report["findings"].dump(1);
   EXPECT_NEAR((*inertia)["parameters"]["delta_inertia"]["value"].get<double>(), 0.19, 0.004);

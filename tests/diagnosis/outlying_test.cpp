@@ -43,7 +43,7 @@ TEST(Outlying, AHandIsLeftOut) {
   EXPECT_NEAR(spans[0].end, 4.5, 1e-9);
 }
 
-// One that is louder throughout shows other motion, though it be a fifth of all.
+// One that is louder throughout shows other motion, even where it is less than a fifth of all.
 TEST(Outlying, ARecordingIsNoCollision) { EXPECT_TRUE(spans_beside(0.0, 6.5).empty()); }
 
 }  // namespace
