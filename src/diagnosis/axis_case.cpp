@@ -240,7 +240,9 @@ LoadedAxes load_axes(const DiagnosisRequest& request) {
     plan.index = k;
     const Case draft = axis_case(std::make_shared<const AxisPlan>(plan), motion_hz[k]);
     plan.columns = used_columns(fit, system, k, draft.derivative);
-    plan.sense = sense_of(fit, system, system.axes[k], draft.derivative);
+    Axis own = system.axes[k];
+    if (machine) own.simulated.clear();  // the drive's own: its sign is what is asked
+    plan.sense = sense_of(fit, system, own, draft.derivative);
     LoadedCase loaded;
     loaded.fit = axis_case(std::make_shared<const AxisPlan>(std::move(plan)), motion_hz[k]);
     loaded.fit.without = request.without;

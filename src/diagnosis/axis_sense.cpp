@@ -16,12 +16,13 @@ namespace {
 constexpr double kLongestDelay = 0.6;  // s, as delays are looked for (effects/time_delay.cpp)
 constexpr int kDelays = 60;            // either way: steps that no motion below 10 Hz turns in
 
-/// Offset, velocity, acceleration, position of one recording, of a turning axis its sine and cosine
-/// (a link in gravity) and their rates, for a weight read some milliseconds late is no drag; and
-/// its reading. All have passed the filter that derivatives pass, where that is one: beyond it a
-/// position would stand for the inertia.
-constexpr Index kColumns = 8, kWithoutGravity = 4, kVelocity = 1, kAcceleration = 2, kPlace = 3,
-                kRates = 6;
+/// Offset, velocity, acceleration, position of one recording; what a simulator of the user's
+/// predicts, whose scale may be wrong; of a turning axis its sine and cosine (a link in gravity)
+/// and their rates, for a weight read some milliseconds late is no drag; and its reading. All have
+/// passed the filter that derivatives pass, where that is one: beyond it a position would stand for
+/// the inertia.
+constexpr Index kColumns = 9, kWithoutGravity = 5, kVelocity = 1, kAcceleration = 2, kPlace = 3,
+                kSimulated = 4, kRates = 7;
 struct LaggedRows {
   Eigen::MatrixXd motion;
   Eigen::VectorXd reading;
@@ -114,12 +115,15 @@ LaggedRows lagged_rows(const Recording& recording, const System& system, const A
     if (axis.position_unit == "rad") {
       for (Index i = 0; i < q.size(); ++i) {
         const double v = rows.motion(i, kVelocity);
-        rows.motion(i, 4) = elementary::sin(q(i));
-        rows.motion(i, 5) = elementary::cos(q(i));
-        rows.motion(i, kRates) = v * rows.motion(i, 5);
-        rows.motion(i, kRates + 1) = v * rows.motion(i, 4);
+        rows.motion(i, kWithoutGravity) = elementary::sin(q(i));
+        rows.motion(i, kWithoutGravity + 1) = elementary::cos(q(i));
+        rows.motion(i, kRates) = v * rows.motion(i, kWithoutGravity + 1);
+        rows.motion(i, kRates + 1) = v * rows.motion(i, kWithoutGravity);
       }
     }
+  }
+  if (recording.has(axis.simulated)) {
+    rows.motion.col(kSimulated) = recording.column(axis.simulated);
   }
   rows.reading = without_spikes(measured(recording, target, system, true).col(0));
   if (recording.dt > 0.0 && linear.kind == DerivativeSpec::Kind::kSpectral) {

@@ -30,4 +30,13 @@ std::string axis_words(const Json& finding, const Axis& axis, const std::string&
   return what + " on " + axis.name;
 }
 
+std::string reaction_words(const Axis& axis) {
+  return axis.name + ": what is measured opposes the motion" +
+         (axis.simulated.empty()
+              ? " and is taken for the reaction to the drive"
+              : " beside what is simulated: friction takes from the reading, as of an output "
+                "behind it, or it is the reaction to the drive") +
+         " (\"measured\": \"reaction\" in model.json)";
+}
+
 }  // namespace dcnn

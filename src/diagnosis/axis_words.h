@@ -13,4 +13,7 @@ namespace dcnn {
 /// logged signal drives.
 std::string axis_words(const Json& finding, const Axis& axis, const std::string& strength);
 
+/// Of an axis whose reading opposes the motion, for a note.
+std::string reaction_words(const Axis& axis);
+
 }  // namespace dcnn

@@ -8,6 +8,7 @@
 #include "dcnn/core/blocking.h"
 #include "diagnosis/axes.h"
 #include "diagnosis/axis_case.h"
+#include "diagnosis/axis_words.h"
 #include "diagnosis/budget.h"
 #include "diagnosis/candidates.h"
 #include "diagnosis/confidence.h"
@@ -201,9 +202,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
                               "that is left may be noise, or a law of what is not logged");
   }
   if (study.axis && study.axis->sense < 0.0) {
-    report["notes"].push_back(study.axis->axis().name +
-                              ": what is measured opposes the motion and is taken for the reaction "
-                              "to the drive (\"measured\": \"reaction\" in model.json)");
+    report["notes"].push_back(reaction_words(study.axis->axis()));
   }
   if (const auto note = note_of_zeros(search)) report["notes"].push_back(*note);
   const std::vector<std::string> without = study.without.names();

@@ -170,6 +170,30 @@ TEST(AxisSense, OfASmallRangeIsToldByItsDrag) {
   expect_senses(row, 0.01, 5);
 }
 
+// A sensor at the output of a gear, beside the drive's own torque: it reads a share of it, less the
+// gear's friction. Without that share the reading, which goes with the drive, looks like one.
+TEST(AxisSense, BesideASimulatedDriveIsThatOfTheRest) {
+  const test::TemporaryFolder folder;
+  write_file(folder / "machine.json", R"({"kind": "axes", "axes": [{"name": "gear",
+      "measured": "output", "unit": "N*m", "position": "q", "simulated": "drive"}]})");
+  const System system = read_system(folder / "machine.json");
+  for (const double sense : {1.0, -1.0}) {
+    Rng rng({17});
+    Table table{{"t", "q", "drive", "output"}, Eigen::MatrixXd(3000, 4)};
+    for (Index k = 0; k < table.values.rows(); ++k) {
+      const double t = 0.01 * static_cast<double>(k), w = 2.9;
+      const double q = std::sin(w * t) + 0.4 * std::sin(1.7 * w * t);
+      const double v = w * (std::cos(w * t) + 0.68 * std::cos(1.7 * w * t));
+      const double drive = 1.5 * std::tanh(v) + 2.0 * std::sin(0.37 * w * t);
+      const double friction = 0.4 * std::tanh(v / 0.1);
+      table.values.row(k) << t, q, drive, 0.63 * drive + sense * friction + 0.1 * rng.normal();
+    }
+    write_csv(folder / "log.csv", table);
+    const std::vector<Recording> logs{read_recording(folder / "log.csv", {}, system)};
+    EXPECT_EQ(sense_of(logs, system, system.axes[0], {}), sense);
+  }
+}
+
 TEST(NamePrior, FrictionIsTheRuleOnAMachineAlone) {
   const auto rare = [](double p) { return elementary::log(p / (1.0 - p)); };
   Case tool, axis;
