@@ -228,7 +228,7 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   std::vector<std::string> targets(kChannels.begin(), kChannels.end());
   std::erase_if(targets, [&](const std::string& name) { return !fit.front().has(name); });
   const std::vector<Recording*> both = with_usable_rows(fit, holdout, System(), targets);
-  if (request.simulator) leave_out_inertial_force(both, study.simulator.model);
+  leave_out_inertial_force(both, study.simulator.model);
   std::vector<Recording> all = fit;
   all.insert(all.end(), holdout.begin(), holdout.end());
   check_rates(all);

@@ -95,9 +95,7 @@ TEST(PoorRecordings, AForceThatIsHeldIsReadWhereItIsNew) {
   EXPECT_EQ(report["notes"].size(), 2u) << report["notes"].dump(1);
 }
 
-/// What a sensor of fewer than three forces, or a log without a position, tells.
-Json report_without(const std::vector<std::string>& columns, const Json& world) {
-  const test::Bench bench(world);
+void leave_out(const std::vector<std::string>& columns, const test::Bench& bench) {
   for (const char* name : {"fit.csv", "hold.csv"}) {
     const Table whole = read_recording(bench / name, ReadOptions(), System()).table;
     Table part;
@@ -110,6 +108,12 @@ Json report_without(const std::vector<std::string>& columns, const Json& world) 
     part.values = whole.values(Eigen::all, kept);
     write_csv(bench / name, part);
   }
+}
+
+/// What a sensor of fewer than three forces, or a log without a position, tells.
+Json report_without(const std::vector<std::string>& columns, const Json& world) {
+  const test::Bench bench(world);
+  leave_out(columns, bench);
   DiagnosisRequest request = bench.request();
   request.read.part_of_wrench = true;
   return diagnose(request, nullptr).report;
@@ -133,6 +137,17 @@ TEST(PoorRecordings, WithoutAPositionHaveNoInertialForce) {
   EXPECT_EQ(test::found(report), std::set<std::string>{"mass"}) << report["findings"].dump(1);
   EXPECT_NE(report["notes"].dump().find("the tool's inertial force is left out"),
             std::string::npos);
+}
+
+/// A simulator whose forces are columns has no tool either whose acceleration a position tells.
+TEST(PoorRecordings, WithoutAPositionASimulatorInColumnsIsCompared) {
+  const test::Bench bench(test::configuration(Json::array({test::hidden(
+      "bias", nullptr,
+      {{"delta_bias_x_n", 0.3}, {"delta_bias_y_n", 0.0}, {"delta_bias_z_n", -0.2}})})));
+  const DiagnosisRequest request = bench.request_of_columns();
+  leave_out({"x", "y", "z"}, bench);
+  const Json report = diagnose(request, nullptr).report;
+  EXPECT_EQ(test::found(report), std::set<std::string>{"bias"}) << report["findings"].dump(1);
 }
 
 /// Derivatives take 0.1 s of rows: what is shorter between two gaps is left out.

@@ -77,7 +77,9 @@ class Bench {
   }
   /// The same where the forces of the simulator are columns of the recordings, and no more is known
   /// of it.
-  Diagnosis diagnose_columns() const {
+  Diagnosis diagnose_columns() const { return dcnn::diagnose(request_of_columns(), nullptr); }
+  /// Writes those columns.
+  DiagnosisRequest request_of_columns() const {
     const Simulator simulator = read_simulator(folder_ / "sim.json");
     for (const char* name : {"fit.csv", "hold.csv"}) {
       Recording log = read_recording(folder_ / name, ReadOptions(), System());
@@ -89,7 +91,7 @@ class Bench {
     }
     DiagnosisRequest by_columns = request();
     by_columns.simulator.reset();
-    return dcnn::diagnose(by_columns, nullptr);
+    return by_columns;
   }
   std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
 
