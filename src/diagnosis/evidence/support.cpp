@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/elementary.h"
+
 namespace dcnn::evidence {
 
 namespace {
@@ -13,9 +15,12 @@ BlockChange sum_of(const std::vector<BlockChange>& blocks) {
   return all;
 }
 
-/// One over the factor by which the fall varies more than in white noise, at most 1; 0 where blocks
-/// say nothing.
-double weight_of(const std::vector<BlockChange>& blocks, const BlockChange& all) {
+/// Of what chi-square falls by, `fall`, where the two predict `apart`: normal about +-apart, of a
+/// variance of four times that in white noise of the stated size. Blocks that vary more add to it,
+/// of as many degrees of freedom as there are differences of blocks (Welch, Satterthwaite):
+/// Student's t. 0 where blocks say nothing.
+double log_ratio(double fall, double apart, const std::vector<BlockChange>& blocks) {
+  const BlockChange all = sum_of(blocks);
   if (blocks.size() < 2 || all.apart <= 0.0) return 0.0;
   double square = 0.0;  // of each block's fall about what its share of `apart` would make of it
   for (const BlockChange& block : blocks) {
@@ -23,27 +28,30 @@ double weight_of(const std::vector<BlockChange>& blocks, const BlockChange& all)
     square += off * off;
   }
   const auto n = static_cast<double>(blocks.size());
-  const double variance = square * n / (n - 1.0);
-  return 1.0 / std::max(1.0, variance / (4.0 * all.apart));
+  const double white = 4.0 * apart, variance = std::max(white, square * n / (n - 1.0));
+  const double estimated = 1.0 - white / variance;  // share of the variance
+  if (estimated <= 0.0) return 0.5 * fall;
+  const double freedom = (n - 1.0) / (estimated * estimated);
+  const auto tail = [&](double off) { return elementary::log1p(off * off / (freedom * variance)); };
+  return 0.5 * (freedom + 1.0) * (tail(fall + apart) - tail(fall - apart));
 }
 
 }  // namespace
 
 double log_support(const std::vector<BlockChange>& blocks) {
   const BlockChange all = sum_of(blocks);
-  return 0.5 * all.fall * weight_of(blocks, all);
+  return log_ratio(all.fall, all.apart, blocks);
 }
 
 double log_support(const std::vector<BlockChange>& blocks, double gained) {
   const BlockChange all = sum_of(blocks);
-  const double weight = weight_of(blocks, all);
-  if (weight == 0.0) return 0.0;
+  if (all.apart <= 0.0) return 0.0;
   // Largest over s of s r d - (s d)^2/2 - gained (s - 1)^2/2, with d the length of what the two
   // predict apart and r what was measured along it: fall = 2 r d - d^2.
   const double beyond = (all.fall - all.apart) * (all.fall - all.apart) / (4.0 * all.apart);
   const double known = std::max(0.0, gained);
   const double moved = beyond * all.apart / (all.apart + known);
-  return 0.5 * (all.fall + moved) * weight;
+  return log_ratio(all.fall + moved, all.apart, blocks);
 }
 
 void MeanSquares::add(double error_with, double error_without, double deviation) {

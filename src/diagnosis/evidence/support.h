@@ -14,8 +14,9 @@ struct BlockChange {
 
 /// ln of the likelihood ratio of the two models: half of what chi-square falls by in all, where the
 /// noise is white and of the stated size, which makes the fall's variance four times `apart`. Where
-/// it varies more over the blocks (coloured noise, an error that both models share), divided by as
-/// much. 0 for fewer than two blocks, and where both predict the same.
+/// it varies more over the blocks (coloured noise, an error that both models share), by as much
+/// less, and less still where the blocks are few (Student's t). 0 for fewer than two blocks, and
+/// where both predict the same.
 double log_support(const std::vector<BlockChange>& blocks);
 
 /// The same where the size of what the two predict apart is an estimate: fitted to other rows, in
