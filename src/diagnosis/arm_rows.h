@@ -10,7 +10,7 @@ namespace dcnn {
 /// friction that turns within four widths of speed, of which the last is one that grows slower with
 /// it; then those that only a given base is tested against.
 constexpr Index kOwnFriction = 6;
-constexpr Index kOwnRate = 1;  ///< the column of viscous friction
+constexpr Index kOwnOffset = 0, kOwnRate = 1;  ///< columns of the offset and of viscous friction
 constexpr Index kOwnAliases =
     6;  ///< spring, drag, inertia, and the given torque, its rate, and its friction
 

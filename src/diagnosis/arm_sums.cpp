@@ -138,14 +138,14 @@ void ArmRegression::reweight() {
   }
 }
 
-Eigen::VectorXd ArmRegression::shared(Index left_out) const {
-  return fit(left_out, 0, pieces_.size()).head(shared_);
+Eigen::VectorXd ArmRegression::shared(Index left_out, std::optional<std::size_t> joint) const {
+  return fit(left_out, joint.value_or(0), joint ? *joint + 1 : pieces_.size()).head(shared_);
 }
 
-Eigen::MatrixXd ArmRegression::deviations() const {
+Eigen::MatrixXd ArmRegression::deviations(std::optional<std::size_t> joint) const {
   const Index pieces = sums_.pieces();
   Eigen::MatrixXd without(shared_, pieces);
-  for (Index p = 0; p < pieces; ++p) without.col(p) = shared(p);
+  for (Index p = 0; p < pieces; ++p) without.col(p) = shared(p, joint);
   const auto n = static_cast<double>(pieces);
   return std::sqrt((n - 1.0) / n) * (without.colwise() - without.rowwise().mean());
 }

@@ -3,6 +3,8 @@
 // out.
 #pragma once
 
+#include <optional>
+
 #include "diagnosis/arm_rows.h"
 #include "diagnosis/evidence/support.h"
 
@@ -38,7 +40,7 @@ class ArmSums {
   static Piece as_left_out(const Piece& piece, Index first, const Eigen::MatrixXd& friction);
   std::vector<std::vector<Piece>> sums_;      // by joint and piece
   std::vector<std::vector<Piece>> left_out_;  // the same in the metric of a piece left out
-  Index pieces_ = 0, links_ = 0;          // links_: columns of the arm
+  Index pieces_ = 0, links_ = 0;              // links_: columns of the arm
 };
 
 /// Least squares of one model over all joints, each weighted by what it leaves.
@@ -56,12 +58,13 @@ class ArmRegression {
   /// arm.)
   void shrink();
 
-  /// The shared parameters fitted to all pieces but one (-1: to all).
-  Eigen::VectorXd shared(Index left_out) const;
-  /// (p, pieces): how far the shared parameters may be off: deviations of their estimates without
-  /// each piece, whose outer products sum to their covariance (the jackknife of blocks, Kunsch
+  /// The shared parameters fitted to all pieces but one (-1: to all), of all joints or as one joint
+  /// by itself has them.
+  Eigen::VectorXd shared(Index left_out, std::optional<std::size_t> joint = {}) const;
+  /// (p, pieces): how far those parameters may be off: deviations of their estimates without each
+  /// piece, whose outer products sum to their covariance (the jackknife of blocks, Kunsch
   /// 1989), which knows of errors that last and of laws that were left out.
-  Eigen::MatrixXd deviations() const;
+  Eigen::MatrixXd deviations(std::optional<std::size_t> joint = {}) const;
   /// (pieces, joints): squared error, in units of the joints' variances, on pieces that were left
   /// out.
   Eigen::MatrixXd left_out() const;
@@ -91,9 +94,9 @@ class ArmRegression {
   }
 
   const ArmSums& sums_;
-  std::vector<Eigen::MatrixXd> maps_;                // from the model's columns to all, by joint
+  std::vector<Eigen::MatrixXd> maps_;  // from the model's columns to all, by joint
   std::vector<std::vector<ArmSums::Piece>> pieces_, left_out_;  // in the model's own columns
-  std::vector<Index> first_;                         // unknowns of each joint begin there
+  std::vector<Index> first_;  // unknowns of each joint begin there
   Index shared_ = 0, size_ = 0;
   Eigen::VectorXd variance_;
   double ridge_ = 0.0;  // of each shared parameter's information

@@ -6,6 +6,7 @@
 #include <memory>
 #include <numeric>
 
+#include "diagnosis/base_errors.h"
 #include "diagnosis/beginning.h"
 #include "diagnosis/passed_base.h"
 #include "physics/effect_law.h"
@@ -149,18 +150,6 @@ Eigen::VectorXd best_change(const std::vector<Member>& members,
   return change;
 }
 
-/// Sizes of a known base's errors, the columns of the nuisance from `first` on, in deviations:
-/// (N'N + P)^-1 N'y, P = 1 for them and 0 for others.
-Eigen::VectorXd likeliest_errors(const Eigen::MatrixXd& nuisance, Index first, Index count,
-                                 const Eigen::VectorXd& left) {
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(nuisance.rows() + count, nuisance.cols());
-  columns.topRows(nuisance.rows()) = nuisance;
-  columns.bottomRows(count).middleCols(first, count).setIdentity();
-  Eigen::VectorXd wanted = Eigen::VectorXd::Zero(columns.rows());
-  wanted.head(left.size()) = left;
-  return least_squares(columns, wanted).segment(first, count);
-}
-
 /// What is always fitted, the base simulator as the members pass it, and how the cables among them
 /// were bent when recordings began.
 Eigen::MatrixXd with_beginnings(const Setting& setting, const std::vector<Member>& members) {
@@ -292,7 +281,11 @@ JointFit joint_fit(const Setting& setting, std::vector<Member> members) {
   fit.residual = std::move(residual);
   if (linear > 0) fit.base = setting.study.base_coefficients + fit.nuisance.head(linear);
   if (const Index errors = setting.study.logs.front().base_errors.cols(); errors > 0) {
-    fit.base = likeliest_errors(nuisance_columns, setting.flat_columns(), errors, wanted - here);
+    // Where nothing is named yet, what is left is not the base's alone.
+    fit.base = Eigen::VectorXd::Zero(errors);
+    if (!fit.members.empty()) {
+      fit.base = likeliest_errors(nuisance_columns, setting.flat_columns(), errors, wanted - here);
+    }
   }
   return fit;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/arm_senses.h"
@@ -55,7 +56,10 @@ void fit_links(std::vector<LoadedCase>& cases) {
   for (std::size_t j = 0; j < cases.size(); ++j) {
     senses(static_cast<Index>(j)) = cases[j].fit.axis->sense;
   }
-  const ArmModel model = with_likeliest_senses(sums, told, senses);
+  ArmModel model = with_likeliest_senses(sums, told, senses);
+  // A weight that hardly turns is a constant, too: offsets beside the links would take a part of it
+  // from what the links alone predict. One that is there is found as a name.
+  for (std::vector<Index>& own : model.own) std::erase(own, kOwnOffset);
   ArmRegression regression(sums, model);
   regression.reweight();
   regression.shrink();
@@ -63,18 +67,16 @@ void fit_links(std::vector<LoadedCase>& cases) {
   for (Index k = 0; k < told.rows(); ++k) {
     if (told.row(k).any()) columns.push_back(k);
   }
-  const VectorXd parameters = regression.shared(-1);
-  const MatrixXd deviations = regression.deviations();
   for (std::size_t j = 0; j < cases.size(); ++j) {
     const auto joint = static_cast<Index>(j);
     set_sense(cases[j], model.turned(joint) * senses(joint));
-    const double alone = evidence::updated(prior::kName, regression.log_support_alone(j));
-    if (alone > 0.5) continue;
+    std::optional<std::size_t> by_itself;
+    if (evidence::updated(prior::kName, regression.log_support_alone(j)) > 0.5) by_itself = j;
     AxisPlan plan = *cases[j].fit.axis;
     plan.columns = columns;
     plan.base_is_known = true;
-    plan.base_deviations = deviations;
-    give_plan(cases[j], plan, parameters);
+    plan.base_deviations = regression.deviations(by_itself);
+    give_plan(cases[j], plan, regression.shared(-1, by_itself));
   }
 }
 
