@@ -29,14 +29,16 @@ bool can_hold_laws(const Case& study) {
 /// Looks for names beside laws; those that are found stand where both, fitted again, leave nothing.
 void name_beside(Search& search, Laws& laws) {
   const std::vector<Member> before = search.fit().members;
-  if (!search.name_beside_laws()) return;
-  Laws again = borne_out(search.setting(), joint_fit(search.setting(), search.names()));
-  if (!again.found.empty()) search.put_beside(again.members);
-  if (!search.confirms_names()) {
-    search.hold(before);
-  } else if (!again.found.empty()) {
-    laws = std::move(again);
+  if (search.name_beside_laws()) {
+    Laws again = borne_out(search.setting(), joint_fit(search.setting(), search.names()));
+    if (!again.found.empty()) search.put_beside(again.members);
+    if (!search.confirms_names()) {
+      search.hold(before);
+    } else if (!again.found.empty()) {
+      laws = std::move(again);
+    }
   }
+  laws = those_in(search.fit().members, std::move(laws));
 }
 
 /// Lets laws stand beside other names where they explain as much for their numbers; whether it did.
@@ -74,12 +76,6 @@ std::vector<Member> without_law(std::vector<Member> members, std::size_t place) 
     break;
   }
   return members;
-}
-
-Laws without(Laws laws, std::size_t k) {
-  laws.found.erase(laws.found.begin() + static_cast<std::ptrdiff_t>(k));
-  laws.members.erase(laws.members.begin() + static_cast<std::ptrdiff_t>(k));
-  return laws;
 }
 
 /// Leaves out laws that are names which held-out data refuted: such a name in its place explains as
@@ -272,6 +268,7 @@ void settle_beside(Search& search, Laws& laws) {
   leave_refuted_forms(search, laws);
   search.leave_untold_parts();
   search.leave_idle_names();
+  laws = those_in(search.fit().members, std::move(laws));
 }
 
 }  // namespace

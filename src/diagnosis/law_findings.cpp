@@ -27,6 +27,17 @@ Json law_numbers(const Discovered& found, const law::Terms& terms) {
   return json;
 }
 
+/// The law that a member of the fit is: others may have gone from the fit since they were found.
+std::vector<Discovered>::const_iterator law_of(const Member& member,
+                                               const std::vector<Discovered>& laws) {
+  const auto found = std::find_if(laws.begin(), laws.end(), [&](const Discovered& law) {
+    return member.law_parameters == law::parameters_json(law.law) &&
+           member.law["expression"] == law::to_json(law.law, law::tool_terms())["expression"];
+  });
+  require(found != laws.end(), Exit::kFailure, "a law of the fit is not among those found");
+  return found;
+}
+
 /// As it is told of a tool, or of an axis: what adds to its reading.
 Json law_finding(Discovered found, const AxisPlan* plan) {
   law::Terms terms = law::tool_terms();
@@ -66,25 +77,25 @@ Json leave_refuted_laws(Search& search, const HoldOut& holdout, std::vector<Disc
     const Signals with = holdout.prediction(members, search.fit().base);
     const double error = holdout.empty() ? 0.0 : holdout.mean_rmse(members, search.fit().base);
     struct Refuted {
-      std::size_t law, member;
+      std::size_t member;
       double likely;
     };
     std::optional<Refuted> worst;
-    for (std::size_t m = 0, law = 0; m < members.size(); ++m) {
+    for (std::size_t m = 0; m < members.size(); ++m) {
       if (members[m].law.is_null()) continue;
       const JointFit& rest = search.without(m);
       const double likely = supported(kEven, search, holdout, with, m);
       const bool rises = !holdout.empty() && error > holdout.mean_rmse(rest.members, rest.base);
       if ((rises || likely < kEven) && (!worst || likely < worst->likely)) {
-        worst = Refuted{law, m, likely};
+        worst = Refuted{m, likely};
       }
-      ++law;
     }
     if (!worst) break;
+    const auto law = law_of(members[worst->member], laws);
     refuted.push_back({{"effect", "discovered"},
-                       {"axis", law_finding(laws[worst->law], nullptr)["axis"]},
+                       {"axis", law_finding(*law, nullptr)["axis"]},
                        {"confidence", worst->likely}});
-    laws.erase(laws.begin() + static_cast<std::ptrdiff_t>(worst->law));
+    laws.erase(law);
     search.hold(search.members_without(worst->member));
   }
   return refuted;
@@ -97,10 +108,9 @@ Json law_findings(const Search& search, const std::vector<Discovered>& laws,
   std::vector<std::vector<Estimate>> levers(fit.members.size());
   if (!laws.empty() && search.study().has_torque()) levers = estimates(search.setting(), fit);
   Json list = Json::array();
-  std::size_t next = 0;
   for (std::size_t m = 0; m < fit.members.size(); ++m) {
     if (fit.members[m].law.is_null()) continue;
-    Discovered law = laws[next++];
+    Discovered law = *law_of(fit.members[m], laws);
     law.law.numbers(0) *= fit.members[m].amplitudes(0);
     law.deviation(0) *= std::abs(fit.members[m].amplitudes(0));
     Json entry = law_finding(std::move(law), search.study().axis.get());

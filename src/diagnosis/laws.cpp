@@ -96,4 +96,21 @@ int numbers_of(const Laws& laws, const std::vector<Member>& members) {
   return sum;
 }
 
+Laws without(Laws laws, std::size_t k) {
+  laws.found.erase(laws.found.begin() + static_cast<std::ptrdiff_t>(k));
+  laws.members.erase(laws.members.begin() + static_cast<std::ptrdiff_t>(k));
+  return laws;
+}
+
+Laws those_in(const std::vector<Member>& members, Laws laws) {
+  for (std::size_t k = laws.found.size(); k-- > 0;) {
+    const Member& law = laws.members[k];
+    const bool stands = std::any_of(members.begin(), members.end(), [&](const Member& member) {
+      return member.law == law.law && member.law_parameters == law.law_parameters;
+    });
+    if (!stands) laws = without(std::move(laws), k);
+  }
+  return laws;
+}
+
 }  // namespace dcnn

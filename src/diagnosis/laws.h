@@ -30,6 +30,10 @@ Laws borne_out_again(const Setting& setting, const JointFit& names, const Laws& 
 
 /// Whether the form of each is established: an approximation leaves nothing and may yet be none.
 bool are_established(const Laws& laws);
+/// All but one.
+Laws without(Laws laws, std::size_t k);
+/// Those that are among the members of a fit: beside other names one may have gone.
+Laws those_in(const std::vector<Member>& members, Laws laws);
 
 int fitted_numbers(const discovery::Discovered& law);
 /// Numbers that were fitted, of laws and of names.
