@@ -81,7 +81,7 @@ Json arm_of(const std::filesystem::path& urdf, const std::string& tip,
   return to_json(chain);
 }
 
-/// What is likely; recordings that were likely zeroed are taken for such.
+/// What is likely; recordings that were likely zeroed are taken for such, frozen rows left out.
 std::vector<Suspicion> checked(const Tool& tool, const Doctor& doctor,
                                const std::filesystem::path& urdf, const std::string& tip,
                                DiagnosisRequest& request) {
@@ -91,6 +91,9 @@ std::vector<Suspicion> checked(const Tool& tool, const Doctor& doctor,
   logs.logs.insert(logs.logs.end(), request.holdout.begin(), request.holdout.end());
   Examined examined = doctor.examine(tool, logs);
   if (!request.system && request.zeroed.empty()) request.zeroed = std::move(examined.zeroed);
+  for (const auto& [log, begin, end, channel] : examined.frozen) {
+    request.no_readings.push_back({log, begin, end, channel});
+  }
   return examined.likely;
 }
 

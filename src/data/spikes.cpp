@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kLeast = 8.0;         // deviations from the neighbours: nearer ones show nothing
 constexpr double kLonely = 0.3;        // of a spike's height: how far its neighbours are apart
+constexpr double kOnALine = 1e-3;      // of large distances: rounding of rows filled in by lines
 constexpr double kByNoise = 0.001;     // probability below which a row is called no reading
 constexpr std::size_t kFew = 3;        // rows of a recording that may be lost, however short it is
 constexpr double kMostSpikes = 0.001;  // of its rows: more are heavy-tailed noise, or impacts
@@ -73,6 +74,10 @@ double deviation_of_moving(const Eigen::VectorXd& distances) {
     if (value != 0.0) sizes.push_back(std::abs(value));
   }
   if (sizes.empty()) return 0.0;
+  std::sort(sizes.begin(), sizes.end());
+  const double large = sizes[static_cast<std::size_t>(0.9 * static_cast<double>(sizes.size()))];
+  const auto moving = std::lower_bound(sizes.begin(), sizes.end(), kOnALine * large);
+  if (moving - sizes.begin() > sizes.end() - moving) sizes.erase(sizes.begin(), moving);
   return kDeviationOfMedian * median(std::move(sizes));
 }
 

@@ -34,7 +34,8 @@ struct Outliers {
 Outliers least_likely_outliers(const std::vector<double>& heights, Index rows);
 
 /// Deviation, by their median, of distances that are not zero: a channel at its limit repeats one
-/// value. 0 where all are.
+/// value. Where most rows lie on lines between others, as those that were filled in, of the rest. 0
+/// where all are zero.
 double deviation_of_moving(const Eigen::VectorXd& distances);
 
 /// Of values (T) in the order of time. A row is single where its two neighbours on either side lie

@@ -23,11 +23,13 @@ namespace {
 constexpr double kBaseTolerance = 1e-3;  // of a column's length that others must leave
 
 std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
-                                ReadOptions options, const System& system) {
+                                const DiagnosisRequest& request, const System& system) {
+  ReadOptions options = request.read;
   options.static_list = true;
   std::vector<Recording> recordings;
   for (const auto& path : paths) {
     recordings.push_back(read_recording(path, options, system));
+    name_and_cut(request, path, recordings.back());
   }
   return recordings;
 }
@@ -215,8 +217,8 @@ LoadedAxes load_axes(const DiagnosisRequest& request) {
   auto [system, machine] = given_system(request);
   require(system.kind == System::Kind::kAxes, Exit::kData, request.system->string(),
           ": describes a wrist tool; give --sim instead, or \"kind\": \"axes\"");
-  auto fit = read_all(request.fit, request.read, system);
-  auto holdout = read_all(request.holdout, request.read, system);
+  auto fit = read_all(request.fit, request, system);
+  auto holdout = read_all(request.holdout, request, system);
   const std::vector<Recording*> both =
       with_usable_rows(fit, holdout, system, find_targets(fit.front(), system).names);
   if (machine) {

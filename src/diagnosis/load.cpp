@@ -7,9 +7,11 @@
 
 #include "data/clock.h"
 #include "data/held_rows.h"
+#include "data/kept_rows.h"
 #include "data/known_columns.h"
 #include "data/repeated_rows.h"
 #include "data/spikes.h"
+#include "dcnn/data/file_names.h"
 #include "diagnosis/simulated_inertia.h"
 #include "physics/effect_law.h"
 
@@ -29,6 +31,7 @@ std::vector<Recording> read_all(const std::vector<std::filesystem::path>& paths,
   if (request.simulator) read.payload.rpy = study.simulator.model.sensor_rotation_rpy;
   for (const auto& path : paths) {
     Recording& recording = recordings.emplace_back(read_recording(path, read, System()));
+    name_and_cut(request, path, recording);
     if (recording.dt > 0.0) {
       drop_short_stretches(recording, study.derivative.fewest_rows(recording.dt));
     }
@@ -161,6 +164,28 @@ std::vector<Case::Driver> drivers_of(const std::vector<std::string>& names,
     if (high - low > kVaries * size) drivers.push_back({name, low, high});
   }
   return drivers;
+}
+
+void name_and_cut(const DiagnosisRequest& request, const std::filesystem::path& path,
+                  Recording& recording) {
+  std::vector<std::filesystem::path> all = request.fit;
+  all.insert(all.end(), request.holdout.begin(), request.holdout.end());
+  recording.name = distinct_name(path, all);
+  if (!recording.has("t") || recording.dt <= 0.0) return;
+  const Eigen::VectorXd t = recording.column("t").array() + recording.clock_origin;
+  std::vector<bool> kept(static_cast<std::size_t>(t.size()), true);
+  for (const DiagnosisRequest::NoReading& none : request.no_readings) {
+    if (none.recording != path) continue;
+    for (Index i = 0; i < t.size(); ++i) {
+      if (t(i) >= none.begin_s && t(i) <= none.end_s) kept[static_cast<std::size_t>(i)] = false;
+    }
+    recording.notes.push_back(none.channel + " is frozen from " + brief(none.begin_s) + " to " +
+                              brief(none.end_s) + " s: these rows are left out");
+  }
+  if (std::find(kept.begin(), kept.end(), false) == kept.end()) return;
+  keep_rows(recording, kept);
+  recording.segments = split_at_gaps(recording.column("t"), recording.segments, recording.dt);
+  drop_short_stretches(recording);
 }
 
 std::vector<Recording*> with_usable_rows(std::vector<Recording>& fit,

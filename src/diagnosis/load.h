@@ -14,6 +14,11 @@ struct LoadedCase {
 };
 LoadedCase load_wrist(const DiagnosisRequest& request);
 
+/// Gives a recording a name that tells it from the others of the request, and takes off what that
+/// says is no reading, with a note.
+void name_and_cut(const DiagnosisRequest& request, const std::filesystem::path& path,
+                  Recording& recording);
+
 /// All of these recordings, with the rows left that bring something new and single outliers mended
 /// in the columns `targets`: keep_new_rows(), leave_out_repeats(), mend_spikes().
 std::vector<Recording*> with_usable_rows(std::vector<Recording>& fit,

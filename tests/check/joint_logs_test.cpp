@@ -53,7 +53,9 @@ TEST(JointLogs, ADriveThatIsOffIsNoFault) {
 TEST(JointLogs, FrozenRowsAreFoundBesideADriveThatIsOff) {
   Table table = two_joints();
   table.values.col(4).segment(312, 46).setConstant(double(table.values(312, 4)));
-  EXPECT_GE(probability_of(report_of(table), "frozen", "tau_2"), check::kCertain);
+  const check::Report report = report_of(table);
+  EXPECT_GE(probability_of(report, "frozen", "tau_2"), check::kCertain);
+  EXPECT_EQ(report.stopping({}), nullptr);  // the other rows are readings
 }
 
 // A step of the voltage that a drive was told to hold, for the whole of a recording.

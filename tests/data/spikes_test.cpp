@@ -53,6 +53,22 @@ TEST(Spikes, TheMiddleOfTheirNeighboursStandsThere) {
   ASSERT_EQ(recording.notes.size(), 1U);
 }
 
+// A log that was put on a faster clock by lines: between the readings nothing is off its
+// neighbours.
+TEST(Spikes, ReadingsBetweenRowsFilledInByLinesAreNone) {
+  const Eigen::VectorXd clean = noisy_force(3);
+  constexpr Index kEach = 12;
+  Eigen::VectorXd x(kReadings);
+  for (Index i = 0; i < kReadings; ++i) {
+    const double part = static_cast<double>(i % kEach) / kEach;
+    x[i] = (1.0 - part) * clean[i / kEach] + part * clean[i / kEach + 1];
+    x[i] = 1e-6 * std::round(1e6 * x[i]);
+  }
+  EXPECT_GT(spikes_of(x).p, 0.01);
+  x[1234] += 3.0;
+  EXPECT_EQ(spikes_of(x).rows, (std::vector<Index>{1234}));
+}
+
 // Heavy-tailed noise (2 % of the samples with seven times the deviation) is no lost reading.
 TEST(Spikes, ThatAreManyStay) {
   std::mt19937 random(7);

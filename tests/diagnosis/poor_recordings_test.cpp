@@ -150,6 +150,23 @@ TEST(PoorRecordings, WithoutAPositionASimulatorInColumnsIsCompared) {
   EXPECT_EQ(test::found(report), std::set<std::string>{"bias"}) << report["findings"].dump(1);
 }
 
+TEST(PoorRecordings, RowsThatAreNoReadingAreLeftOut) {
+  const test::Bench bench(test::configuration(Json::array()));
+  test::change(bench, [](Recording& log) {
+    Eigen::VectorXd fz = log.column("fz");
+    fz.segment(2000, 600).setConstant(fz(2000));
+    log.set("fz", fz);
+  });
+  DiagnosisRequest request = bench.request();
+  for (const auto& path : {request.fit[0], request.holdout[0]}) {
+    const Eigen::VectorXd t = read_recording(path, ReadOptions(), System()).column("t");
+    request.no_readings.push_back({path, t(2000), t(2599), "fz"});
+  }
+  const Json report = diagnose(request, nullptr).report;
+  EXPECT_EQ(report["verdict"], "consistent") << report["findings"].dump(1);
+  EXPECT_NE(report["notes"].dump().find("fz is frozen from "), std::string::npos);
+}
+
 /// Derivatives take 0.1 s of rows: what is shorter between two gaps is left out.
 TEST(PoorRecordings, AFewRowsBetweenTwoGapsStopNothing) {
   const test::Bench bench(test::configuration(Json::array()));

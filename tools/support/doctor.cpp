@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "dcnn/data/file_names.h"
 #include "dcnn/identification/urdf.h"
 #include "dcnn/physics/axis_machine.h"
 #include "dcnn/physics/simulator.h"
@@ -79,8 +80,10 @@ std::vector<check::Report> check_logs(const CheckRequest& request) {
   }
   if (!request.simulator.empty()) declared.model = read_simulator(request.simulator).model;
   std::vector<check::Report> reports;
-  for (const auto& path : files_in(request.logs)) {
+  const std::vector<std::filesystem::path> files = files_in(request.logs);
+  for (const auto& path : files) {
     check::Log log = check::read_log(path, declared);
+    log.name = distinct_name(path, files);
     const std::optional<JointChain> arm = arm_of(request, declared.system, log);
     if (arm && arm->bodies()) describe_arm(log, *arm);
     reports.push_back(check::check(log));
@@ -125,7 +128,12 @@ Examined Doctor::examine(const Tool& tool, const CheckRequest& request,
       if (fault.probability < check::kLikely) continue;
       const bool accepted =
           std::find(accepted_.begin(), accepted_.end(), fault.id) != accepted_.end();
-      if (fault.id == "zeroed" && !accepted) examined.zeroed.push_back(files[k]);
+      if (accepted) continue;
+      if (fault.id == "zeroed") examined.zeroed.push_back(files[k]);
+      if (fault.id == "frozen" && fault.interval_s) {
+        const auto [begin, end] = *fault.interval_s;
+        examined.frozen.push_back({files[k], begin, end, fault.channel});
+      }
     }
   }
   examined.likely = suspicions(reports);

@@ -36,6 +36,13 @@ std::vector<Suspicion> suspicions(const std::vector<check::Report>& reports);
 struct Examined {
   std::vector<Suspicion> likely;
   std::vector<std::filesystem::path> zeroed;  ///< logs whose sensor was likely set to zero first
+  /// Stretches in which a channel is likely frozen, in the log's own t.
+  struct Frozen {
+    std::filesystem::path log;
+    double begin_s, end_s;
+    std::string channel;
+  };
+  std::vector<Frozen> frozen;
 };
 
 /// --accept.

@@ -21,6 +21,13 @@ struct DiagnosisRequest {
   Json arm;  ///< kinematics instead of those of `system`; or null
   std::vector<std::filesystem::path> fit, holdout;
   std::vector<std::filesystem::path> zeroed;  ///< of them, whose sensor was set to zero for each
+  /// Of their rows, what is no reading: a channel that is frozen.
+  struct NoReading {
+    std::filesystem::path recording;
+    double begin_s, end_s;  ///< in its own t
+    std::string channel;
+  };
+  std::vector<NoReading> no_readings;
   /// Columns that the strength of a law may follow, beside `temperature` and those that a system
   /// description lists.
   std::vector<std::string> signals;

@@ -56,6 +56,7 @@ void find_frozen_column(const Log& log, const std::string& name, std::vector<Fau
                          name + " is exactly " + brief(longest->value) + " for " +
                              std::to_string(longest->length) + " rows while the robot moves");
   set_interval(log, longest->begin, end, fault);
+  fault.stops = 2 * longest->length > x.size();  // else the rest of the rows are readings
   out.push_back(fault);
 }
 
