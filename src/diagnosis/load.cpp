@@ -262,6 +262,11 @@ LoadedCase load_wrist(const DiagnosisRequest& request) {
   set_clock(request, all, study);
   study.drivers = drivers_of(wrist_signals(request, all), fit, holdout);
   note_unused_columns(request, fit.front());
+  if (request.simulator && fit.front().has(targets.front() + "_sim")) {
+    fit.front().notes.push_back("column " + targets.front() +
+                                "_sim and its companions are not looked at: --sim is the "
+                                "simulator; leave it out to compare with them");
+  }
   loaded.holdout = study;
   for (auto& r : fit) study.logs.push_back(make_log(std::move(r), study, !request.simulator));
   study.has_inertia = study.own_tool || simulates_inertia(study.logs);

@@ -148,6 +148,8 @@ TEST(PoorRecordings, WithoutAPositionASimulatorInColumnsIsCompared) {
   leave_out({"x", "y", "z"}, bench);
   const Json report = diagnose(request, nullptr).report;
   EXPECT_EQ(test::found(report), std::set<std::string>{"bias"}) << report["findings"].dump(1);
+  const auto beside = load_wrist(bench.request()).fit.logs.front().recording.notes;
+  EXPECT_NE(Json(beside).dump().find("--sim is the simulator"), std::string::npos);
 }
 
 TEST(PoorRecordings, RowsThatAreNoReadingAreLeftOut) {
