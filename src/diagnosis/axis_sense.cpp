@@ -21,7 +21,7 @@ constexpr int kDelays = 60;            // either way: steps that no motion below
 /// and their rates, for a weight read some milliseconds late is no drag; and its reading. All have
 /// passed the filter that derivatives pass, where that is one: beyond it a position would stand for
 /// the inertia.
-constexpr Index kColumns = 9, kWithoutGravity = 5, kVelocity = 1, kAcceleration = 2, kPlace = 3,
+constexpr Index kColumns = 9, kGravity = 5, kVelocity = 1, kAcceleration = 2, kPlace = 3,
                 kSimulated = 4, kRates = 7;
 struct LaggedRows {
   Eigen::MatrixXd motion;
@@ -115,10 +115,10 @@ LaggedRows lagged_rows(const Recording& recording, const System& system, const A
     if (axis.position_unit == "rad") {
       for (Index i = 0; i < q.size(); ++i) {
         const double v = rows.motion(i, kVelocity);
-        rows.motion(i, kWithoutGravity) = elementary::sin(q(i));
-        rows.motion(i, kWithoutGravity + 1) = elementary::cos(q(i));
-        rows.motion(i, kRates) = v * rows.motion(i, kWithoutGravity + 1);
-        rows.motion(i, kRates + 1) = v * rows.motion(i, kWithoutGravity);
+        rows.motion(i, kGravity) = elementary::sin(q(i));
+        rows.motion(i, kGravity + 1) = elementary::cos(q(i));
+        rows.motion(i, kRates) = v * rows.motion(i, kGravity + 1);
+        rows.motion(i, kRates + 1) = v * rows.motion(i, kGravity);
       }
     }
   }
@@ -175,7 +175,7 @@ double sense_of(const std::vector<Recording>& recordings, const System& system, 
       sums.add(log, std::llround(kStep * k / log.dt));
     }
     // Behind a delay a sine of the position is no weight: it would stand for friction's harmonics.
-    const SenseFit fit = sense_fit(sums, k == 0 ? kColumns : kWithoutGravity, turns);
+    const SenseFit fit = sense_fit(sums, k == 0 ? kColumns : kGravity, turns);
     // Of a motion to and fro half a period later is the opposite: the shorter delay is likelier.
     const double prior = k == 0 ? 0.0 : delayed - kStep * std::abs(k) / kUsual;
     const double likely = -0.5 * turns * elementary::log(std::max(fit.left, 1e-12)) + prior;

@@ -40,6 +40,7 @@ Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& columns) {
 Eigen::MatrixXd off_basis(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& basis) {
   // A few columns beside many rows: blocks of the basis stay in the cache for all of them.
   constexpr Index kProjectedRows = 512;
+  if (basis.cols() == 0) return columns;
   const Index n = columns.rows(), count = columns.cols();
   Eigen::MatrixXd off = columns, shares = Eigen::MatrixXd::Zero(basis.cols(), count);
   for (Index begin = 0; begin < n; begin += kProjectedRows) {

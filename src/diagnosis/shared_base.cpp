@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 
 #include "dcnn/physics/axis_machine.h"
 #include "diagnosis/arm_senses.h"
@@ -67,16 +66,17 @@ void fit_links(std::vector<LoadedCase>& cases) {
   for (Index k = 0; k < told.rows(); ++k) {
     if (told.row(k).any()) columns.push_back(k);
   }
+  const VectorXd parameters = regression.shared(-1);
+  const MatrixXd deviations = regression.deviations();
   for (std::size_t j = 0; j < cases.size(); ++j) {
     const auto joint = static_cast<Index>(j);
     set_sense(cases[j], model.turned(joint) * senses(joint));
-    std::optional<std::size_t> by_itself;
-    if (evidence::updated(prior::kName, regression.log_support_alone(j)) > 0.5) by_itself = j;
+    const bool alone = evidence::updated(prior::kName, regression.log_support_alone(j)) > 0.5;
     AxisPlan plan = *cases[j].fit.axis;
     plan.columns = columns;
     plan.base_is_known = true;
-    plan.base_deviations = regression.deviations(by_itself);
-    give_plan(cases[j], plan, regression.shared(-1, by_itself));
+    plan.base_deviations = alone ? regression.deviations(j) : deviations;
+    give_plan(cases[j], plan, alone ? regression.shared(-1, j) : parameters);
   }
 }
 
