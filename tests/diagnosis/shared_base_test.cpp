@@ -107,7 +107,7 @@ TEST_F(SharedBase, PredictsAJointWhereItWasNotMoved) {
 // what the links alone predict.
 TEST_F(SharedBase, LeavesNoWeightToOffsetsThatAreNotThere) {
   DiagnosisRequest slow = request(1.0);
-  write_arm(slow.fit[0], 0.0, {0.3, 0.1}, 1.0, 1);
+  write_arm(slow.fit[0], 0.0, {0.05, 0.1}, 1.0, 1);
   const Json report = diagnose(slow, nullptr).report;
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_LT(report["fit"]["holdout_rmse_before"][k].get<double>(), 1.5 * kFriction[k]) << k;
