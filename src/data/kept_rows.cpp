@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "data/kept_rows.h"
 
+#include "data/clock.h"
+
 namespace dcnn {
 
 void keep_rows(Recording& recording, const std::vector<bool>& kept) {
@@ -16,6 +18,12 @@ void keep_rows(Recording& recording, const std::vector<bool>& kept) {
   }
   recording.table.values = Eigen::MatrixXd(recording.table.values(rows, Eigen::all));
   recording.segments = std::move(segments);
+}
+
+void lose_rows(Recording& recording, const std::vector<bool>& kept) {
+  keep_rows(recording, kept);
+  recording.segments = split_at_gaps(recording.column("t"), recording.segments, recording.dt);
+  drop_short_stretches(recording);
 }
 
 }  // namespace dcnn

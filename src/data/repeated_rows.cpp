@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "data/clock.h"
 #include "data/kept_rows.h"
 
 namespace dcnn {
@@ -53,9 +52,7 @@ void leave_out_repeats(Recording& recording, const std::vector<std::string>& col
       !few) {
     return;
   }
-  keep_rows(recording, kept);
-  recording.segments = split_at_gaps(recording.column("t"), recording.segments, recording.dt);
-  drop_short_stretches(recording);
+  lose_rows(recording, kept);
   recording.notes.push_back(std::to_string(static_cast<Index>(seen)) + " rows repeat " +
                             columns.front() +
                             " and its companions of the row before: they count as lost");

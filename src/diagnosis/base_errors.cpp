@@ -22,7 +22,6 @@ std::vector<Signals> base_errors(const Case& study) {
 Eigen::VectorXd likeliest_errors(const Eigen::MatrixXd& nuisance, Index first, Index count,
                                  const Eigen::VectorXd& left) {
   constexpr Index kBlocks = 6;
-  constexpr double kErrorRidge = 1e-9;  // of a column's information
   const Index columns = nuisance.cols();
   std::vector<Eigen::MatrixXd> grams;
   std::vector<Eigen::VectorXd> matches;

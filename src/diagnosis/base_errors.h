@@ -6,6 +6,8 @@
 
 namespace dcnn {
 
+constexpr double kErrorRidge = 1e-9;  ///< of a column's information, in solving for such errors
+
 /// What errors of a known base make of the reading, a standard deviation each, low-passed as the
 /// case is; none where the base is fitted or nobody knows its errors.
 std::vector<Signals> base_errors(const Case& study);

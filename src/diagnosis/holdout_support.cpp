@@ -11,8 +11,7 @@
 namespace dcnn {
 namespace {
 
-constexpr double kErrorBlock = 1.0;   // s, over which errors count as one
-constexpr double kErrorRidge = 1e-9;  // of a column's information
+constexpr double kErrorBlock = 1.0;  // s, over which errors count as one
 
 }  // namespace
 

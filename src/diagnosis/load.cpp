@@ -183,9 +183,7 @@ void name_and_cut(const DiagnosisRequest& request, const std::filesystem::path& 
                               brief(none.end_s) + " s: these rows are left out");
   }
   if (std::find(kept.begin(), kept.end(), false) == kept.end()) return;
-  keep_rows(recording, kept);
-  recording.segments = split_at_gaps(recording.column("t"), recording.segments, recording.dt);
-  drop_short_stretches(recording);
+  lose_rows(recording, kept);
 }
 
 std::vector<Recording*> with_usable_rows(std::vector<Recording>& fit,
