@@ -91,7 +91,7 @@ Chain::Chain(const Case& study, std::vector<Member> members)
 
 /// Rigid part and forces on the tool.
 Chain::Stages Chain::prepare(const Log& log, const std::vector<EffectSpec>& effects) const {
-  Stages stages{changed_tool(study_.simulator.model, effects), {}, {}, {}};
+  Stages stages{changed_tool(study_.simulator.model, effects), {}, {}, {}, {}};
   ToolModel without_bias = stages.model;
   without_bias.bias.setZero();
   without_bias.bias_torque.setZero();
@@ -99,9 +99,17 @@ Chain::Stages Chain::prepare(const Log& log, const std::vector<EffectSpec>& effe
   if (log.base.force.rows() > 0) stages.forced.force += log.base.force;
   if (log.base.torque.rows() > 0) stages.forced.torque += log.base.torque;
   stages.load = stages.forced.force;
-  for (const EffectSpec& effect : effects) {
-    stages.pushes.push_back(push_of(effect, log, stages));
-    add(stages.pushes.back(), 1.0, stages.forced);
+  if (log.motion.of_axis) stages.carried = 0.0 * stages.load;
+  stages.pushes.resize(effects.size());
+  for (std::size_t k = 0; k < effects.size() && log.motion.of_axis; ++k) {
+    if (!find_effect(effects[k].effect)->is_carried) continue;
+    stages.pushes[k] = push_of(effects[k], log, stages);
+    stages.carried += stages.pushes[k].force;
+  }
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    Wrench& push = stages.pushes[k];
+    if (push.force.rows() == 0) push = push_of(effects[k], log, stages);
+    add(push, 1.0, stages.forced);
   }
   return stages;
 }
@@ -126,10 +134,9 @@ Eigen::MatrixXd Chain::finish(const Log& log, const Stages& stages, Wrench wrenc
 Wrench Chain::push_of(const EffectSpec& effect, const Log& log, const Stages& stages) const {
   if (find_effect(effect.effect)->stage != Stage::kForce) return {};
   const Wrench& like = stages.forced;
-  const bool of_load = find_effect(effect.effect)->of_load;
   Wrench push{Eigen::MatrixXd::Zero(like.force.rows(), like.force.cols()),
-              Eigen::MatrixXd::Zero(like.torque.rows(), like.torque.cols()),
-              of_load ? stages.load : Eigen::MatrixXd()};
+              Eigen::MatrixXd::Zero(like.torque.rows(), like.torque.cols())};
+  if (find_effect(effect.effect)->of_load) push.load = stages.load, push.carried = stages.carried;
   if (effect.law.is_null()) {
     apply_effect(effect, log.motion, stages.model, push);
   } else {  // may depend on the force that it is added to
@@ -148,10 +155,14 @@ Signals Chain::with(const Member& effect, std::optional<std::size_t> instead_of)
   } else {
     effects.push_back(spec);
   }
+  const bool loads =  // what another effect of the chain depends on
+      effect.kind->is_carried && std::any_of(specs_.begin(), specs_.end(), [](const auto& other) {
+        return find_effect(other.effect)->of_load;
+      });
   Signals result;
   for (std::size_t k = 0; k < study_.logs.size(); ++k) {
     const Log& log = study_.logs[k];
-    if (effect.kind->stage == Stage::kTool) {
+    if (effect.kind->stage == Stage::kTool || (loads && log.motion.of_axis)) {
       const Stages stages = prepare(log, effects);
       result.push_back(finish(log, stages, stages.forced, effects));
       continue;
@@ -159,7 +170,10 @@ Signals Chain::with(const Member& effect, std::optional<std::size_t> instead_of)
     Wrench wrench = stages_[k].forced;
     if (effect.kind->stage == Stage::kForce) {
       if (instead_of) add(stages_[k].pushes[*instead_of], -1.0, wrench);
-      if (effect.kind->of_load) wrench.load = stages_[k].load;
+      if (effect.kind->of_load) {
+        wrench.load = stages_[k].load;
+        wrench.carried = stages_[k].carried;
+      }
       apply_effect(spec, log.motion, stages_[k].model, wrench);
     }
     result.push_back(finish(log, stages_[k], std::move(wrench), effects));

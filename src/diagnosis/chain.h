@@ -30,6 +30,7 @@ class Chain {
   struct Stages {
     ToolModel model;             // as the members change it
     Eigen::MatrixXd load;        // what is carried before the forces on the tool
+    Eigen::MatrixXd carried;     // what effects that an axis' drive carries add; of a tool no rows
     Wrench forced;               // after them
     std::vector<Wrench> pushes;  // what each effect adds there; no rows where it acts elsewhere
   };

@@ -42,7 +42,8 @@ void apply_driven(const Drive& drive, const EffectSpec& effect, const Motion& mo
   unit[kind.strength] = 1.0;
   Options parameters(unit, effect.effect, Exit::kData);
   Wrench alone{Eigen::MatrixXd::Zero(wrench.force.rows(), wrench.force.cols()),
-               Eigen::MatrixXd::Zero(wrench.torque.rows(), wrench.torque.cols()), wrench.load};
+               Eigen::MatrixXd::Zero(wrench.torque.rows(), wrench.torque.cols()), wrench.load,
+               wrench.carried};
   kind.apply(alone, motion, effect, model, parameters);
   wrench.force += strength.col(0).asDiagonal() * alone.force;
   if (alone.torque.rows() > 0) wrench.torque += strength.col(0).asDiagonal() * alone.torque;

@@ -192,6 +192,13 @@ EffectStream stream_of(const EffectSpec& effect, const std::string& where, Exit 
   Options parameters(effect.parameters, where, exit);
   const Eigen::Vector3d lever = read_lever(kind, parameters);
   EffectStream push = kind.stream(effect, parameters);
+  if (kind.is_carried) {
+    push = [act = std::move(push)](InstantWrench& wrench, const Instant& now) {
+      const Eigen::Vector3d before = wrench.force;
+      act(wrench, now);
+      wrench.carried += wrench.force - before;
+    };
+  }
   if (lever.isZero(0.0)) return push;
   return [lever, push = std::move(push)](InstantWrench& wrench, const Instant& now) {
     const Eigen::Vector3d before = wrench.force;
@@ -235,7 +242,8 @@ void apply_effect(const EffectSpec& effect, const Motion& motion, const ToolMode
   if (kind.of_load && wrench.load.rows() == 0) wrench.load = wrench.force;
   const Eigen::Vector3d lever = read_lever(kind, parameters);
   const bool turns = wrench.torque.rows() > 0 && !lever.isZero(0.0);
-  const Wrench before = effect.interval_s || turns ? wrench : Wrench{};
+  const bool loads = kind.is_carried && wrench.carried.rows() > 0;
+  const Wrench before = effect.interval_s || turns || loads ? wrench : Wrench{};
   if (const auto drive = read_drive(kind, parameters)) {
     apply_driven(*drive, effect, motion, model, wrench);
   } else {
@@ -243,6 +251,7 @@ void apply_effect(const EffectSpec& effect, const Motion& motion, const ToolMode
   }
   if (turns) add_moment(lever, before.force, wrench);
   if (effect.interval_s) keep_outside(effect, kind, motion, before, wrench);
+  if (loads) wrench.carried += wrench.force - before.force;
 }
 
 }  // namespace dcnn

@@ -102,6 +102,7 @@ const InstantWrench& StreamingSimulator::advance(const Eigen::VectorXd& x,
   if (model_.inertial != ToolModel::Inertial::kNone) felt -= now_.a_B;
   wrench_ = rigid_at(model_, now_.R_BS.transpose() * felt, now_.w_S, now_.dw_S);
   wrench_.load = wrench_.force;
+  wrench_.carried.setZero();
   for (const EffectStream& act : before_bias_) act(wrench_, now_);
   wrench_.force += model_.bias;
   wrench_.torque += model_.bias_torque;

@@ -49,18 +49,17 @@ void write_axis(const std::filesystem::path& path, double begin, const AxisLaw& 
 }
 
 /// The report on an axis with this law beside what its simulator knows.
-Json report_on(const AxisLaw& fit, const AxisLaw& hold) {
+Json report_on(const AxisLaw& fit, const AxisLaw& hold, bool simulated = true) {
   const test::TemporaryFolder folder;
   write_axis(folder / "fit.csv", 0.0, fit, 1);
   write_axis(folder / "hold.csv", 40.0, hold, 2);
-  write_file(folder / "system.json", Json{{"kind", "axes"},
-                                          {"axes",
-                                           {{{"name", "joint"},
-                                             {"measured", "torque"},
-                                             {"unit", "N*m"},
-                                             {"position", "pos"},
-                                             {"simulated", "simulated"}}}}}
-                                         .dump());
+  Json axis{{"name", "joint"}, {"measured", "torque"}, {"unit", "N*m"}, {"position", "pos"}};
+  if (simulated) {
+    axis["simulated"] = "simulated";
+  } else {
+    axis["base"] = Json::array();
+  }
+  write_file(folder / "system.json", Json{{"kind", "axes"}, {"axes", Json::array({axis})}}.dump());
   DiagnosisRequest request;
   request.system = folder / "system.json";
   request.fit = {folder / "fit.csv"};
@@ -99,6 +98,44 @@ TEST(DiagnoseHardware, NamesFrictionOfTheLoadBesideDryFriction) {
   const Json* load = named(report, "load_friction");
   ASSERT_TRUE(load);
   EXPECT_NEAR(told(*load, "mu"), 0.1, 0.01);
+}
+
+// Nothing is simulated: what loads the gears is what was found, a weight and an inertia.
+TEST(DiagnoseHardware, NamesFrictionOfALoadThatWasFound) {
+  const auto drive = [](const AxisState& s) {
+    const double carried = 3.0 * std::sin(s.q + 0.4) + 0.5 * s.a;
+    return carried - s.load + (0.5 + 0.12 * std::abs(carried)) * dry(s.v);
+  };
+  const Json report = report_on(drive, drive, /*simulated=*/false);
+  EXPECT_EQ(found(report), (Names{"coulomb_friction", "gravity_load", "inertia", "load_friction"}))
+      << report["findings"].dump(1);
+  const Json* load = named(report, "load_friction");
+  ASSERT_TRUE(load);
+  EXPECT_NEAR(told(*load, "mu"), 0.12, 0.015);
+}
+
+/// Bristles whose strength falls with the speed, as those of most bearings.
+AxisLaw falling_bristles(double rise) {
+  return [rise, z = 0.0](const AxisState& s) mutable {
+    const double reach = 4e-3 * (1.0 + rise * std::exp(-s.v * s.v / 0.01));
+    const double end = std::copysign(reach, s.v);
+    z = end + (z - end) * std::exp(-std::abs(s.v) * s.dt / reach);
+    return 0.8 * z / 4e-3;
+  };
+}
+
+TEST(DiagnoseHardware, NamesBristlesThatFallWithSpeed) {
+  const Json report = report_on(falling_bristles(0.6), falling_bristles(0.6));
+  EXPECT_EQ(found(report), Names{"lugre_friction"}) << report["findings"].dump(1);
+  const Json* friction = named(report, "lugre_friction");
+  ASSERT_TRUE(friction && (*friction)["parameters"].contains("fs")) << report["findings"].dump(1);
+  EXPECT_NEAR(told(*friction, "fc"), 0.8, 0.03);
+  EXPECT_NEAR(told(*friction, "fs"), 1.28, 0.1);
+  EXPECT_NEAR(told(*friction, "vs"), 0.1, 0.02);
+  const Json even = report_on(falling_bristles(0.0), falling_bristles(0.0));
+  const Json* plain = named(even, "lugre_friction");
+  ASSERT_TRUE(plain) << even["findings"].dump(1);
+  EXPECT_FALSE((*plain)["parameters"].contains("fs")) << even["findings"].dump(1);
 }
 
 TEST(DiagnoseHardware, NamesFrictionThatVariesWithTheGear) {

@@ -51,6 +51,66 @@ TEST(LoadFriction, OfAnAxisIsMuTimesWhatItTransmits) {
   EXPECT_LT((force - Vector3d(-2.0, -1.0, 3.0)).norm(), 1e-12);
 }
 
+// What the drive carries beside what is simulated loads its gears as well: of an axis with nothing
+// simulated its weight and its inertia, whatever their order.
+TEST(LoadFriction, OfAnAxisIsOfTheForcesThatItsDriveCarries) {
+  VectorXd q(3), v(3);
+  q << 0.3, 1.2, -0.8;
+  v << 0.5, -0.5, 0.5;
+  Motion motion = axis_at(q, v);
+  motion.a_B = Eigen::MatrixXd::Zero(3, 3);
+  motion.a_B.col(0) << 2.0, -1.0, 4.0;
+  const std::vector<EffectSpec> effects{
+      make_effect("load_friction", "base_x", {{"mu", 0.1}, {"v0_mps", 1e-3}}),
+      make_effect("coulomb_friction", "base_x", {{"fc_n", 3.0}, {"v0_mps", 1e-3}}),
+      make_effect("gravity_load", "alpha:base_x", {{"amp_n", 8.0}, {"rest_rad", 0.0}}),
+      make_effect("inertia", "base_x", {{"delta_inertia_kg", 0.5}})};
+  Wrench wrench = no_wrench(3);
+  pass_on(effects, Stage::kForce, motion, ToolModel(), wrench);
+  for (Index k = 0; k < 3; ++k) {
+    const double carried = -8.0 * std::sin(q(k)) - 0.5 * motion.a_B(k, 0);
+    const double friction = std::copysign(3.0 + 0.1 * std::abs(carried), -v(k));
+    EXPECT_NEAR(wrench.force(k, 0), carried + friction, 1e-12) << k;
+    InstantWrench now;  // and sample by sample, in the order of the catalogue
+    now.of_axis = true;
+    Instant at;
+    at.euler[0] = q(k), at.v_B[0] = v(k), at.a_B[0] = motion.a_B(k, 0);
+    for (const EffectKind* kind : effect_kinds()) {
+      for (const EffectSpec& effect : effects) {
+        if (effect.effect == kind->name) stream_of(effect, "test", Exit::kData)(now, at);
+      }
+    }
+    EXPECT_NEAR(now.force[0], wrench.force(k, 0), 1e-12) << k;
+  }
+}
+
+// At a constant speed the bristles settle at g(v), before that they are a spring of sigma0; a step
+// of any length ends there.
+TEST(LugreFriction, FallsWithSpeedBeyondItsPresliding) {
+  constexpr Index kRowsOfSlide = 400;
+  const auto effect = make_effect("lugre_friction", "base_x",
+                                  {{"fc_n", 2.0},
+                                   {"fs_n", 3.0},
+                                   {"vs_mps", 0.1},
+                                   {"sigma0_npm", 1000.0},
+                                   {"sigma1_nspm", 0.0}});
+  for (const double speed : {0.01, 0.1, 0.5, -0.1}) {
+    const VectorXd v = VectorXd::Constant(kRowsOfSlide, speed);
+    const VectorXd force =
+        applied(effect, axis_at(VectorXd::Zero(kRowsOfSlide), v), no_wrench(kRowsOfSlide))
+            .force.col(0);
+    const double settled = 2.0 + std::exp(-speed * speed / 0.01), way = 0.002 * speed;
+    EXPECT_NEAR(
+        force(1),
+        -std::copysign(settled, speed) * (1.0 - std::exp(-std::abs(way) * 1000.0 / settled)), 1e-9)
+        << speed;
+    const double left = std::exp(-kRowsOfSlide * std::abs(way) * 1000.0 / settled);
+    EXPECT_NEAR(force(kRowsOfSlide - 1), -std::copysign(settled, speed),
+                1.1 * settled * left + 1e-9)
+        << speed;
+  }
+}
+
 // The load is the body's, whatever other friction acts: two guides do not load each other.
 TEST(LoadFriction, DoesNotDependOnOtherFriction) {
   const Motion motion = example_motion(300);

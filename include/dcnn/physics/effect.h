@@ -27,6 +27,9 @@ struct Wrench {
   /// (T,3) N, what is carried before any effect of Stage::kForce; no rows where nothing asks for
   /// it.
   Eigen::MatrixXd load = {};
+  /// (T,3) N, what effects add to it that a machine's drive carries as well; no rows where nothing
+  /// asks for it.
+  Eigen::MatrixXd carried = {};
 };
 
 /// What effects see of the motion at one sample, frames as in Motion.
@@ -43,8 +46,9 @@ struct Instant {
 /// One row of a Wrench.
 struct InstantWrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
-  Eigen::Vector3d load = Eigen::Vector3d::Zero();  ///< as Wrench::load
-  bool of_axis = false;                            ///< as Motion::of_axis
+  Eigen::Vector3d load = Eigen::Vector3d::Zero();     ///< as Wrench::load
+  Eigen::Vector3d carried = Eigen::Vector3d::Zero();  ///< as Wrench::carried
+  bool of_axis = false;                               ///< as Motion::of_axis
 };
 
 /// An effect that runs sample by sample; it owns its state, and calling it allocates nothing.
@@ -180,6 +184,7 @@ struct EffectKind {
   Subject subject = Subject::kAny;
   Shown force = Shown::kAlways, torque = Shown::kAlways;  ///< in the forces, in the torques
   bool of_load = false;                                   ///< needs Wrench::load
+  bool is_carried = false;  ///< an axis' drive transmits it: adds to Wrench::carried
   /// A relative of a commoner law, which it must outdo by the price of a number (prior::kSpecial).
   bool special = false;
   /// Nearly every machine has it (prior::kCommon).

@@ -22,6 +22,7 @@ const EffectKind effect{
     .equation = "-k (q - rest) n",
     .example = R"({"k_nprad": 0.5, "rest_rad": 0.1})",
     .axis = AxisRule::kAngle,
+    .is_carried = true,
     .course = EffectKind::Course::kStraight,
     .base_signal = "position",
     .strength = "k_nprad",

@@ -21,6 +21,7 @@ const EffectKind effect{
     .example = R"({"k3_nprad3": 0.4})",
     .axis = AxisRule::kAngle,
     .subject = EffectKind::Subject::kMachines,
+    .is_carried = true,
     .strength = "k3_nprad3",
     .apply = pushed<law>,
     .stream = pushing<law>,

@@ -25,6 +25,7 @@ const EffectKind effect{
     .example = R"({"amp_n": 0.4, "rest_rad": 0.3})",
     .axis = AxisRule::kAngle,
     .subject = EffectKind::Subject::kTurning,
+    .is_carried = true,
     .common = true,
     .apply = pushed<law>,
     .stream = pushing<law>,

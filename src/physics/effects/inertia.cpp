@@ -38,6 +38,7 @@ const EffectKind effect{
     .example = R"({"delta_inertia_kg": 0.2})",
     .axis = AxisRule::kLine,
     .subject = EffectKind::Subject::kMachines,
+    .is_carried = true,
     .base_signal = "acceleration",
     .apply = apply,
     .stream = stream,

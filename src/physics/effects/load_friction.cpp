@@ -23,7 +23,9 @@ void apply(Wrench& wrench, const Motion& motion, const EffectSpec& spec, const T
   const auto law_of_v = law(parameters);
   Eigen::VectorXd load(motion.samples());
   if (motion.of_axis) {  // gears and belts: what they transmit
-    load = wrench.load.col(0).cwiseAbs();
+    load = wrench.load.col(0);
+    if (wrench.carried.rows() > 0) load += wrench.carried.col(0);
+    load = load.cwiseAbs();
   } else {
     const Eigen::MatrixXd n_S = direction_of(spec.axis, motion);
     for (Index k = 0; k < load.size(); ++k) load(k) = across(wrench.load.row(k), n_S.row(k));
@@ -36,7 +38,9 @@ EffectStream stream(const EffectSpec& spec, Options& parameters) {
   return [line = LineNow(spec.axis), law_of_v = law(parameters)](InstantWrench& wrench,
                                                                  const Instant& now) {
     const Eigen::Vector3d n = line.n_S(now);
-    wrench.force -= law_of_v(line.velocity(now), across(wrench.load, n)) * n;
+    const double load =
+        wrench.of_axis ? std::abs(wrench.load[0] + wrench.carried[0]) : across(wrench.load, n);
+    wrench.force -= law_of_v(line.velocity(now), load) * n;
   };
 }
 

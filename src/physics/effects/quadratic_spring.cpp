@@ -22,6 +22,7 @@ const EffectKind effect{
     .example = R"({"k2_nprad2": 0.5, "rest_rad": 0.1})",
     .axis = AxisRule::kAngle,
     .subject = EffectKind::Subject::kMachines,
+    .is_carried = true,
     .strength = "k2_nprad2",
     .apply = pushed<law>,
     .stream = pushing<law>,
