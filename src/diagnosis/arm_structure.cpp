@@ -134,8 +134,13 @@ ArmStructure ArmStructureSearch::run() const {
   // Terms of all joints together imitate a body, and a body a term: each begins once.
   const ArmStructure body = climbed(nothing, fitted(nothing).variances());
   ArmStructure with = grown(body, true);
-  const VectorXd variances = fitted(with).variances().cwiseMax(fitted(without).variances());
-  return log_odds(with, without, variances) > 0.0 ? with : without;
+  const auto outweighs = [&](const ArmStructure& bodies) {
+    const VectorXd variances = fitted(bodies).variances().cwiseMax(fitted(without).variances());
+    return log_odds(bodies, without, variances) > 0.0;
+  };
+  // Terms that joined a body were weighed beside it: against a model without any body the change of
+  // all joints is one statistic, whose spread over the pieces is the body's.
+  return outweighs(body) || outweighs(with) ? with : without;
 }
 
 }  // namespace dcnn

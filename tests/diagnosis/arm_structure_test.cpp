@@ -84,6 +84,23 @@ TEST(ArmStructure, ABodyStandsBesideATermOfOneJoint) {
   }
 }
 
+// A body that is loud in a few pieces of one joint is not sure of itself, and all joints' changes
+// are one statistic: that it asks for a term in another joint, which it does not move as it should,
+// must not tip the scales against it.
+TEST(ArmStructure, ATermThatABodyAsksForDoesNotHideIt) {
+  std::vector<JointRows> joints = arm_noise(1);
+  for (JointRows& rows : joints) rows.arm.col(0) *= 0.01;
+  for (Index i = 0; i < kArmPieces * kRowsOfPiece; ++i) {
+    const Index piece = i / kRowsOfPiece;
+    const double loud = piece == 3 ? 15.0 : piece == 8 ? 1.0 : 0.1;
+    joints[1].arm(i, 0) = loud * joints[1].own(i, kOwnFriction + 4);
+  }
+  joints[4].arm.col(0) = -0.2 * joints[4].own.col(kOwnFriction);
+  for (JointRows& rows : joints) rows.target += rows.arm.col(0);
+  joints[4].target -= joints[4].arm.col(0);
+  EXPECT_EQ(structure_of(joints).shared, 1U);
+}
+
 // The other pieces do not tell the friction of a joint that moves in one piece alone: that does not
 // hide a body on all of them.
 TEST(ArmStructure, FrictionInOnePieceHidesNoBody) {
