@@ -46,6 +46,35 @@ Eigen::VectorXd interpolate(const Grid& grid, const Eigen::VectorXd& t, const Ei
   return out;
 }
 
+/// Adds the products of the weights that rows `lag` apart give to the same old rows.
+void add_covariance(const Grid& grid, const Eigen::VectorXd& t, std::vector<double>& covariance) {
+  const auto weight_of_next = [&](std::size_t i) {
+    const Index k = grid.source[i];
+    return k + 1 < t.size() ? (grid.t[i] - t[k]) / (t[k + 1] - t[k]) : 0.0;
+  };
+  for (std::size_t lag = 0; lag < covariance.size(); ++lag) {
+    for (std::size_t i = 0; i + lag < grid.t.size(); ++i) {
+      const Index apart = grid.source[i + lag] - grid.source[i];
+      const double a = weight_of_next(i), b = weight_of_next(i + lag);
+      if (apart == 0) covariance[lag] += (1.0 - a) * (1.0 - b) + a * b;
+      if (apart == 1) covariance[lag] += a * (1.0 - b);
+    }
+  }
+}
+
+/// Recording::interpolated of new rows on these grids, the old ones `ratio` new ones apart.
+std::vector<double> covariance_of(const std::vector<Grid>& grids,
+                                  const std::vector<Eigen::VectorXd>& clocks, double ratio) {
+  std::vector<double> covariance(static_cast<std::size_t>(std::ceil(2.0 * ratio)) + 2, 0.0);
+  double rows = 0.0;
+  for (std::size_t k = 0; k < grids.size(); ++k) {
+    add_covariance(grids[k], clocks[k], covariance);
+    rows += static_cast<double>(grids[k].t.size());
+  }
+  for (double& c : covariance) c /= rows;
+  return covariance;
+}
+
 /// Of a clock as uneven as it is, all steps counting: else the new rows wander through the
 /// intervals between old ones, and linear interpolation makes noise of them that comes and goes. As
 /// it was where the two differ by more than an error: no clock of one rate.
@@ -95,9 +124,10 @@ void resample(Recording& recording, double hz, const std::vector<std::string>& s
     segments.push_back({begin, begin + static_cast<Index>(grids.back().t.size())});
   }
   Eigen::MatrixXd values(segments.back().end, old.values.cols());
+  std::vector<Eigen::VectorXd> clocks;
   for (std::size_t k = 0; k < grids.size(); ++k) {
     const Segment from = recording.segments[k], to = segments[k];
-    const Eigen::VectorXd clock = t.segment(from.begin, from.size());
+    const Eigen::VectorXd& clock = clocks.emplace_back(t.segment(from.begin, from.size()));
     for (Index column = 0; column < values.cols(); ++column) {
       const auto& name = old.columns[static_cast<std::size_t>(column)];
       const bool by_spline = std::find(smooth.begin(), smooth.end(), name) != smooth.end();
@@ -107,6 +137,7 @@ void resample(Recording& recording, double hz, const std::vector<std::string>& s
   }
   recording.table.values = std::move(values);
   recording.segments = std::move(segments);
+  recording.interpolated = covariance_of(grids, clocks, recording.dt * hz);
   recording.dt = 1.0 / hz;
   std::ostringstream note;
   note << "resampled to " << hz << " Hz: pose by cubic spline, all other columns linearly";

@@ -41,7 +41,7 @@ void Floor::amplify(double factor) {
 }
 
 double Floor::deviation() const {
-  if (lowpass_hz == 0.0 && filtered == 0.0 && !is_slow() && bounds.empty())
+  if (lowpass_hz == 0.0 && filtered == 0.0 && !is_slow() && bounds.empty() && interpolated.empty())
     return std::sqrt(white + coloured + lines + rounding);
   double sum = 0.0;
   for (int i = 0; i < kFloorPoints; ++i) sum += density((i + 0.5) / kFloorPoints * 0.5 / dt);
@@ -66,7 +66,7 @@ double Floor::density(double hz) const {
                         filtered * filter_shape(filter_hz, hz) + flicker / std::max(hz, kSlowest) +
                         (power > 0.0 ? power_law(power, slope, hz) : 0.0) +
                         markov / (1.0 + (hz / corner_hz) * (hz / corner_hz));
-  const double plain = fitted * bound_at(bounds, hz);
+  const double plain = fitted * bound_at(bounds, hz) * interpolated_shape(interpolated, hz, dt);
   if (lowpass_hz == 0.0) return plain;
   const double gain =
       1.0 / (1.0 + elementary::pow(hz / lowpass_hz, 8.0));  // Butterworth, there and back

@@ -7,12 +7,14 @@
 #include "core/elementary.h"
 #include "data/median.h"
 #include "diagnosis/floor_fit.h"
+#include "diagnosis/noise_shapes.h"
 
 namespace dcnn {
 namespace {
 
 constexpr double kLeastOfDifferences = 1e-6;
-constexpr Index kFewestBins = 12;  // below this the quiet band says nothing
+constexpr Index kFewestBins = 12;   // below this the quiet band says nothing
+constexpr double kLeastSeen = 0.1;  // of the noise's power, that interpolation leaves of a bin
 
 /// Variance of white noise with these second differences; where no three rows follow each other,
 /// of all that is there.
@@ -66,6 +68,32 @@ double log_likelihood(const Eigen::VectorXd& density, const Eigen::VectorXd& hz,
   return fit_level(density, shape, windows).likelihood;
 }
 
+/// The mean over the recordings of what interpolation made of their noise.
+std::vector<double> interpolation_of(const Case& study) {
+  std::vector<double> mean;
+  double rows = 0.0;
+  for (const Log& log : study.logs)
+    mean.resize(std::max(mean.size(), log.recording.interpolated.size()));
+  for (const Log& log : study.logs) {
+    if (mean.empty()) break;
+    const auto own = static_cast<double>(log.motion.samples());
+    const std::vector<double>& covariance = log.recording.interpolated;
+    if (covariance.empty()) mean.front() += own;
+    for (std::size_t lag = 0; lag < covariance.size(); ++lag) mean[lag] += own * covariance[lag];
+    rows += own;
+  }
+  for (double& c : mean) c /= rows;
+  return mean;
+}
+
+/// A density as it was before interpolation, where that left some of it.
+Eigen::VectorXd before_interpolation(const Eigen::VectorXd& density, const Eigen::VectorXd& hz,
+                                     const std::vector<double>& interpolated, double dt) {
+  return density.array() / hz.array().unaryExpr([&](double f) {
+    return std::max(kLeastSeen, interpolated_shape(interpolated, f, dt));
+  });
+}
+
 }  // namespace
 
 void add_rounding(const Case& study, std::vector<Floor>& floors) {
@@ -88,14 +116,18 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const
   if (study.is_static()) return floor_at_rest(study, residual);
   const Signals even = evened(study, residual, levels);
   const double dt = study.dt(), from = quiet_band(study), to = 0.49 / dt;
+  const std::vector<double> interpolated = interpolation_of(study);
   std::vector<Floor> floors;
   std::vector<QuietBand> bands;
   for (Index channel = 0; channel < study.channel_count(); ++channel) {
     const Periodograms p = periodograms(study, even, channel);
-    const Eigen::VectorXd density = density_of(p, study.rounding_step > 0.0);
+    const Eigen::VectorXd density =
+        before_interpolation(density_of(p, study.rounding_step > 0.0), p.hz, interpolated, dt);
     QuietBand& band = bands.emplace_back();
     const auto slow = slow_bins(study, even, channel);
-    const std::vector<Index> quiet = bins_between(p, from, to);
+    std::vector<Index> quiet = bins_between(p, from, to);
+    std::erase_if(
+        quiet, [&](Index i) { return interpolated_shape(interpolated, p.hz(i), dt) < kLeastSeen; });
     Floor floor;
     if (static_cast<Index>(quiet.size()) >= kFewestBins && p.power.cols() > 0) {
       const auto windows = static_cast<double>(p.power.cols());
@@ -118,7 +150,10 @@ std::vector<Floor> noise_floor(const Case& study, const Signals& residual, const
     floors.push_back(floor);
   }
   const bool shared = share_colours(bands, floors);
-  for (Floor& floor : floors) floor.lowpass_hz = study.lowpass_hz;
+  for (Floor& floor : floors) {
+    floor.lowpass_hz = study.lowpass_hz;
+    floor.interpolated = interpolated;
+  }
   if (shared) bound_by_residual(study, residual, levels, floors);
   return floors;
 }
@@ -146,6 +181,7 @@ std::optional<std::vector<Floor>> noise_of_all(const Case& study, const Signals&
   constexpr double kLeastOwn = 0.1;  // of what is left, that is the sensor's: tolerance
   const Signals even = evened(study, residual, levels);
   const double dt = study.dt(), from = quiet_band(study), to = 0.49 / dt;
+  const std::vector<double> interpolated = interpolation_of(study);
   std::vector<Floor> floors;
   for (Index channel = 0; channel < study.channel_count(); ++channel) {
     const Periodograms p = periodograms(study, even, channel);
@@ -156,6 +192,7 @@ std::optional<std::vector<Floor>> noise_of_all(const Case& study, const Signals&
       const double of_pose = known[static_cast<std::size_t>(channel)].pose_density(p.hz(i));
       density(i) = std::max(density(i) - of_pose, kLeastOwn * density(i));
     }
+    density = before_interpolation(density, p.hz, interpolated, dt);
     const auto slow = slow_bins(study, even, channel);
     const auto fitted = [&](const std::vector<Index>& bins) {
       Floor floor = fit_floor(without_lines(density(bins), windows), p.hz(bins), dt, windows, false,
@@ -175,6 +212,7 @@ std::optional<std::vector<Floor>> noise_of_all(const Case& study, const Signals&
     floor.source = "spectrum of the residual in all, which the band above " +
                    std::to_string(static_cast<int>(std::lround(from))) + " Hz bears out";
     floor.lowpass_hz = study.lowpass_hz;
+    floor.interpolated = interpolated;
     floors.push_back(floor);
   }
   return floors;

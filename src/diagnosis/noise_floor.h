@@ -35,11 +35,12 @@ struct Floor {
   /// (static_part + moving_part·w^4)·|H|, per sample, with |H| the gain of the pose's filter in
   /// even steps up to half the rate. Behind a Wiener filter that is the variance of its error.
   double static_part = 0.0, moving_part = 0.0;
-  std::vector<double> pose_gain = {};  ///< empty: no pose is differentiated
-  std::vector<Mode> modes = {};        ///< in which motion that the pose does not show rings
-  std::string source = {};             ///< in words
-  double lowpass_hz = 0.0;             ///< of the filter that the noise has passed; 0: none
-  double dt = 0.0;                     ///< s, between samples
+  std::vector<double> pose_gain = {};     ///< empty: no pose is differentiated
+  std::vector<Mode> modes = {};           ///< in which motion that the pose does not show rings
+  std::string source = {};                ///< in words
+  double lowpass_hz = 0.0;                ///< of the filter that the noise has passed; 0: none
+  double dt = 0.0;                        ///< s, between samples
+  std::vector<double> interpolated = {};  ///< as Recording::interpolated, by which it is seen
 
   /// Frequency and factor, at most 1, of octaves in which the residual is below what was fitted
   /// above the motion: no noise exceeds what the model leaves.

@@ -206,6 +206,33 @@ TEST(Recording, ResamplesLinearSignalsExactly) {
   }
 }
 
+// What linear interpolation makes of white noise, at half, once and three times the old rate.
+TEST(Recording, KnowsTheSpectrumThatResamplingMakes) {
+  Rng rng({12});
+  std::ostringstream text;
+  text << "t,x,y,z,alpha,beta,gamma,fx,fy,fz\n";
+  for (int i = 0; i < 10'000; ++i) {
+    text << 0.002 * (i + 0.4 * rng.uniform(-1.0, 1.0)) << ",0,0,0,0,0,3,0,0," << rng.normal()
+         << "\n";
+  }
+  for (const double hz : {250.0, 500.0, 1500.0}) {
+    ReadOptions options;
+    options.resample = true;
+    options.resample_hz = hz;
+    const Recording recording = read(text.str(), options);
+    ASSERT_GE(recording.interpolated.size(), 3U);
+    const Eigen::VectorXd x = recording.column("fz");
+    double white = 1.0;  // power at 0 Hz, that interpolation leaves
+    for (std::size_t lag = 0; lag < recording.interpolated.size(); ++lag) {
+      const Index n = x.size() - static_cast<Index>(lag);
+      const double seen = x.head(n).dot(x.tail(n)) / static_cast<double>(n);
+      EXPECT_NEAR(recording.interpolated[lag], seen, 0.05) << hz << " Hz, lag " << lag;
+      white -= (lag == 0 ? 1.0 : 2.0) * recording.interpolated[lag];
+    }
+    if (hz >= 500.0) EXPECT_NEAR(white, 1.0 - hz / 500.0, 0.03) << hz;
+  }
+}
+
 // Rows that come in bursts: what is a gap of theirs is a row or two of a slower clock.
 TEST(Recording, ResamplesBurstsToOneSlowerClock) {
   const auto text = log_text([](Index i, auto& row) {

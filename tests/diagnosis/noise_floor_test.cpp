@@ -250,6 +250,38 @@ TEST(NoiseFloor, ThePowerOfARecordingSpreadsAsItsSpectrumTells) {
   }
 }
 
+// Between rows of a jittering clock interpolation takes noise off, above the motion more than
+// within.
+TEST(NoiseFloor, OfInterpolatedRowsIsThatOfTheRowsBefore) {
+  Case study = recordings_of(2);
+  double density = 0.0, deviation = 0.0, square = 0.0, true_density = 0.0;
+  constexpr int kTrials = 10;
+  for (int seed = 0; seed < kTrials; ++seed) {
+    Rng rng(static_cast<std::uint64_t>(60 + seed));
+    Signals noise;
+    for (Log& log : study.logs) {
+      Eigen::MatrixXd x(kRows, 1);
+      double at = rng.normal(), next = rng.normal(), own = 0.0, shared = 0.0, before = 0.0;
+      for (Index i = 0; i < kRows; ++i, at = next, next = rng.normal()) {
+        const double part = rng.uniform(0.0, 1.0);
+        x(i, 0) = (1.0 - part) * at + part * next;
+        own += ((1.0 - part) * (1.0 - part) + part * part) / kRows;
+        shared += before * (1.0 - part) / kRows;
+        before = part;
+      }
+      log.recording.interpolated = {own, shared};
+      true_density += (own + 2.0 * shared) / (2.0 * kTrials);
+      square += x.squaredNorm() / (2.0 * kTrials * kRows);
+      noise.push_back(x);
+    }
+    const Floor floor = noise_floor(study, noise, ones(2)).front();
+    density += floor.density(2.0) / kTrials;
+    deviation += floor.deviation() / kTrials;
+  }
+  EXPECT_NEAR(density / true_density, 1.0, 0.05);
+  EXPECT_NEAR(deviation / std::sqrt(square), 1.0, 0.02);
+}
+
 TEST(NoiseFloor, OfAFilteredSensorIsThatOfItsPlateau) {
   constexpr double kCutoff = 45.0;  // Hz
   constexpr int kInside = 8;        // samples that the sensor filters for each that it sends

@@ -53,6 +53,9 @@ struct Recording {
   std::vector<Segment> segments;   ///< in order, covering every row
   bool zeroed = false;             ///< the sensor was set to zero for it: its offset is its own
   std::vector<std::string> notes;  ///< conversions, resampling, gaps: for every report
+  /// Of rows that linear interpolation made: autocovariance of what it makes of white noise of
+  /// variance 1, at lags of 0, 1, … rows; empty where rows are as logged.
+  std::vector<double> interpolated = {};
 
   Index samples() const { return table.values.rows(); }
   bool has(const std::string& column) const;
