@@ -170,7 +170,7 @@ CaseDiagnosis diagnose_case(LoadedCase loaded,
     alternatives = adopt_likelier(search, holdout);
   }
   // Beside fewer names a variation may be told no more.
-  if (leave_refuted_variations(search, holdout) || search.even_out_gears())
+  if (leave_refuted_variations(search, holdout) || search.leave_untold_bends())
     alternatives = adopt_likelier(search, holdout);
   const Case& study = search.study();
   const JointFit& fit = search.fit();

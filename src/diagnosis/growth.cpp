@@ -73,13 +73,12 @@ bool Search::straighten() {
   bool changed = false;
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     const Member& member = fit_.members[m];
-    const EffectFit& form = member.kind->fits.front();
-    if (!member.form->special || !form.shapes.empty() || stays(member)) continue;
-    const Member plain = make_member(study_, *member.kind, form, member.axis, Eigen::VectorXd(0));
-    const int fewer = member.parameters() - plain.parameters();
+    const auto plain = plain_form(study_, member);
+    if (!plain || stays(member)) continue;
+    const int fewer = member.parameters() - plain->parameters();
     if (fewer <= 0) continue;
     std::vector<Member> members = fit_.members;
-    members[m] = plain;
+    members[m] = *plain;
     const JointFit other = joint_fit(*setting_, std::move(members));
     if (other.chi2 - fit_.chi2 > setting_->price * fewer) continue;
     settle(std::vector<Member>(other.members));

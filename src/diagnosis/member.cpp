@@ -61,6 +61,23 @@ const EffectFit& first_form(const Case& study, const EffectKind& kind) {
   return found != kind.fits.end() ? *found : kind.fits.front();
 }
 
+std::optional<Member> plain_form(const Case& study, const Member& member) {
+  const EffectFit& form = first_form(study, *member.kind);
+  if (!member.form->special || form.special || form.amplitudes != member.form->amplitudes)
+    return {};
+  Eigen::VectorXd shapes(static_cast<Index>(form.shapes.size()));
+  for (std::size_t i = 0; i < form.shapes.size(); ++i) {
+    const auto same = std::find_if(
+        member.form->shapes.begin(), member.form->shapes.end(),
+        [&](const ShapeParameter& s) { return std::string(s.name) == form.shapes[i].name; });
+    if (same == member.form->shapes.end()) return {};
+    shapes(static_cast<Index>(i)) = member.shapes(same - member.form->shapes.begin());
+  }
+  Member plain = make_member(study, *member.kind, form, member.axis, shapes);
+  plain.amplitudes = member.amplitudes;
+  return plain;
+}
+
 double unit_of(const Case& study, const ShapeParameter& shape) {
   return elementary::pow(study.axis_length, shape.length) *
          elementary::pow(study.axis_seconds, shape.time);

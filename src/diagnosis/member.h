@@ -78,6 +78,10 @@ bool is_undriven(const Member& plain, const Member& driven);
 /// The members with one more; a driven law takes the place of the undriven one.
 std::vector<Member> with_member(std::vector<Member> members, const Member& more);
 
+/// The same effect in its plain form, where the member's bends it by further shapes (special): with
+/// the amplitudes and the shapes that both forms have.
+std::optional<Member> plain_form(const Case& study, const Member& member);
+
 /// What a shape's bounds and seeds are multiplied by on the axis of a machine; 1 for a tool.
 double unit_of(const Case& study, const ShapeParameter& shape);
 

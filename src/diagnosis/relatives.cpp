@@ -36,7 +36,7 @@ bool bends_a_spring(const Member& wave, const std::vector<Member>& members) {
 /// Where little is left, and slowly, the offset wanders as no drift does: that falls on all columns
 /// alike, and this is how loud it is. Else a wrong law may leave it, and 1.
 double Search::rest_loudness() const {
-  if (study_.axis || is_overdispersed()) return 1.0;
+  if (is_inexact() || is_overdispersed()) return 1.0;
   const double left = left_over(bands_);
   const bool slow = bands_.front().excess > prior::kMostlySlow * left;
   return slow && left < prior::kNothing * explained(false) ? loudest(bands_) : 1.0;
@@ -47,7 +47,7 @@ double Search::rest_loudness() const {
 /// so much that what is wrong with it is `little` of it may be a little wrong.
 std::vector<double> Search::doubts(double little) {
   std::vector<double> doubts(fit_.members.size(), 0.0);
-  if (study_.axis || study_.is_static() || study_.without.omnibus) return doubts;
+  if (is_inexact() || study_.is_static() || study_.without.omnibus) return doubts;
   bands_ = band_tests(*setting_, fit_.residual);
   const auto tests = constancy(*setting_, fit_);
   const double loud = rest_loudness();

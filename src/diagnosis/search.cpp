@@ -202,6 +202,12 @@ bool Search::mask_outlying() {
 
 std::vector<Member> Search::to_begin_with() const { return is_spent() ? fit_.members : apart_; }
 
+bool Search::swamps_noise() {
+  if (is_inexact() || study_.is_static()) return false;
+  swamped_ = fit_.chi2 > prior::kSwamped * prior::kSwamped * setting_->mask.sum();
+  return swamped_;
+}
+
 void Search::run() {
   choose_cutoff({});
   settle({});
@@ -209,6 +215,10 @@ void Search::run() {
   settle(apart_);
   mask_outlying();
   explore();
+  if (swamps_noise()) {
+    settle(apart_);
+    explore();
+  }
   if (begin_with_own_numbers()) explore();
   search_beside_common_laws();
   if (mask_outlying()) explore();  // beside a law other things are outlying
@@ -244,7 +254,7 @@ void Search::conclude() {
   if (fit_.members.size() < judged) hold_untold();
   straighten_drifts();
   leave_untold_parts();
-  even_out_gears();
+  leave_untold_bends();
 }
 
 }  // namespace dcnn

@@ -117,9 +117,9 @@ class Search {
   std::vector<Member> names() const;
   /// Whitens again for what these members leave, and fits them.
   void settle(const std::vector<Member>& members);
-  /// Leaves of gears' friction what it has at any position, where the variation is not told:
-  /// whether there was such.
-  bool even_out_gears();
+  /// Leaves of a law that bends a commoner one, as friction of gears does, the commoner one where
+  /// the recordings do not tell how it bends: whether there was such.
+  bool leave_untold_bends();
   std::vector<Member> members_without(std::size_t member) const;
   /// The model without one member, the others refitted.
   const JointFit& without(std::size_t member) const;
@@ -154,6 +154,10 @@ class Search {
   /// What is left counts as noise: of poses at rest, which have no spectrum, and beside a tool's
   /// own numbers that held-out data have chosen.
   bool is_overdispersed() const { return study_.is_static() || beside_own_numbers_; }
+  /// What is left is the error of laws, as always of a machine: noise is no measure of it.
+  bool is_inexact() const { return study_.axis || swamped_; }
+  /// Whether what a tool leaves swamps its noise, and was not known to.
+  bool swamps_noise();
   /// Chi-square that the members took off: all, for what an error of the motion makes of their
   /// forces; or those with numbers, for what an error of a law may hide (what has no number of its
   /// own, as the inertial terms, cannot be a little wrong).
@@ -276,12 +280,13 @@ class Search {
   bool ended_early_ = false;
   Index samples_ = 0;                // of the recordings
   bool beside_own_numbers_ = false;  // which held-out data have chosen
+  bool swamped_ = false;                   // the noise of a tool, by what its laws leave
   bool tuned_ = false;               // the smoother, to a mode
   bool ringing_ = false;  // what shakes the motion unseen rings in the modes that were found
 };
 
 /// Whether a drift is among the members of which the recordings tell no time constant (its 95 %
-/// interval spans two decades), or a gears' friction of which they tell no variation.
+/// interval spans two decades), or a law that bends a commoner one by as little told numbers.
 bool has_untold_shape(const Setting& setting, const JointFit& fit);
 
 /// Which effects these are, and where.

@@ -71,6 +71,7 @@ Surroundings Search::surroundings(const std::vector<Member>& members) const {
     if (!study_.axis || noise_) continue;
     Floor unfiltered = floor;
     unfiltered.lowpass_hz = 0.0;
+    unfiltered.interpolated.clear();
     floor.white = unfiltered.deviation() * unfiltered.deviation();
     floor.coloured = floor.filtered = floor.flicker = 0.0;
     floor.bounds.clear();
@@ -187,7 +188,7 @@ void Search::settle(const std::vector<Member>& members) {
   // and so does a number's price (McCullagh and Nelder, Generalized Linear Models, 1989, 4.5). A
   // machine always leaves something, in far fewer independent rows than it has. Of a tool that
   // moves an unknown is weighed in its own terms, and laws are looked for in it.
-  const double share = study_.axis          ? kMachineShare
+  const double share = is_inexact()         ? kMachineShare
                        : is_overdispersed() ? kNumberPrice / setting_->mask.sum()
                                             : 0.0;
   setting_->price = std::max(kNumberPrice, share * fit_.chi2);

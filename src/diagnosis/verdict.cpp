@@ -142,7 +142,7 @@ bool Search::is_alarming_now() {
 /// in turn explains some moments, and nothing outside them. What acts for some time alone is seen
 /// in few pieces, and an offset that drifts only as a whole.
 void Search::drop_unconfirmed() {
-  if (study_.axis) return;
+  if (is_inexact()) return;
   while (true) {
     const auto shares = left_out_shares(*setting_, fit_);
     double least = 0.0;
@@ -163,7 +163,7 @@ void Search::judge() {
   constexpr double kWithoutEvents = 0.2;  // of a search's limit, at least
   drop_coincidences();
   drop_unconfirmed();
-  if (study_.axis) keep_what_is_confirmed();
+  if (is_inexact()) keep_what_is_confirmed();
   remains_ = is_alarming_now();
   if (remains_ && admit_slow_noise()) {
     if (!in_slow_noise_) explore();
@@ -197,7 +197,7 @@ void Search::judge() {
       explore();
     }
   }
-  if (study_.axis) {
+  if (is_inexact()) {
     keep_what_is_confirmed();
     bands_ = band_tests(*setting_, fit_.residual);
     return;

@@ -56,7 +56,7 @@ std::vector<std::string> names_beside_gears(double a, double fc = 1.0) {
   search.settle({make_member(search.study(), viscous, viscous.fits[0], "alpha:base_x", {}),
                  make_member(search.study(), gears, gears.fits[0], "alpha:base_x",
                              Eigen::Vector2d(9.0, 0.02))});
-  search.even_out_gears();
+  search.leave_untold_bends();
   std::vector<std::string> names;
   for (const Member& member : search.fit().members) names.push_back(member.name());
   return names;
@@ -70,6 +70,51 @@ TEST(UntoldShapes, GearsThatVaryKeepTheirName) {
 TEST(UntoldShapes, GearsThatDoNotVaryAreDryFriction) {
   EXPECT_EQ(names_beside_gears(0.0),
             (std::vector<std::string>{"viscous_friction", "coulomb_friction"}));
+}
+
+/// The names on an axis that reads `effort` of position, velocity and time, of which one member was
+/// fitted, after what is not told of its bend was left out.
+template <class Effort>
+std::vector<std::string> names_of_bend(const Effort& effort, const char* effect, std::size_t form,
+                                       const Eigen::VectorXd& shapes, Index* numbers) {
+  Rng rng({6});
+  Table table = test::joint_table(5000);
+  for (Index i = 0; i < table.values.rows(); ++i) {
+    const double t = 0.004 * static_cast<double>(i);
+    const double q = std::sin(1.1 * t) + 0.4 * std::sin(2.9 * t),
+                 v = 1.1 * std::cos(1.1 * t) + 1.16 * std::cos(2.9 * t);
+    table.values.row(i) << t, q, effort(q, v) + 0.05 * rng.normal();
+  }
+  Search search = test::search_of_joint({table});
+  const EffectKind& kind = *find_effect(effect);
+  const char* axis = kind.axis == AxisRule::kAngle ? "alpha:base_x" : "base_x";
+  search.settle({make_member(search.study(), kind, kind.fits[form], axis, shapes)});
+  search.leave_untold_bends();
+  std::vector<std::string> names;
+  for (const Member& member : search.fit().members) names.push_back(member.name());
+  *numbers = search.fit().members.front().own_shapes();
+  return names;
+}
+
+// Of a drag that is straight over all speeds the speed at which it bends is not told.
+TEST(UntoldShapes, ADragThatDoesNotBendIsPlain) {
+  Index shapes = 0;
+  const Eigen::VectorXd bend = Eigen::VectorXd::Constant(1, 3.0);
+  names_of_bend([](double, double v) { return v; }, "viscous_friction", 1, bend, &shapes);
+  EXPECT_EQ(shapes, 0);
+  names_of_bend([](double, double v) { return v / (1.0 + std::abs(v)); }, "viscous_friction", 1,
+                bend, &shapes);
+  EXPECT_EQ(shapes, 1);
+}
+
+// Dry friction turns within less than a loop's least width: its width, force and shape are told
+// together alone.
+TEST(UntoldShapes, ALoopThatIsDryFrictionIsThat) {
+  Index shapes = 0;
+  const auto dry = [](double, double v) { return std::tanh(v / 0.01); };
+  const auto names = names_of_bend(dry, "hysteresis", 1, Eigen::Vector2d(0.02, -0.6), &shapes);
+  ASSERT_EQ(names.size(), 1U);
+  EXPECT_EQ(find_effect(names.front())->friction, EffectKind::Friction::kDry) << names.front();
 }
 
 // Friction that falls with the speed is no drive: it ends where it vanishes.

@@ -76,6 +76,9 @@ constexpr double kTried = 1.2, kFirstNumber = 1.0, kFurtherNumber = 0.35;
 /// The first of these on a machine, whose price is a share of what is left: laws there are only
 /// nearly true.
 constexpr double kTriedOnMachine = 2.0;
+/// Deviations of a tool's noise that what its names leave is as large as, from which on the error
+/// of laws is what is left, as always of a machine: no simulated remainder was above ten.
+constexpr double kSwamped = 30.0;
 /// Error of a gain that is estimated along a tangent, as a share of it: in general, where readings
 /// are rounded, and beside a law whose shape is at its bound.
 constexpr double kTangentError = 0.01, kTangentErrorRounded = 0.4, kTangentErrorAtBound = 0.05;
