@@ -132,7 +132,7 @@ int main(int argc, char** argv) {
       .required()
       .holds({FileKind::kRecording});
   tool.option("--holdout", request.holdout,
-              "recordings to judge by (default: every fifth block of 5 s of the others)")
+              "recordings to judge by (default: every fifth piece of the others)")
       .holds({FileKind::kRecording});
   tool.option("--clock", clock, "whether the recordings share one clock: auto, shared, own")
       .one_of({"auto", "shared", "own"})

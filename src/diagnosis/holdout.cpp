@@ -12,10 +12,11 @@
 namespace dcnn {
 namespace {
 
-constexpr double kPiece = 5.0, kGuard = 0.5;  // s
-constexpr int kEvery = 5;
-constexpr double kSameError = 1e-9;  // rounding, of noise that the error bounds
-constexpr Index kLeastPoses = 10;    // 8 remain to fit to, as many as their floor needs
+constexpr double kPiece = 5.0, kShortPiece = 1.0;  // s: of which every kEvery-th is held out
+constexpr double kGuard = 0.1;                     // on either side, of a piece
+constexpr int kEvery = 5, kFewestPieces = 4;       // held out, where they are no shorter than 1 s
+constexpr double kSameError = 1e-9;                // rounding, of noise that the error bounds
+constexpr Index kLeastPoses = 10;  // 8 remain to fit to, as many as their floor needs
 
 double seconds_of(const Motion& motion) { return motion.t(motion.samples() - 1) - motion.t(0); }
 
@@ -28,10 +29,18 @@ void hold_out_poses(std::size_t log, const Eigen::VectorXd& t, std::vector<Span>
   }
 }
 
-/// A recording that no whole piece fits into is cut into kEvery pieces, guards in proportion.
-double shortened(double seconds, const Motion& motion) {
+/// One piece of 5 s is one place of a motion that comes by once: short recordings have shorter
+/// ones.
+double piece_of(const Case& study) {
+  double all = 0.0;
+  for (const Log& log : study.logs) all += log.motion.is_static() ? 0.0 : seconds_of(log.motion);
+  return std::clamp(all / (kEvery * kFewestPieces), kShortPiece, kPiece);
+}
+
+/// A recording that no whole piece fits into is cut into kEvery pieces.
+double shortened(double piece, const Motion& motion) {
   const double length = seconds_of(motion);
-  return length >= (kEvery - 2) * kPiece ? seconds : seconds * length / (kEvery * kPiece);
+  return length >= (kEvery - 2) * piece ? piece : length / kEvery;
 }
 
 }  // namespace
@@ -45,8 +54,8 @@ std::vector<Span> held_out_blocks(const Case& study, bool with_guards) {
       continue;
     }
     const double first = motion.t(0), last = motion.t(motion.samples() - 1);
-    const double piece = shortened(kPiece, motion);
-    const double guard = with_guards ? shortened(kGuard, motion) : 0.0;
+    const double piece = shortened(piece_of(study), motion);
+    const double guard = with_guards ? kGuard * piece : 0.0;
     // No more blocks than rows: where a gap is longer than a period, the next row decides.
     const double period = kEvery * piece, start = first + (kEvery - 3) * piece;
     for (Index row = 0; row < motion.samples();) {

@@ -8,7 +8,7 @@
 
 namespace dcnn {
 
-/// Every fifth block of 5 s, with guards of 0.5 s on both sides.
+/// Every fifth piece of 5 s (of short recordings of less), with guards of a tenth on both sides.
 std::vector<Span> held_out_blocks(const Case& study, bool with_guards);
 
 class HoldOut {

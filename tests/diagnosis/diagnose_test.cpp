@@ -87,7 +87,7 @@ TEST(Diagnose, HoldsOutBlocksOfTimeByItself) {
   ASSERT_EQ(diagnosis.holdout.size(), 1U);
   const auto& held = diagnosis.holdout[0].held;
   const auto count = std::count(held.begin(), held.end(), 1);
-  EXPECT_EQ(count, 2500);  // one block of 5 s in 20 s
+  EXPECT_EQ(count, 2000);  // four pieces of 1 s in 20 s
   write_diagnosis(bench / "out", diagnosis);
   EXPECT_EQ(read_csv(bench / "out/holdout_0_pred.csv").columns.back(), "held_out");
 }

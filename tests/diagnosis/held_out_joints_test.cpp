@@ -15,7 +15,7 @@ namespace dcnn {
 namespace {
 
 /// 15 s at 125 Hz of two joints with their simulated torques: one moves all the time, the other not
-/// from 5 to 11 s, where the block is that a recording so short holds out.
+/// about 2.5, 7.5 and 12.5 s, where the pieces are that a recording so short holds out.
 void write_joints(const std::filesystem::path& path) {
   Rng rng({5});
   Table table;
@@ -23,7 +23,7 @@ void write_joints(const std::filesystem::path& path) {
   table.values.resize(1875, 7);
   for (Index k = 0; k < table.values.rows(); ++k) {
     const double t = 0.008 * static_cast<double>(k), turn = 2.0 * std::numbers::pi * t;
-    const double moving = std::min(t, 5.0) + std::max(0.0, t - 11.0);
+    const double moving = std::clamp(t - 3.5, 0.0, 3.0) + std::clamp(t - 8.5, 0.0, 3.0);
     const double qa = std::sin(0.7 * turn), qb = std::sin(0.5 * 2.0 * std::numbers::pi * moving);
     const double sa = std::cos(qa), sb = 0.5 * std::cos(qb);
     table.values.row(k) << t, qa, qb, sa + 0.02 * rng.normal(), sb + 0.02 * rng.normal(), sa, sb;
