@@ -24,6 +24,7 @@ const EffectKind effect{
     .example = R"({"delta_c_nspm": 0.5})",
     .axis = AxisRule::kLine,
     .subject = EffectKind::Subject::kMachines,
+    .special = true,
     .friction = EffectKind::Friction::kOther,
     .apply = resisted<law>,
     .stream = resisting<law>,
