@@ -64,7 +64,12 @@ const EffectKind effect{
                     return p;
                   }}},
     .words = [](const FoundNumbers& n) -> std::string {
-      if (!n.on_machine()) return "the sensor's offset drifts with its temperature";
+      if (!n.on_machine()) {
+        return n.has("tau")
+                   ? "the sensor's offset settles by " + n.push("a") + " within " + n("tau")
+                   : "the sensor's offset follows the temperature by " + n.push("k", "/K") +
+                         " a kelvin";
+      }
       return n.has("k") ? "an offset that follows the temperature with " + n("k")
                         : "an offset that settles by " + n("a") + " within " + n("tau");
     },
