@@ -74,7 +74,7 @@ bool Search::straighten() {
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     const Member& member = fit_.members[m];
     const auto plain = plain_form(study_, member);
-    if (!plain || stays(member)) continue;
+    if (!plain || plain->own_shapes() > 0 || stays(member)) continue;
     const int fewer = member.parameters() - plain->parameters();
     if (fewer <= 0) continue;
     std::vector<Member> members = fit_.members;

@@ -73,9 +73,7 @@ std::optional<Member> plain_form(const Case& study, const Member& member) {
     if (same == member.form->shapes.end()) return {};
     shapes(static_cast<Index>(i)) = member.shapes(same - member.form->shapes.begin());
   }
-  Member plain = make_member(study, *member.kind, form, member.axis, shapes);
-  plain.amplitudes = member.amplitudes;
-  return plain;
+  return make_member(study, *member.kind, form, member.axis, shapes);
 }
 
 double unit_of(const Case& study, const ShapeParameter& shape) {

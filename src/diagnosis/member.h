@@ -79,7 +79,7 @@ bool is_undriven(const Member& plain, const Member& driven);
 std::vector<Member> with_member(std::vector<Member> members, const Member& more);
 
 /// The same effect in its plain form, where the member's bends it by further shapes (special): with
-/// the amplitudes and the shapes that both forms have.
+/// the shapes that both forms have and unit amplitudes.
 std::optional<Member> plain_form(const Case& study, const Member& member);
 
 /// What a shape's bounds and seeds are multiplied by on the axis of a machine; 1 for a tool.

@@ -108,11 +108,16 @@ std::vector<Member> at_seeds(const Case& study, const EffectKind& kind, const Ef
   return list;
 }
 
-/// Plain laws of dry friction, for a loop.
-std::vector<Member> dry_frictions(const Case& study) {
+/// Plain laws of dry friction, for a loop; none beside one of them.
+std::vector<Member> dry_frictions(const Case& study, const std::vector<Member>& members) {
+  using Friction = EffectKind::Friction;
   std::vector<Member> list;
+  if (std::any_of(members.begin(), members.end(),
+                  [](const Member& m) { return m.kind->friction == Friction::kDry; })) {
+    return list;
+  }
   for (const EffectKind* kind : effect_kinds()) {
-    if (kind->friction != EffectKind::Friction::kDry || !is_listed(study, *kind)) continue;
+    if (kind->friction != Friction::kDry || !is_listed(study, *kind)) continue;
     const std::string axis = axes_of(study, *kind).front();
     for (Member& m : at_seeds(study, *kind, first_form(study, *kind), axis)) list.push_back(m);
   }
@@ -145,7 +150,7 @@ bool Search::leave_untold_bends() {
     if (gears && is_even(member, numbers)) {
       settle(with_even_gears(study_, fit_.members, m));
     } else if (is_untold_loop(member, numbers)) {
-      const auto other = likeliest_with(*setting_, fit_, m, dry_frictions(study_));
+      const auto other = likeliest_with(*setting_, fit_, m, dry_frictions(study_, fit_.members));
       if (!other) continue;
       const int fewer = member.parameters() - other->members[m].parameters();
       if (other->chi2 - fit_.chi2 > setting_->price * fewer) continue;

@@ -95,7 +95,9 @@ void Search::leave_out(const std::vector<std::size_t>& members) {
 }
 
 bool Search::look_again() {
+  constexpr double kAgain = 0.5;  // of a search's limit, though it be spent on what was refuted
   const auto before = places_of(fit_.members);
+  allow(kAgain);
   explore();
   conclude();
   return places_of(fit_.members) != before;
