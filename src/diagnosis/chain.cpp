@@ -99,7 +99,7 @@ Chain::Stages Chain::prepare(const Log& log, const std::vector<EffectSpec>& effe
   if (log.base.force.rows() > 0) stages.forced.force += log.base.force;
   if (log.base.torque.rows() > 0) stages.forced.torque += log.base.torque;
   stages.load = stages.forced.force;
-  if (log.motion.of_axis) stages.carried = 0.0 * stages.load;
+  if (log.motion.of_axis) stages.carried.setZero(stages.load.rows(), 3);
   stages.pushes.resize(effects.size());
   for (std::size_t k = 0; k < effects.size() && log.motion.of_axis; ++k) {
     if (!find_effect(effects[k].effect)->is_carried) continue;

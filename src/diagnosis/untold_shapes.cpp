@@ -140,7 +140,7 @@ std::optional<JointFit> likeliest_with(const Setting& setting, const JointFit& f
 }  // namespace
 
 bool Search::leave_untold_bends() {
-  if (!study_.axis) return false;  // whose only position is that of the gears
+  if (!study_.axis) return false;  // no bent form is tried on a tool
   bool changed = false;
   for (std::size_t m = 0; m < fit_.members.size(); ++m) {
     const Member& member = fit_.members[m];

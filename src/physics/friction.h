@@ -6,6 +6,9 @@
 
 namespace dcnn {
 
+/// Times its friction of motion, that a machine's dry friction is at rest at most.
+constexpr double kMostAtRest = 4.0;
+
 /// Subtracts law(v, k)·n from the force of each sample k, called in order of time.
 template <class Law>
 void resist(Wrench& wrench, const std::string& axis, const Motion& motion,

@@ -105,7 +105,7 @@ void pass_on(const std::vector<EffectSpec>& effects, Stage first, const Motion& 
     return kind && kind->of_load;
   });
   if ((of_load || motion.of_axis) && first == Stage::kForce) wrench.load = wrench.force;
-  if (of_load && motion.of_axis) wrench.carried = 0.0 * wrench.force;
+  if (of_load && motion.of_axis) wrench.carried.setZero(wrench.force.rows(), 3);
   for (int s = static_cast<int>(first); s <= static_cast<int>(Stage::kQuantisation); ++s) {
     const auto stage = static_cast<Stage>(s);
     if (stage == Stage::kOffset) {

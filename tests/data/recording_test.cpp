@@ -229,7 +229,9 @@ TEST(Recording, KnowsTheSpectrumThatResamplingMakes) {
       EXPECT_NEAR(recording.interpolated[lag], seen, 0.05) << hz << " Hz, lag " << lag;
       white -= (lag == 0 ? 1.0 : 2.0) * recording.interpolated[lag];
     }
-    if (hz >= 500.0) EXPECT_NEAR(white, 1.0 - hz / 500.0, 0.03) << hz;
+    if (hz >= 500.0) {
+      EXPECT_NEAR(white, 1.0 - hz / 500.0, 0.03) << hz;
+    }
   }
 }
 

@@ -9,7 +9,6 @@
 namespace dcnn::effects::lugre_friction {
 namespace {
 
-constexpr double kMostAtRest = 4.0;  // times the friction of motion, as of stribeck_friction
 constexpr double kLeastFall = 0.01;  // less is none: a tolerance
 
 /// Mean deflection z of the bristles (Canudas de Wit et al. 1995) after a way of one direction:

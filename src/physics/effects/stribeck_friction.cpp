@@ -8,8 +8,6 @@
 namespace dcnn::effects::stribeck_friction {
 namespace {
 
-constexpr double kMostAtRest = 4.0;  // times the friction of motion, on a machine
-
 auto law(Options& parameters) {
   const double fc = parameter(parameters, "fc_n", 0.0), fs = parameter(parameters, "fs_n", 0.0);
   const double vs = parameter(parameters, "vs_mps", kTiny);
