@@ -277,7 +277,7 @@ class Search {
   std::vector<SlowPart> slow_;  // of each channel, beside the floor from above the motion
   bool events_allowed_ = true, remains_ = false;
   double begun_ = 0.0;  // passes before the search among names alone, or beside laws, began
-  bool ended_early_ = false;
+  bool ended_early_ = false, began_again_ = false;
   Index samples_ = 0;                // of the recordings
   bool beside_own_numbers_ = false;  // which held-out data have chosen
   bool swamped_ = false;                   // the noise of a tool, by what its laws leave

@@ -95,9 +95,12 @@ void Search::leave_out(const std::vector<std::size_t>& members) {
 }
 
 bool Search::look_again() {
-  constexpr double kAgain = 0.5;  // of a search's limit, though it be spent on what was refuted
+  constexpr double kAgain = 0.5;  // of a search's limit, once, where it is spent on refuted names
   const auto before = places_of(fit_.members);
-  allow(kAgain);
+  if (is_spent() && !began_again_) {
+    began_again_ = true;
+    allow(kAgain);
+  }
   explore();
   conclude();
   return places_of(fit_.members) != before;
