@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sensor far more precise than any law: its maker's filter is a mean over a second and no lag of
-// first order, its zero settles and wanders, and what laws leave is a hundred times its noise.
+// A sensor whose noise is a hundredth of the residual of any law: it averages over a second, which
+// is no first-order lag, and its zero drifts.
 #include <gtest/gtest.h>
 
 #include <cmath>

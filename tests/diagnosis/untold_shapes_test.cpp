@@ -38,19 +38,28 @@ TEST(UntoldShapes, AConstantHasNone) {
   EXPECT_TRUE(is_untold_of([](double) { return 0.05; }));
 }
 
-/// The names on an axis with viscous friction and with dry friction `fc` that varies by `a` with 9
-/// times the position, after both were fitted to it and what is not told of gears was left out.
-std::vector<std::string> names_beside_gears(double a, double fc = 1.0) {
-  Rng rng({4});
+/// A search on an axis that reads `effort` of position and velocity, in noise.
+template <class Effort>
+Search search_of_effort(const Effort& effort, std::uint64_t seed) {
+  Rng rng({seed});
   Table table = test::joint_table(5000);
   for (Index i = 0; i < table.values.rows(); ++i) {
     const double t = 0.004 * static_cast<double>(i);
     const double q = std::sin(1.1 * t) + 0.4 * std::sin(2.9 * t),
                  v = 1.1 * std::cos(1.1 * t) + 1.16 * std::cos(2.9 * t);
-    table.values.row(i) << t, q,
-        2.0 * v + fc * (1.0 + a * std::sin(9.0 * q)) * std::tanh(v / 0.02) + 0.05 * rng.normal();
+    table.values.row(i) << t, q, effort(q, v) + 0.05 * rng.normal();
   }
-  Search search = test::search_of_joint({table});
+  return test::search_of_joint({table});
+}
+
+/// The names on an axis with viscous friction and with dry friction `fc` that varies by `a` with 9
+/// times the position, after both were fitted to it and what is not told of gears was left out.
+std::vector<std::string> names_beside_gears(double a, double fc = 1.0) {
+  Search search = search_of_effort(
+      [=](double q, double v) {
+        return 2.0 * v + fc * (1.0 + a * std::sin(9.0 * q)) * std::tanh(v / 0.02);
+      },
+      4);
   const EffectKind &gears = *find_effect("gear_friction"),
                    &viscous = *find_effect("viscous_friction");
   search.settle({make_member(search.study(), viscous, viscous.fits[0], "alpha:base_x", {}),
@@ -72,49 +81,35 @@ TEST(UntoldShapes, GearsThatDoNotVaryAreDryFriction) {
             (std::vector<std::string>{"viscous_friction", "coulomb_friction"}));
 }
 
-/// The names on an axis that reads `effort` of position, velocity and time, of which one member was
-/// fitted, after what is not told of its bend was left out.
+/// What stands after one member was fitted to such an axis and what is not told of its bend was
+/// left out.
 template <class Effort>
-std::vector<std::string> names_of_bend(const Effort& effort, const char* effect, std::size_t form,
-                                       const Eigen::VectorXd& shapes, Index* numbers) {
-  Rng rng({6});
-  Table table = test::joint_table(5000);
-  for (Index i = 0; i < table.values.rows(); ++i) {
-    const double t = 0.004 * static_cast<double>(i);
-    const double q = std::sin(1.1 * t) + 0.4 * std::sin(2.9 * t),
-                 v = 1.1 * std::cos(1.1 * t) + 1.16 * std::cos(2.9 * t);
-    table.values.row(i) << t, q, effort(q, v) + 0.05 * rng.normal();
-  }
-  Search search = test::search_of_joint({table});
+std::vector<Member> left_of_bend(const Effort& effort, const char* effect,
+                                 const Eigen::VectorXd& shapes) {
+  Search search = search_of_effort(effort, 6);
   const EffectKind& kind = *find_effect(effect);
   const char* axis = kind.axis == AxisRule::kAngle ? "alpha:base_x" : "base_x";
-  search.settle({make_member(search.study(), kind, kind.fits[form], axis, shapes)});
+  search.settle({make_member(search.study(), kind, kind.fits[1], axis, shapes)});
   search.leave_untold_bends();
-  std::vector<std::string> names;
-  for (const Member& member : search.fit().members) names.push_back(member.name());
-  *numbers = search.fit().members.front().own_shapes();
-  return names;
+  return search.fit().members;
 }
 
 // Of a drag that is straight over all speeds the speed at which it bends is not told.
 TEST(UntoldShapes, ADragThatDoesNotBendIsPlain) {
-  Index shapes = 0;
   const Eigen::VectorXd bend = Eigen::VectorXd::Constant(1, 3.0);
-  names_of_bend([](double, double v) { return v; }, "viscous_friction", 1, bend, &shapes);
-  EXPECT_EQ(shapes, 0);
-  names_of_bend([](double, double v) { return v / (1.0 + std::abs(v)); }, "viscous_friction", 1,
-                bend, &shapes);
-  EXPECT_EQ(shapes, 1);
+  const auto straight = [](double, double v) { return v; };
+  EXPECT_EQ(left_of_bend(straight, "viscous_friction", bend).front().own_shapes(), 0);
+  const auto bent = [](double, double v) { return v / (1.0 + std::abs(v)); };
+  EXPECT_EQ(left_of_bend(bent, "viscous_friction", bend).front().own_shapes(), 1);
 }
 
 // Dry friction turns within less than a loop's least width: its width, force and shape are told
 // together alone.
 TEST(UntoldShapes, ALoopThatIsDryFrictionIsThat) {
-  Index shapes = 0;
   const auto dry = [](double, double v) { return std::tanh(v / 0.01); };
-  const auto names = names_of_bend(dry, "hysteresis", 1, Eigen::Vector2d(0.02, -0.6), &shapes);
-  ASSERT_EQ(names.size(), 1U);
-  EXPECT_EQ(find_effect(names.front())->friction, EffectKind::Friction::kDry) << names.front();
+  const auto members = left_of_bend(dry, "hysteresis", Eigen::Vector2d(0.02, -0.6));
+  ASSERT_EQ(members.size(), 1U);
+  EXPECT_EQ(members.front().kind->friction, EffectKind::Friction::kDry) << members.front().name();
 }
 
 // Friction that falls with the speed is no drive: it ends where it vanishes.
